@@ -695,10 +695,10 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
     jg_real sine_2;
     jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
@@ -720,13 +720,13 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
+    const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
@@ -736,49 +736,52 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     const jg_real t24 = cosine_0 * sine_1;
-    const jg_real t25 = sine_0 * sine_1;
+    const jg_real t25 = sine_0 * cosine_1;
+    const jg_real t26 = cosine_0 * cosine_1;
+    const jg_real t27 = sine_1 * sine_0;
     /* H_21 =  */
-    const jg_real H_21 = sine_2 * cosine_1;
+    const jg_real H_21 = sine_1 * cosine_2;
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
     phi_q[50] = JG_REAL(1.0);
     phi[0] = d_ij_in_i_0;
     phi[1] = d_ij_in_i_1;
     phi[2] = d_ij_in_i_2;
-    phi_q[48] = cosine_2;
+    phi_q[48] = cosine_1;
     phi_q[46] = H_21;
     /* H_00 =  */
-    const jg_real H_00 = cosine_0 * cosine_1;
+    const jg_real H_00 = cosine_0 * cosine_2;
     /* H_10 =  */
-    const jg_real H_10 = sine_0 * cosine_1;
-    /* H_01 =  */
-    const jg_real H_01 = sine_2 * t24 - sine_0 * cosine_2;
-    /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_2 + sine_2 * t25;
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_2 + cosine_2 * t24;
-    const jg_real t32 = cosine_0 * sine_2 - cosine_2 * t25;
+    const jg_real H_10 = sine_0 * cosine_2;
     /* H_22 =  */
-    const jg_real H_22 = cosine_2 * cosine_1;
+    const jg_real H_22 = cosine_1 * cosine_2;
+    /* H_01 =  */
+    const jg_real H_01 = sine_2 * t24 - t25;
+    /* H_11 =  */
+    const jg_real H_11 = t26 + sine_2 * t27;
+    /* H_02 =  */
+    const jg_real H_02 = t27 + sine_2 * t26;
+    const jg_real t35 = t24 - sine_2 * t25;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - sine_1 * C_i[6];
-    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - sine_1 * C_i[7];
-    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - sine_1 * C_i[8];
+    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - sine_2 * C_i[6];
+    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - sine_2 * C_i[7];
+    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - sine_2 * C_i[8];
+    const jg_real t39 = cosine_2 * lambda[3];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = H_01 * C_i[0] + H_11 * C_i[3] + H_21 * C_i[6];
     const jg_real g_star_in_i_1 = H_01 * C_i[1] + H_11 * C_i[4] + H_21 * C_i[7];
     const jg_real g_star_in_i_2 = H_01 * C_i[2] + H_11 * C_i[5] + H_21 * C_i[8];
     /* A_joint_j_i = turns i axes to joint j axes */
-    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - C_i[5] * t32 + C_i[8] * H_22;
+    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - C_i[5] * t35 + C_i[8] * H_22;
     phi_q[47] = H_22;
-    phi_q[45] = -sine_1;
-    phi_q[49] = -sine_2;
+    phi_q[45] = -sine_2;
+    phi_q[49] = -sine_1;
     phi_q[10] = f_star_in_i_1;
     phi_q[15] = f_star_in_i_2;
     phi_q[11] = g_star_in_i_1;
     phi_q[16] = g_star_in_i_2;
     phi_q[17] = A_joint_j_i_8;
-    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * t32 + C_i[7] * H_22;
+    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * t35 + C_i[7] * H_22;
     /* f_star_world = f_star, world axes */
     const jg_real f_star_world_0 = A_i[0] * f_star_in_i_0 + A_i[3] * f_star_in_i_1 + A_i[6] * f_star_in_i_2;
     const jg_real f_star_world_1 = A_i[1] * f_star_in_i_0 + A_i[4] * f_star_in_i_1 + A_i[7] * f_star_in_i_2;
@@ -799,14 +802,14 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
     const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
     /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = f_star_in_i_1 * C_j[1] + g_star_in_i_1 * C_j[4] + C_j[7] * A_joint_j_i_5;
-    const jg_real A_ji_8 = f_star_in_i_2 * C_j[2] + g_star_in_i_2 * C_j[5] + C_j[8] * A_joint_j_i_8;
-    const jg_real A_ji_5 = f_star_in_i_1 * C_j[2] + g_star_in_i_1 * C_j[5] + C_j[8] * A_joint_j_i_5;
+    const jg_real A_ji_4 = g_star_in_i_1 * C_j[4] + f_star_in_i_1 * C_j[1] + C_j[7] * A_joint_j_i_5;
+    const jg_real A_ji_8 = g_star_in_i_2 * C_j[5] + f_star_in_i_2 * C_j[2] + C_j[8] * A_joint_j_i_8;
+    const jg_real A_ji_5 = g_star_in_i_1 * C_j[5] + f_star_in_i_1 * C_j[2] + C_j[8] * A_joint_j_i_5;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
-    const jg_real A_ji_7 = f_star_in_i_2 * C_j[1] + g_star_in_i_2 * C_j[4] + C_j[7] * A_joint_j_i_8;
+    const jg_real A_ji_7 = g_star_in_i_2 * C_j[4] + f_star_in_i_2 * C_j[1] + C_j[7] * A_joint_j_i_8;
     phi_q[12] = A_joint_j_i_5;
     phi_q[5] = A_joint_j_i_0;
     phi_q[6] = A_joint_j_i_1;
@@ -819,11 +822,10 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    const jg_real A_ji_3 = f_star_in_i_1 * C_j[0] + g_star_in_i_1 * C_j[3] + C_j[6] * A_joint_j_i_5;
+    const jg_real A_ji_3 = g_star_in_i_1 * C_j[3] + f_star_in_i_1 * C_j[0] + C_j[6] * A_joint_j_i_5;
     /* v_0_in_joint_j = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
     const jg_real v_0_in_joint_j_0 = H_22 * lambda[4] - H_21 * lambda[5];
-    const jg_real t68 = cosine_1 * lambda[3];
-    const jg_real A_ji_6 = f_star_in_i_2 * C_j[0] + g_star_in_i_2 * C_j[3] + C_j[6] * A_joint_j_i_8;
+    const jg_real A_ji_6 = g_star_in_i_2 * C_j[3] + f_star_in_i_2 * C_j[0] + C_j[6] * A_joint_j_i_8;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     phi[3] = g_star_dot_h_j;
     phi[5] = f_star_dot_g_j;
@@ -835,10 +837,15 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
-    const jg_real t72 = sine_1 * lambda[5] + cosine_2 * t68;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    const jg_real v_0_in_joint_j_2 = sine_1 * lambda[4] + sine_2 * t68;
+    const jg_real t74 = sine_2 * lambda[5] + cosine_1 * t39;
+    const jg_real v_0_in_joint_j_2 = sine_2 * lambda[4] + sine_1 * t39;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    /* v_0_in_i = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
+    const jg_real v_0_in_i_0 = A_joint_j_i_0 * v_0_in_joint_j_0 - A_joint_j_i_1 * t74 + A_joint_j_i_2 *
+        v_0_in_joint_j_2;
+    const jg_real v_0_in_i_1 = f_star_in_i_1 * v_0_in_joint_j_0 - g_star_in_i_1 * t74 + A_joint_j_i_5 *
+        v_0_in_joint_j_2;
     phi[4] = h_star_dot_f_j;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
@@ -847,23 +854,18 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    const jg_real t76 = sine_2 * lambda[4];
-    const jg_real t77 = cosine_2 * lambda[5];
-    const jg_real t78 = sine_2 * lambda[3];
-    /* v_0_in_i = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
-    const jg_real v_0_in_i_0 = A_joint_j_i_0 * v_0_in_joint_j_0 - A_joint_j_i_1 * t72 + A_joint_j_i_2 *
+    const jg_real v_0_in_i_2 = f_star_in_i_2 * v_0_in_joint_j_0 - g_star_in_i_2 * t74 + A_joint_j_i_8 *
         v_0_in_joint_j_2;
+    const jg_real t81 = sine_1 * lambda[4];
+    const jg_real t82 = cosine_1 * lambda[5];
+    const jg_real t83 = sine_1 * lambda[3];
+    const jg_real t84 = cosine_1 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    const jg_real t81 = cosine_2 * lambda[3];
-    const jg_real v_0_in_i_1 = f_star_in_i_1 * v_0_in_joint_j_0 - g_star_in_i_1 * t72 + A_joint_j_i_5 *
-        v_0_in_joint_j_2;
-    const jg_real v_0_in_i_2 = f_star_in_i_2 * v_0_in_joint_j_0 - g_star_in_i_2 * t72 + A_joint_j_i_8 *
-        v_0_in_joint_j_2;
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
     /* v_1_in_joint_j = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
-    const jg_real v_1_in_joint_j = t76 + t77;
+    const jg_real v_1_in_joint_j = t81 + t82;
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
     const jg_real f_j_cross_lambda_0_1_2_in_j_0 = C_j[1] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_1;
     /* g_j_cross_lambda_0_1_2_in_j = g_j x lambda_0_1_2, axes of body j */
@@ -877,12 +879,11 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real g_j_cross_lambda_0_1_2_in_j_2 = C_j[3] * lambda_0_1_2_in_j_1 - C_j[4] * lambda_0_1_2_in_j_0;
     const jg_real h_j_cross_lambda_0_1_2_in_j_2 = C_j[6] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_0;
     /* v_1_in_i = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
-    const jg_real v_1_in_i_0 = A_joint_j_i_0 * v_1_in_joint_j - A_joint_j_i_1 * t78 - A_joint_j_i_2 * t81;
+    const jg_real v_1_in_i_0 = A_joint_j_i_0 * v_1_in_joint_j - A_joint_j_i_1 * t83 - A_joint_j_i_2 * t84;
     /* v_3_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
-    const jg_real v_3_in_j_0 = sine_1 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
+    const jg_real v_3_in_j_0 = sine_2 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
         * h_j_cross_lambda_0_1_2_in_j_0;
-    const jg_real v_3_in_j_1 = sine_1 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
-        * h_j_cross_lambda_0_1_2_in_j_1;
+    const jg_real v_1_in_i_1 = f_star_in_i_1 * v_1_in_joint_j - g_star_in_i_1 * t83 - A_joint_j_i_5 * t84;
     phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     phi_q_t_lambda_q[0] = -v_0_in_i_0;
@@ -890,41 +891,42 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     phi_q_t_lambda_q[2] = -v_0_in_i_2;
     phi_q_t_lambda_q[9] = v_1_in_i_0;
     phi_q_t_lambda_q[3] = v_3_in_j_0;
-    phi_q_t_lambda_q[4] = v_3_in_j_1;
-    /* v_4_in_j = cos(alpha_2) g_j x lambda_0_1_2 - sin(alpha_2) h_j x lambda_0_1_2, axes of body j */
-    const jg_real v_4_in_j_0 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_0 - sine_2 * h_j_cross_lambda_0_1_2_in_j_0;
-    const jg_real v_1_in_i_1 = f_star_in_i_1 * v_1_in_joint_j - g_star_in_i_1 * t78 - A_joint_j_i_5 * t81;
-    const jg_real v_3_in_j_2 = sine_1 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
-        * h_j_cross_lambda_0_1_2_in_j_2;
-    const jg_real v_4_in_j_1 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_1 - sine_2 * h_j_cross_lambda_0_1_2_in_j_1;
-    const jg_real v_1_in_i_2 = f_star_in_i_2 * v_1_in_joint_j - g_star_in_i_2 * t78 - A_joint_j_i_8 * t81;
-    const jg_real v_4_in_j_2 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_2 - sine_2 * h_j_cross_lambda_0_1_2_in_j_2;
-    /* v_5_in_j = sin(alpha_1) (s_j . lambda_0_1_2) f_j - cos(alpha_1) sin(alpha_2) (s_j . lambda_0_1_2) g_j ... */
-    const jg_real v_5_in_j_2 = s_j[0] * v_3_in_j_1 - s_j[1] * v_3_in_j_0;
     phi_q_t_lambda_q[10] = v_1_in_i_1;
-    phi_q_t_lambda_q[5] = v_3_in_j_2;
-    phi_q_t_lambda_q[19] = A_joint_j_i_2 * lambda[4] - A_joint_j_i_1 * lambda[5];
+    /* v_4_in_j = cos(alpha_2) g_j x lambda_0_1_2 - sin(alpha_2) h_j x lambda_0_1_2, axes of body j */
+    const jg_real v_4_in_j_0 = cosine_1 * g_j_cross_lambda_0_1_2_in_j_0 - sine_1 * h_j_cross_lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_i_2 = f_star_in_i_2 * v_1_in_joint_j - g_star_in_i_2 * t83 - A_joint_j_i_8 * t84;
+    const jg_real v_3_in_j_1 = sine_2 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
+        * h_j_cross_lambda_0_1_2_in_j_1;
+    const jg_real v_4_in_j_1 = cosine_1 * g_j_cross_lambda_0_1_2_in_j_1 - sine_1 * h_j_cross_lambda_0_1_2_in_j_1;
+    const jg_real v_4_in_j_2 = cosine_1 * g_j_cross_lambda_0_1_2_in_j_2 - sine_1 * h_j_cross_lambda_0_1_2_in_j_2;
+    const jg_real v_3_in_j_2 = sine_2 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
+        * h_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[11] = v_1_in_i_2;
+    phi_q_t_lambda_q[4] = v_3_in_j_1;
+    phi_q_t_lambda_q[19] = A_joint_j_i_2 * lambda[4] - A_joint_j_i_1 * lambda[5];
+    phi_q_t_lambda_q[5] = v_3_in_j_2;
     phi_q_t_lambda_q[12] = -v_4_in_j_0;
     phi_q_t_lambda_q[13] = -v_4_in_j_1;
+    phi_q_t_lambda_q[20] = A_joint_j_i_5 * lambda[4] - g_star_in_i_1 * lambda[5];
     phi_q_t_lambda_q[14] = -v_4_in_j_2;
-    phi_q_t_lambda_q[8] = v_5_in_j_2;
+    /* v_5_in_j = sin(alpha_1) (s_j . lambda_0_1_2) f_j - cos(alpha_1) sin(alpha_2) (s_j . lambda_0_1_2) g_j ... */
+    const jg_real v_5_in_j_2 = s_j[0] * v_3_in_j_1 - s_j[1] * v_3_in_j_0;
     const jg_real v_5_in_j_0 = s_j[1] * v_3_in_j_2 - s_j[2] * v_3_in_j_1;
     const jg_real v_5_in_j_1 = s_j[2] * v_3_in_j_0 - s_j[0] * v_3_in_j_2;
+    phi_q_t_lambda_q[8] = v_5_in_j_2;
+    phi_q_t_lambda_q[18] = -(t39 + sine_2 * t81 + sine_2 * t82);
+    phi_q_t_lambda_q[22] = -f_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[23] = -f_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[17] = s_j[1] * v_4_in_j_0 - s_j[0] * v_4_in_j_1;
+    phi_q_t_lambda_q[24] = -f_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[6] = v_5_in_j_0;
     phi_q_t_lambda_q[7] = v_5_in_j_1;
-    phi_q_t_lambda_q[22] = -f_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[17] = s_j[1] * v_4_in_j_0 - s_j[0] * v_4_in_j_1;
-    phi_q_t_lambda_q[18] = -(t68 + sine_1 * t76 + sine_1 * t77);
-    phi_q_t_lambda_q[23] = -f_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[15] = s_j[2] * v_4_in_j_1 - s_j[1] * v_4_in_j_2;
-    phi_q_t_lambda_q[24] = -f_j_cross_lambda_0_1_2_in_j_2;
-    const jg_real t108 = cosine_2 * alphadot[1];
-    const jg_real t109 = sine_2 * alphadot[1];
-    const jg_real t110 = H_21 * alphadot[0] + t108;
+    const jg_real t110 = cosine_1 * alphadot[1];
+    const jg_real t111 = sine_1 * alphadot[1];
+    const jg_real t112 = H_21 * alphadot[0] + t110;
     /* v_8_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_8_in_joint_j = sine_1 * alphadot[0] - alphadot[2];
-    const jg_real t112 = H_22 * alphadot[0] - t109;
+    const jg_real v_8_in_joint_j = sine_2 * alphadot[0] - alphadot[2];
+    const jg_real t114 = H_22 * alphadot[0] - t111;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = A_joint_j_i_2 * omega_i[0] + A_joint_j_i_5 * omega_i[1] + A_joint_j_i_8 *
         omega_i[2];
@@ -932,37 +934,37 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real g_j_dot_omega_i = A_joint_j_i_1 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
         omega_i[2];
     /* v_8_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_8_in_j_0 = C_j[0] * v_8_in_joint_j - C_j[3] * t110 - C_j[6] * t112;
+    const jg_real v_8_in_j_0 = C_j[0] * v_8_in_joint_j - C_j[3] * t112 - C_j[6] * t114;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = A_joint_j_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
-    const jg_real v_8_in_j_1 = C_j[1] * v_8_in_joint_j - C_j[4] * t110 - C_j[7] * t112;
-    const jg_real v_8_in_j_2 = C_j[2] * v_8_in_joint_j - C_j[5] * t110 - C_j[8] * t112;
+    const jg_real v_8_in_j_1 = C_j[1] * v_8_in_joint_j - C_j[4] * t112 - C_j[7] * t114;
+    const jg_real v_8_in_j_2 = C_j[2] * v_8_in_joint_j - C_j[5] * t112 - C_j[8] * t114;
     /* v_9_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
     const jg_real v_9_in_j_0 = v_8_in_j_0 + omega_j[0];
     const jg_real v_9_in_j_1 = v_8_in_j_1 + omega_j[1];
     const jg_real v_9_in_j_2 = v_8_in_j_2 + omega_j[2];
-    const jg_real t122 = alphadot[2] - f_j_dot_omega_i;
-    const jg_real t123 = s_j[0] * v_8_in_j_0 + s_j[1] * v_8_in_j_1 + s_j[2] * v_8_in_j_2;
-    const jg_real t124 = v_8_in_j_0 * omega_j[0] + v_8_in_j_1 * omega_j[1] + v_8_in_j_2 * omega_j[2];
+    const jg_real t124 = alphadot[2] - f_j_dot_omega_i;
+    const jg_real t125 = s_j[0] * v_8_in_j_0 + s_j[1] * v_8_in_j_1 + s_j[2] * v_8_in_j_2;
+    const jg_real t126 = v_8_in_j_0 * omega_j[0] + v_8_in_j_1 * omega_j[1] + v_8_in_j_2 * omega_j[2];
     /* v_10_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
-    const jg_real v_10_in_j_2 = v_j[1] * v_9_in_j_0 - v_j[0] * v_9_in_j_1;
-    const jg_real v_10_in_j_0 = v_j[2] * v_9_in_j_1 - v_j[1] * v_9_in_j_2;
-    const jg_real v_10_in_j_1 = v_j[0] * v_9_in_j_2 - v_j[2] * v_9_in_j_0;
+    const jg_real v_10_in_j_2 = v_j[1] * v_9_in_j_0 - v_9_in_j_1 * v_j[0];
+    const jg_real v_10_in_j_0 = v_9_in_j_1 * v_j[2] - v_9_in_j_2 * v_j[1];
+    const jg_real v_10_in_j_1 = v_9_in_j_2 * v_j[0] - v_j[2] * v_9_in_j_0;
+    phi_q_t_lambda_q[15] = s_j[2] * v_4_in_j_1 - s_j[1] * v_4_in_j_2;
     phi_q_t_lambda_q[16] = s_j[0] * v_4_in_j_2 - s_j[2] * v_4_in_j_0;
-    phi_q_t_lambda_q[20] = A_joint_j_i_5 * lambda[4] - g_star_in_i_1 * lambda[5];
     phi_q_t_lambda_q[21] = A_joint_j_i_8 * lambda[4] - g_star_in_i_2 * lambda[5];
     phi_q_t_lambda_q[29] = -v_1_in_joint_j;
     phi_q_t_lambda_q[25] = s_j[2] * f_j_cross_lambda_0_1_2_in_j_1 - s_j[1] * f_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[26] = s_j[0] * f_j_cross_lambda_0_1_2_in_j_2 - s_j[2] * f_j_cross_lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[27] = s_j[1] * f_j_cross_lambda_0_1_2_in_j_0 - s_j[0] * f_j_cross_lambda_0_1_2_in_j_1;
-    gamma[3] = alphadot[1] * (cosine_2 * h_j_dot_omega_i + sine_2 * g_j_dot_omega_i) - (cosine_2 * g_j_dot_omega_i -
-        sine_2 * h_j_dot_omega_i - alphadot[1]) * (cosine_1 * alphadot[0]);
+    gamma[3] = alphadot[1] * (cosine_1 * h_j_dot_omega_i + sine_1 * g_j_dot_omega_i) - (cosine_1 * g_j_dot_omega_i -
+        sine_1 * h_j_dot_omega_i - alphadot[1]) * (cosine_2 * alphadot[0]);
     /* v_11_in_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_11_in_j_0 = omega_j[0] * t123 - s_j[0] * t124;
-    const jg_real v_11_in_j_1 = omega_j[1] * t123 - s_j[1] * t124;
-    const jg_real v_11_in_j_2 = omega_j[2] * t123 - s_j[2] * t124;
+    const jg_real v_11_in_j_0 = t125 * omega_j[0] - s_j[0] * t126;
+    const jg_real v_11_in_j_1 = t125 * omega_j[1] - s_j[1] * t126;
+    const jg_real v_11_in_j_2 = t125 * omega_j[2] - s_j[2] * t126;
     /* v_10_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
     const jg_real v_10_in_i_0 = A_ji_0 * v_10_in_j_0 + A_ji_1 * v_10_in_j_1 + A_ji_2 * v_10_in_j_2;
@@ -976,9 +978,9 @@ void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, 
     const jg_real v_12_in_i_0 = v_10_in_i_0 - omega_i_cross_v_i_in_i_0 + v_11_in_i_0;
     const jg_real v_12_in_i_1 = v_10_in_i_1 - omega_i_cross_v_i_in_i_1 + v_11_in_i_1;
     const jg_real v_12_in_i_2 = v_10_in_i_2 - omega_i_cross_v_i_in_i_2 + v_11_in_i_2;
-    gamma[5] = alphadot[0] * (H_21 * t122 + sine_1 * (t108 - g_j_dot_omega_i)) + t108 * t122 + alphadot[2] *
+    gamma[5] = alphadot[0] * (H_21 * t124 + sine_2 * (t110 - g_j_dot_omega_i)) + t110 * t124 + alphadot[2] *
         g_j_dot_omega_i;
-    gamma[4] = -(alphadot[0] * (H_22 * t122 - sine_1 * (t109 + h_j_dot_omega_i)) - t109 * t122 + alphadot[2] *
+    gamma[4] = -(alphadot[0] * (H_22 * t124 - sine_2 * (t111 + h_j_dot_omega_i)) - t111 * t124 + alphadot[2] *
         h_j_dot_omega_i);
     gamma[0] = v_12_in_i_0;
     gamma[1] = v_12_in_i_1;

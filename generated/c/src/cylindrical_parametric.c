@@ -954,21 +954,21 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
+    const jg_real v_1_in_i_0 = alpha[0] * C_i[6] + s_i[0];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real v_1_in_i_1 = alpha[0] * C_i[7] + s_i[1];
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real v_1_in_i_2 = alpha[0] * C_i[8] + s_i[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
+    const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[25] = A_ij_7;
     phi_q[19] = A_ij_1;
@@ -977,24 +977,24 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     phi_q[24] = A_ij_6;
     phi_q[21] = A_ij_3;
     phi_q[22] = A_ij_4;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
+    const jg_real s_j_in_i_0 = A_ij_3 * s_j[1] + A_ij_0 * s_j[0] + A_ij_6 * s_j[2];
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real h_j_in_i_0 = A_ij_3 * C_j[7] + A_ij_0 * C_j[6] + A_ij_6 * C_j[8];
     /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
+    const jg_real f_j_in_i_0 = A_ij_3 * C_j[1] + A_ij_0 * C_j[0] + A_ij_6 * C_j[2];
+    const jg_real s_j_in_i_1 = s_j[1] * A_ij_4 + A_ij_1 * s_j[0] + A_ij_7 * s_j[2];
+    const jg_real h_j_in_i_1 = A_ij_4 * C_j[7] + A_ij_1 * C_j[6] + A_ij_7 * C_j[8];
+    const jg_real s_j_in_i_2 = s_j[1] * A_ij_5 + A_ij_2 * s_j[0] + A_ij_8 * s_j[2];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real h_j_in_i_2 = A_ij_5 * C_j[7] + A_ij_2 * C_j[6] + A_ij_8 * C_j[8];
+    const jg_real f_j_in_i_1 = A_ij_4 * C_j[1] + A_ij_1 * C_j[0] + A_ij_7 * C_j[2];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
     /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
     const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
     phi_q[23] = A_ij_5;
@@ -1005,7 +1005,7 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     phi_q[13] = e_ij_in_i_1;
     phi_q[3] = e_ij_in_i_2;
     phi[0] = v_2_in_i_0;
-    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    const jg_real f_j_in_i_2 = A_ij_5 * C_j[1] + A_ij_2 * C_j[0] + A_ij_8 * C_j[2];
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
     /* g_j_in_i = g_j, axes of body i */
@@ -1031,9 +1031,9 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     /* h_star_dot_g_j = h_star . g_j */
     const jg_real h_star_dot_g_j = C_i[6] * g_j_in_i_0 + C_i[7] * g_j_in_i_1 + C_i[8] * g_j_in_i_2;
     phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
-    phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
-    phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
-    phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
+    phi_q[33] = A_ij_4 * s_j_in_i_2 - s_j_in_i_1 * A_ij_5;
+    phi_q[34] = s_j_in_i_0 * A_ij_5 - A_ij_3 * s_j_in_i_2;
+    phi_q[35] = A_ij_3 * s_j_in_i_1 - s_j_in_i_0 * A_ij_4;
     phi_q[45] = -C_i[6];
     phi_q[46] = -C_i[7];
     phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
@@ -1074,16 +1074,14 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     const jg_real t56 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
     const jg_real v_6_in_j_2 = h_star_in_j_2 * lambda[4];
     const jg_real v_6_in_j_0 = h_star_in_j_0 * lambda[4];
-    const jg_real t59 = h_star_dot_g_j * lambda[5];
-    const jg_real t60 = h_star_dot_h_j * lambda[3];
+    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
-    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
     const jg_real v_3_in_i_0 = f_j_in_i_0 * lambda[4];
     const jg_real v_5_in_i_0 = h_j_in_i_0 * lambda[3];
+    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
     const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    const jg_real t67 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    const jg_real t65 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
     phi_q_t_lambda_q[10] = t55;
     phi_q_t_lambda_q[39] = t55;
     phi_q_t_lambda_q[11] = t56;
@@ -1091,16 +1089,17 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[19] = t67;
-    phi_q_t_lambda_q[37] = t67;
-    const jg_real t68 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[19] = t65;
+    phi_q_t_lambda_q[37] = t65;
+    const jg_real t66 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    const jg_real t70 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    const jg_real t68 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
     const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + C_i[3] * sine_0;
+    const jg_real t72 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
     /* g_star_dot_h_j = g_star . h_j */
@@ -1109,6 +1108,14 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
         f_star_in_i_2;
+    phi_q_t_lambda_q[20] = t66;
+    phi_q_t_lambda_q[40] = t66;
+    phi_q_t_lambda_q[21] = t68;
+    phi_q_t_lambda_q[43] = t68;
+    phi_q_t_lambda_q[29] = t72;
+    phi_q_t_lambda_q[38] = t72;
+    phi[3] = g_star_dot_h_j;
+    phi[5] = f_star_dot_g_j;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 *
         f_star_in_i_2;
@@ -1119,24 +1126,16 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
     const jg_real g_star_cross_h_j_in_i_0 = f_star_in_i_0 * h_star_dot_h_j - C_i[6] * f_star_dot_h_j;
     const jg_real g_star_cross_h_j_in_i_1 = f_star_in_i_1 * h_star_dot_h_j - C_i[7] * f_star_dot_h_j;
-    phi_q_t_lambda_q[20] = t68;
-    phi_q_t_lambda_q[40] = t68;
-    phi_q_t_lambda_q[21] = t70;
-    phi_q_t_lambda_q[43] = t70;
-    phi[3] = g_star_dot_h_j;
-    phi[5] = f_star_dot_g_j;
-    phi_q[5] = g_star_cross_h_j_in_i_0;
-    phi_q[10] = g_star_cross_h_j_in_i_1;
     const jg_real g_star_cross_h_j_in_i_2 = f_star_in_i_2 * h_star_dot_h_j - C_i[8] * f_star_dot_h_j;
     /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
+    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - h_star_in_j_1 * f_star_in_j_0;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + C_i[7] * v_3_in_i_1 + f_star_in_i_1 * v_4_in_i_1 +
         g_star_in_i_1 * v_5_in_i_1;
-    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
+    const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + C_i[8] * v_3_in_i_2 + f_star_in_i_2 * v_4_in_i_2 +
         g_star_in_i_2 * v_5_in_i_2;
-    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
+    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - h_star_in_j_0 * f_star_in_j_2;
     /* v_7_in_j = lambda_5 f_star, axes of body j */
     const jg_real v_7_in_j_1 = f_star_in_j_1 * lambda[5];
     const jg_real v_7_in_j_2 = f_star_in_j_2 * lambda[5];
@@ -1145,18 +1144,18 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     const jg_real v_7_in_j_0 = f_star_in_j_0 * lambda[5];
     const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + C_i[6] * v_3_in_i_1 + f_star_in_i_0 * v_4_in_i_1 +
         g_star_in_i_0 * v_5_in_i_1;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_3_in_i_2 + f_star_in_i_0 * v_4_in_i_2 +
-        g_star_in_i_0 * v_5_in_i_2;
-    const jg_real v_8_in_j_1 = g_star_in_j_1 * lambda[3];
-    const jg_real v_8_in_j_0 = g_star_in_j_0 * lambda[3];
+    phi_q[5] = g_star_cross_h_j_in_i_0;
+    phi_q[10] = g_star_cross_h_j_in_i_1;
     phi_q[15] = g_star_cross_h_j_in_i_2;
     phi_q[48] = -f_star_dot_h_j;
     phi_q[30] = f_star_dot_h_j * h_star_in_j_0 - h_star_dot_h_j * f_star_in_j_0;
     phi_q[36] = f_star_dot_h_j * h_star_in_j_1 - h_star_dot_h_j * f_star_in_j_1;
     phi_q[42] = f_star_dot_h_j * h_star_in_j_2 - h_star_dot_h_j * f_star_in_j_2;
     phi_q_t_lambda_q[7] = M_0_i_i_3;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_3_in_i_2 + f_star_in_i_0 * v_4_in_i_2 +
+        g_star_in_i_0 * v_5_in_i_2;
+    const jg_real v_8_in_j_1 = g_star_in_j_1 * lambda[3];
+    const jg_real v_8_in_j_0 = g_star_in_j_0 * lambda[3];
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
@@ -1168,7 +1167,7 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
         v_8_in_j_0;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_6_in_j_0 + C_j[5] * v_7_in_j_0 + C_j[8] *
         v_8_in_j_0;
-    const jg_real t103 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t102 = M_1_j_j_4 + M_1_j_j_8;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_6_in_j_0 + C_j[3] * v_7_in_j_0 + C_j[6] *
         v_8_in_j_0;
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_6_in_j_1 + C_j[3] * v_7_in_j_1 + C_j[6] *
@@ -1177,111 +1176,113 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
         v_8_in_j_1;
     /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
     const jg_real f_star_cross_g_j_in_i_0 = C_i[6] * g_star_dot_g_j - g_star_in_i_0 * h_star_dot_g_j;
-    const jg_real f_star_cross_g_j_in_i_1 = C_i[7] * g_star_dot_g_j - g_star_in_i_1 * h_star_dot_g_j;
-    const jg_real f_star_cross_g_j_in_i_2 = C_i[8] * g_star_dot_g_j - g_star_in_i_2 * h_star_dot_g_j;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     phi_q[49] = g_star_dot_g_j;
     phi_q_t_lambda_q[59] = M_1_j_j_3;
     phi_q_t_lambda_q[68] = M_1_j_j_6;
     phi_q_t_lambda_q[51] = M_1_j_j_1;
     phi_q_t_lambda_q[69] = M_1_j_j_7;
     phi_q[7] = f_star_cross_g_j_in_i_0;
-    phi_q[12] = f_star_cross_g_j_in_i_1;
-    phi_q[17] = f_star_cross_g_j_in_i_2;
-    const jg_real t110 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t111 = M_1_j_j_0 + M_1_j_j_4;
+    const jg_real f_star_cross_g_j_in_i_1 = C_i[7] * g_star_dot_g_j - g_star_in_i_1 * h_star_dot_g_j;
+    const jg_real f_star_cross_g_j_in_i_2 = C_i[8] * g_star_dot_g_j - g_star_in_i_2 * h_star_dot_g_j;
+    const jg_real t109 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t110 = M_1_j_j_4 + M_1_j_j_0;
     const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_6_in_j_2 + C_j[3] * v_7_in_j_2 + C_j[6] *
         v_8_in_j_2;
     /* v_9_in_star = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body star */
-    const jg_real v_9_in_star_2 = g_star_dot_h_j * lambda[3] + f_star_dot_g_j * lambda[5];
+    const jg_real v_9_in_star_2 = f_star_dot_g_j * lambda[5] + g_star_dot_h_j * lambda[3];
     const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_6_in_j_2 + C_j[4] * v_7_in_j_2 + C_j[7] *
         v_8_in_j_2;
-    const jg_real t115 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t103 + A_ij_6 * M_1_j_j_6);
-    /* v_9_in_j = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body j */
-    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (f_star_in_j_0 * t59 + g_star_in_j_0 * t60);
-    phi_q[32] = g_star_in_j_0 * h_star_dot_g_j - h_star_in_j_0 * g_star_dot_g_j;
-    phi_q[38] = g_star_in_j_1 * h_star_dot_g_j - h_star_in_j_1 * g_star_dot_g_j;
-    phi_q[44] = g_star_in_j_2 * h_star_dot_g_j - h_star_in_j_2 * g_star_dot_g_j;
+    const jg_real t114 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t102 + A_ij_6 * M_1_j_j_6);
+    phi_q[12] = f_star_cross_g_j_in_i_1;
+    phi_q[17] = f_star_cross_g_j_in_i_2;
+    phi_q[32] = h_star_dot_g_j * g_star_in_j_0 - h_star_in_j_0 * g_star_dot_g_j;
+    phi_q[38] = h_star_dot_g_j * g_star_in_j_1 - h_star_in_j_1 * g_star_dot_g_j;
+    phi_q[44] = h_star_dot_g_j * g_star_in_j_2 - h_star_in_j_2 * g_star_dot_g_j;
     phi_q_t_lambda_q[52] = M_1_j_j_2;
     phi_q_t_lambda_q[61] = M_1_j_j_5;
-    phi_q_t_lambda_q[12] = t115;
-    phi_q_t_lambda_q[45] = t115;
-    phi_q_t_lambda_q[53] = v_9_in_j_0;
-    phi_q_t_lambda_q[75] = v_9_in_j_0;
-    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (f_star_in_j_1 * t59 + g_star_in_j_1 * t60);
-    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (f_star_in_j_2 * t59 + g_star_in_j_2 * t60);
+    phi_q_t_lambda_q[12] = t114;
+    phi_q_t_lambda_q[45] = t114;
+    /* v_9_in_j = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body j */
+    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_0 + h_star_dot_h_j *
+        v_8_in_j_0);
+    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_1 + h_star_dot_h_j *
+        v_8_in_j_1);
+    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_2 + h_star_dot_h_j *
+        v_8_in_j_2);
     const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_3_in_i_0 + f_star_in_i_1 * v_4_in_i_0 +
         g_star_in_i_1 * v_5_in_i_0;
-    const jg_real t120 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t110 + A_ij_6 * M_1_j_j_7);
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_3_in_i_0 + f_star_in_i_0 * v_4_in_i_0 +
-        g_star_in_i_0 * v_5_in_i_0;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_3_in_i_2 + f_star_in_i_1 * v_4_in_i_2 +
-        g_star_in_i_1 * v_5_in_i_2;
+    const jg_real t119 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t109 + A_ij_6 * M_1_j_j_7);
+    phi_q_t_lambda_q[53] = v_9_in_j_0;
+    phi_q_t_lambda_q[75] = v_9_in_j_0;
     phi_q_t_lambda_q[62] = v_9_in_j_1;
     phi_q_t_lambda_q[76] = v_9_in_j_1;
     phi_q_t_lambda_q[71] = v_9_in_j_2;
     phi_q_t_lambda_q[77] = v_9_in_j_2;
     phi_q_t_lambda_q[16] = M_0_i_i_1;
-    phi_q_t_lambda_q[13] = t120;
-    phi_q_t_lambda_q[54] = t120;
-    phi_q_t_lambda_q[18] = M_0_i_i_7;
-    const jg_real t123 = A_ij_6 * t111 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    const jg_real t124 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t103 + A_ij_7 * M_1_j_j_6);
+    phi_q_t_lambda_q[13] = t119;
+    phi_q_t_lambda_q[54] = t119;
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_3_in_i_0 + f_star_in_i_0 * v_4_in_i_0 +
+        g_star_in_i_0 * v_5_in_i_0;
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_3_in_i_2 + f_star_in_i_1 * v_4_in_i_2 +
+        g_star_in_i_1 * v_5_in_i_2;
+    const jg_real t122 = A_ij_6 * t110 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t123 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t102 + A_ij_7 * M_1_j_j_6);
     /* v_9_in_i = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body i */
     const jg_real v_9_in_i_0 = A_ij_0 * v_9_in_j_0 + A_ij_3 * v_9_in_j_1 + A_ij_6 * v_9_in_j_2;
-    const jg_real t126 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    const jg_real t127 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[14] = t123;
-    phi_q_t_lambda_q[63] = t123;
-    phi_q_t_lambda_q[17] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[22] = t124;
-    phi_q_t_lambda_q[46] = t124;
-    phi_q_t_lambda_q[29] = t126;
-    phi_q_t_lambda_q[38] = t126;
-    phi_q_t_lambda_q[30] = t127;
-    phi_q_t_lambda_q[41] = t127;
-    const jg_real t128 = A_ij_7 * t111 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    const jg_real t129 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t110 + A_ij_7 * M_1_j_j_7);
-    const jg_real t130 = -v_9_in_i_0;
+    const jg_real t125 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[18] = M_0_i_i_7;
+    phi_q_t_lambda_q[14] = t122;
+    phi_q_t_lambda_q[63] = t122;
+    phi_q_t_lambda_q[17] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[22] = t123;
+    phi_q_t_lambda_q[46] = t123;
+    phi_q_t_lambda_q[30] = t125;
+    phi_q_t_lambda_q[41] = t125;
+    const jg_real t126 = A_ij_7 * t110 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t127 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t109 + A_ij_7 * M_1_j_j_7);
+    const jg_real t128 = -v_9_in_i_0;
     const jg_real v_9_in_i_1 = A_ij_1 * v_9_in_j_0 + A_ij_4 * v_9_in_j_1 + A_ij_7 * v_9_in_j_2;
     const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_3_in_i_0 + f_star_in_i_2 * v_4_in_i_0 +
         g_star_in_i_2 * v_5_in_i_0;
-    phi_q_t_lambda_q[24] = t128;
-    phi_q_t_lambda_q[64] = t128;
-    phi_q_t_lambda_q[23] = t129;
-    phi_q_t_lambda_q[55] = t129;
-    phi_q_t_lambda_q[28] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[15] = t130;
-    phi_q_t_lambda_q[72] = t130;
+    phi_q_t_lambda_q[24] = t126;
+    phi_q_t_lambda_q[64] = t126;
+    phi_q_t_lambda_q[23] = t127;
+    phi_q_t_lambda_q[55] = t127;
+    phi_q_t_lambda_q[28] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[15] = t128;
+    phi_q_t_lambda_q[72] = t128;
     phi_q_t_lambda_q[26] = M_0_i_i_2;
+    const jg_real t131 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
     const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_3_in_i_1 + f_star_in_i_2 * v_4_in_i_1 +
         g_star_in_i_2 * v_5_in_i_1;
-    const jg_real t134 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    const jg_real t135 = -v_9_in_i_1;
+    const jg_real t133 = -v_9_in_i_1;
+    phi_q_t_lambda_q[31] = t131;
+    phi_q_t_lambda_q[44] = t131;
     phi_q_t_lambda_q[27] = M_0_i_i_5;
-    phi_q_t_lambda_q[31] = t134;
-    phi_q_t_lambda_q[44] = t134;
-    phi_q_t_lambda_q[25] = t135;
-    phi_q_t_lambda_q[73] = t135;
+    phi_q_t_lambda_q[25] = t133;
+    phi_q_t_lambda_q[73] = t133;
     phi_q_t_lambda_q[49] = -lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[50] = -t103;
+    phi_q_t_lambda_q[50] = -t102;
     phi_q_t_lambda_q[57] = -lambda_0_1_2_in_j_2;
-    const jg_real t136 = A_ij_8 * t111 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    const jg_real t137 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t103 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[60] = -t110;
+    const jg_real t134 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t102 + A_ij_8 * M_1_j_j_6);
+    const jg_real t135 = A_ij_8 * t110 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    phi_q_t_lambda_q[60] = -t109;
     phi_q_t_lambda_q[67] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[70] = -t111;
+    phi_q_t_lambda_q[70] = -t110;
     phi_q_t_lambda_q[78] = -v_9_in_star_2;
-    phi_q_t_lambda_q[34] = t136;
-    phi_q_t_lambda_q[65] = t136;
-    phi_q_t_lambda_q[32] = t137;
-    phi_q_t_lambda_q[47] = t137;
+    phi_q_t_lambda_q[32] = t134;
+    phi_q_t_lambda_q[47] = t134;
+    phi_q_t_lambda_q[34] = t135;
+    phi_q_t_lambda_q[65] = t135;
     const jg_real v_9_in_i_2 = A_ij_2 * v_9_in_j_0 + A_ij_5 * v_9_in_j_1 + A_ij_8 * v_9_in_j_2;
-    const jg_real t139 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t110 + A_ij_8 * M_1_j_j_7);
+    const jg_real t137 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t109 + A_ij_8 * M_1_j_j_7);
     /* v_11_in_i = 2 omega_i, axes of body i */
     const jg_real v_11_in_i_0 = omega_i[0] * JG_REAL(2.0);
     const jg_real v_11_in_i_1 = omega_i[1] * JG_REAL(2.0);
     const jg_real v_11_in_i_2 = omega_i[2] * JG_REAL(2.0);
-    const jg_real t143 = -v_9_in_i_2;
+    const jg_real t141 = -v_9_in_i_2;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* f_j_dot_omega_j = f_j . omega_j */
@@ -1293,97 +1294,96 @@ void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const
     /* v_10_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
     const jg_real v_10_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
     const jg_real v_10_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
-    const jg_real t150 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    const jg_real t148 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    const jg_real v_j_in_i_2 = A_ij_5 * v_j[1] + A_ij_2 * v_j[0] + A_ij_8 * v_j[2];
     const jg_real v_10_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
     /* omega_j_in_i = omega_j, axes of body i */
-    const jg_real omega_j_in_i_0 = f_j_in_i_0 * f_j_dot_omega_j + g_j_in_i_0 * g_j_dot_omega_j + h_j_in_i_0 *
+    const jg_real omega_j_in_i_0 = g_j_in_i_0 * g_j_dot_omega_j + f_j_in_i_0 * f_j_dot_omega_j + h_j_in_i_0 *
         h_j_dot_omega_j;
-    const jg_real omega_j_in_i_1 = f_j_in_i_1 * f_j_dot_omega_j + g_j_in_i_1 * g_j_dot_omega_j + h_j_in_i_1 *
+    const jg_real omega_j_in_i_1 = g_j_in_i_1 * g_j_dot_omega_j + f_j_in_i_1 * f_j_dot_omega_j + h_j_in_i_1 *
         h_j_dot_omega_j;
-    const jg_real omega_j_in_i_2 = f_j_in_i_2 * f_j_dot_omega_j + g_j_in_i_2 * g_j_dot_omega_j + h_j_in_i_2 *
+    const jg_real omega_j_in_i_2 = g_j_in_i_2 * g_j_dot_omega_j + f_j_in_i_2 * f_j_dot_omega_j + h_j_in_i_2 *
         h_j_dot_omega_j;
-    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    const jg_real v_j_in_i_1 = A_ij_4 * v_j[1] + A_ij_1 * v_j[0] + A_ij_7 * v_j[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
         h_j_dot_omega_j * h_j_dot_omega_j;
     /* v_14_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_14_in_i_0 = omega_i[0] * t150;
+    const jg_real v_14_in_i_0 = omega_i[0] * t148;
     /* v_16_in_i = v_j - v_i, axes of body i */
     const jg_real v_16_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_14_in_i_1 = omega_i[1] * t150;
+    const jg_real v_14_in_i_1 = omega_i[1] * t148;
     /* v_12_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_12_in_i_0 = v_11_in_i_0 - omega_j_in_i_0;
     const jg_real v_12_in_i_1 = v_11_in_i_1 - omega_j_in_i_1;
     const jg_real v_12_in_i_2 = v_11_in_i_2 - omega_j_in_i_2;
     const jg_real v_16_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
-    const jg_real v_14_in_i_2 = omega_i[2] * t150;
+    const jg_real v_j_in_i_0 = A_ij_3 * v_j[1] + A_ij_0 * v_j[0] + A_ij_6 * v_j[2];
+    const jg_real v_14_in_i_2 = omega_i[2] * t148;
     const jg_real v_16_in_i_0 = v_j_in_i_0 - v_i[0];
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_j_0 * omega_j[0] + g_star_in_j_1 * omega_j[1] + g_star_in_j_2 *
         omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
     /* v_17_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
     const jg_real v_17_in_i_0 = v_11_in_i_1 * v_16_in_i_2 - v_11_in_i_2 * v_16_in_i_1;
     /* h_star_dot_omega_j = h_star . omega_j */
-    const jg_real h_star_dot_omega_j = h_star_dot_f_j * f_j_dot_omega_j + h_star_dot_g_j * g_j_dot_omega_j +
+    const jg_real h_star_dot_omega_j = h_star_dot_g_j * g_j_dot_omega_j + h_star_dot_f_j * f_j_dot_omega_j +
         h_star_dot_h_j * h_j_dot_omega_j;
-    const jg_real t172 = s_j_in_i_0 * v_12_in_i_0 + s_j_in_i_1 * v_12_in_i_1 + s_j_in_i_2 * v_12_in_i_2;
+    const jg_real t170 = s_j_in_i_0 * v_12_in_i_0 + s_j_in_i_1 * v_12_in_i_1 + s_j_in_i_2 * v_12_in_i_2;
     const jg_real v_17_in_i_1 = v_11_in_i_2 * v_16_in_i_0 - v_11_in_i_0 * v_16_in_i_2;
     const jg_real v_17_in_i_2 = v_11_in_i_0 * v_16_in_i_1 - v_11_in_i_1 * v_16_in_i_0;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
-    const jg_real t176 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t174 = JG_REAL(2.0) * alphadot[1];
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    const jg_real t178 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
+    const jg_real t176 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* g_star_dot_omega_i = g_star . omega_i */
     const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
         omega_i[2];
-    const jg_real t181 = t178 + alphadot[1] * alphadot[1];
+    const jg_real t179 = t176 + alphadot[1] * alphadot[1];
     /* v_13_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_13_in_i_0 = s_j_in_i_0 * t178 + omega_j_in_i_0 * t172;
-    const jg_real v_13_in_i_1 = s_j_in_i_1 * t178 + omega_j_in_i_1 * t172;
-    const jg_real v_13_in_i_2 = s_j_in_i_2 * t178 + omega_j_in_i_2 * t172;
+    const jg_real v_13_in_i_0 = s_j_in_i_0 * t176 + omega_j_in_i_0 * t170;
+    const jg_real v_13_in_i_1 = s_j_in_i_1 * t176 + omega_j_in_i_1 * t170;
+    const jg_real v_13_in_i_2 = s_j_in_i_2 * t176 + omega_j_in_i_2 * t170;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_i_0 * omega_j_in_i_0 + f_star_in_i_1 * omega_j_in_i_1 +
         f_star_in_i_2 * omega_j_in_i_2;
     /* h_star_dot_omega_i = h_star . omega_i */
-    const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
+    const jg_real h_star_dot_omega_i = h_star_dot_g_j * g_j_dot_omega_i + h_star_dot_f_j * f_j_dot_omega_i +
         h_star_dot_h_j * h_j_dot_omega_i;
     /* f_star_dot_omega_i = f_star . omega_i */
     const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
     /* v_15_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_15_in_i_0 = v_10_in_i_0 + v_13_in_i_0 - v_14_in_i_0;
-    const jg_real v_15_in_i_1 = v_10_in_i_1 + v_13_in_i_1 - v_14_in_i_1;
-    const jg_real v_15_in_i_2 = v_10_in_i_2 + v_13_in_i_2 - v_14_in_i_2;
+    const jg_real v_15_in_i_0 = v_13_in_i_0 + v_10_in_i_0 - v_14_in_i_0;
+    const jg_real v_15_in_i_1 = v_13_in_i_1 + v_10_in_i_1 - v_14_in_i_1;
+    const jg_real v_15_in_i_2 = v_13_in_i_2 + v_10_in_i_2 - v_14_in_i_2;
     /* v_18_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_18_in_i_0 = v_15_in_i_0 + v_17_in_i_0;
     const jg_real v_18_in_i_1 = v_15_in_i_1 + v_17_in_i_1;
     const jg_real v_18_in_i_2 = v_15_in_i_2 + v_17_in_i_2;
-    phi_q_t_lambda_q[33] = t139;
-    phi_q_t_lambda_q[56] = t139;
-    phi_q_t_lambda_q[35] = t143;
-    phi_q_t_lambda_q[74] = t143;
+    phi_q_t_lambda_q[33] = t137;
+    phi_q_t_lambda_q[56] = t137;
+    phi_q_t_lambda_q[35] = t141;
+    phi_q_t_lambda_q[74] = t141;
     gamma[0] = v_18_in_i_0;
     gamma[1] = v_18_in_i_1;
     gamma[2] = v_18_in_i_2;
-    gamma[4] = h_star_dot_f_j * t178 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
+    gamma[4] = h_star_dot_f_j * t176 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
         f_j_dot_omega_i * h_star_dot_omega_i;
-    gamma[3] = g_star_dot_h_j * t181 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
+    gamma[3] = g_star_dot_h_j * t179 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
         (h_star_dot_h_j * g_star_dot_omega_j - g_star_dot_h_j * h_star_dot_omega_j - (h_star_dot_h_j *
-        g_star_dot_omega_i - g_star_dot_h_j * h_star_dot_omega_i)) * t176 - h_j_dot_omega_i * g_star_dot_omega_i;
-    gamma[5] = f_star_dot_g_j * t181 + t176 * (f_star_dot_g_j * h_star_dot_omega_i - h_star_dot_g_j *
-        f_star_dot_omega_i - (f_star_dot_g_j * h_star_dot_omega_j - h_star_dot_g_j * f_star_dot_omega_j)) +
-        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - f_star_dot_omega_i *
-        g_j_dot_omega_i;
+        g_star_dot_omega_i - g_star_dot_h_j * h_star_dot_omega_i)) * t174 - h_j_dot_omega_i * g_star_dot_omega_i;
+    gamma[5] = t174 * (f_star_dot_g_j * h_star_dot_omega_i - h_star_dot_g_j * f_star_dot_omega_i - (f_star_dot_g_j *
+        h_star_dot_omega_j - h_star_dot_g_j * f_star_dot_omega_j)) + f_star_dot_g_j * t179 + f_star_dot_omega_j *
+        (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - g_j_dot_omega_i * f_star_dot_omega_i;
 }
 
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

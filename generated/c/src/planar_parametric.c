@@ -949,15 +949,15 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     /* v_0_in_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of body i */
-    const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[0] + alpha[1] * C_i[3];
+    const jg_real v_0_in_i_0 = alpha[0] * C_i[0] + s_i[0] + alpha[1] * C_i[3];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     /* v_1_in_i = r_j - r_i, axes of body i */
     const jg_real v_1_in_i_0 = v_1_world_0 * A_i[0] + v_1_world_1 * A_i[1] + v_1_world_2 * A_i[2];
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
     phi_q[22] = A_ji_4;
     phi_q[26] = A_ji_8;
     phi_q[25] = A_ji_5;
@@ -966,21 +966,21 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     phi_q[19] = A_ji_3;
     phi_q[18] = A_ji_0;
     phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    const jg_real v_1_in_i_1 = v_1_world_0 * A_i[3] + v_1_world_1 * A_i[4] + v_1_world_2 * A_i[5];
-    const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[1] + alpha[1] * C_i[4];
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    const jg_real v_1_in_i_1 = A_i[3] * v_1_world_0 + A_i[4] * v_1_world_1 + A_i[5] * v_1_world_2;
+    const jg_real v_0_in_i_1 = alpha[0] * C_i[1] + s_i[1] + alpha[1] * C_i[4];
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + s_j[1] * A_ji_7 + s_j[2] * A_ji_8;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    const jg_real v_1_in_i_2 = v_1_world_0 * A_i[6] + v_1_world_1 * A_i[7] + v_1_world_2 * A_i[8];
+    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
+    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
+    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_1 = v_1_in_i_1 + s_j_in_i_1;
-    const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[2] + alpha[1] * C_i[5];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_1_in_i_1;
+    const jg_real v_0_in_i_2 = alpha[0] * C_i[2] + s_i[2] + alpha[1] * C_i[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    const jg_real e_ij_in_i_2 = v_1_in_i_2 + s_j_in_i_2;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_1_in_i_2;
+    const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
     /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 f_i - alpha_1 g_i, axes of body i */
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_0_in_i_1;
     /* f_j_in_i = f_j, axes of body i */
@@ -989,7 +989,7 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_0_in_i_2;
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    const jg_real e_ij_in_i_0 = v_1_in_i_0 + s_j_in_i_0;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_1_in_i_0;
     phi_q[24] = A_ji_2;
     phi_q[13] = e_ij_in_i_1;
     phi_q[3] = e_ij_in_i_2;
@@ -1004,15 +1004,15 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
     const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
+    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - g_j_in_i_0 * f_j_in_i_1;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
     const jg_real h_star_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = f_j_in_i_0 * C_i[6] + f_j_in_i_1 * C_i[7] + f_j_in_i_2 * C_i[8];
     const jg_real h_star_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
+    const jg_real h_j_in_i_1 = g_j_in_i_0 * f_j_in_i_2 - f_j_in_i_0 * g_j_in_i_2;
+    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - g_j_in_i_1 * f_j_in_i_2;
     /* h_star_dot_g_j = h_star . g_j */
     const jg_real h_star_dot_g_j = g_j_in_i_0 * C_i[6] + g_j_in_i_1 * C_i[7] + g_j_in_i_2 * C_i[8];
     phi_q[4] = -e_ij_in_i_1;
@@ -1024,7 +1024,7 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     phi_q[28] = A_ji_6 * s_j_in_i_0 - A_ji_0 * s_j_in_i_2;
     phi_q[29] = A_ji_0 * s_j_in_i_1 - A_ji_3 * s_j_in_i_0;
     /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = h_j_in_i_0 * C_i[6] + h_j_in_i_1 * C_i[7] + h_j_in_i_2 * C_i[8];
+    const jg_real h_star_dot_h_j = h_j_in_i_1 * C_i[7] + h_j_in_i_0 * C_i[6] + h_j_in_i_2 * C_i[8];
     phi_q[33] = A_ji_4 * s_j_in_i_2 - A_ji_7 * s_j_in_i_1;
     phi_q[34] = A_ji_7 * s_j_in_i_0 - A_ji_1 * s_j_in_i_2;
     phi_q[45] = -C_i[0];
@@ -1069,11 +1069,11 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     const jg_real t56 = A_ji_8 * lambda[1] - A_ji_5 * lambda[2];
     const jg_real v_6_in_j_2 = h_star_in_j_2 * lambda[4];
     const jg_real v_6_in_j_0 = h_star_in_j_0 * lambda[4];
-    const jg_real t59 = h_star_dot_h_j * lambda[3];
-    const jg_real t60 = h_star_dot_g_j * lambda[5];
+    const jg_real v_3_in_i_0 = f_j_in_i_0 * lambda[4];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
-    const jg_real v_3_in_i_0 = f_j_in_i_0 * lambda[4];
+    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
+    const jg_real v_5_in_i_0 = h_j_in_i_0 * lambda[3];
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
     phi_q_t_lambda_q[9] = t53;
     phi_q_t_lambda_q[36] = t53;
@@ -1083,46 +1083,45 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     phi_q_t_lambda_q[42] = t56;
     phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
-    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
-    const jg_real v_5_in_i_0 = h_j_in_i_0 * lambda[3];
     const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    const jg_real t67 = A_ji_0 * lambda[2] - A_ji_6 * lambda[0];
-    const jg_real t68 = A_ji_1 * lambda[2] - A_ji_7 * lambda[0];
-    const jg_real t69 = A_ji_2 * lambda[2] - A_ji_8 * lambda[0];
+    const jg_real t65 = A_ji_0 * lambda[2] - A_ji_6 * lambda[0];
+    const jg_real t66 = A_ji_1 * lambda[2] - A_ji_7 * lambda[0];
+    const jg_real t67 = A_ji_2 * lambda[2] - A_ji_8 * lambda[0];
     phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[19] = t67;
-    phi_q_t_lambda_q[37] = t67;
-    phi_q_t_lambda_q[20] = t68;
-    phi_q_t_lambda_q[40] = t68;
-    phi_q_t_lambda_q[21] = t69;
-    phi_q_t_lambda_q[43] = t69;
+    phi_q_t_lambda_q[19] = t65;
+    phi_q_t_lambda_q[37] = t65;
+    phi_q_t_lambda_q[20] = t66;
+    phi_q_t_lambda_q[40] = t66;
+    phi_q_t_lambda_q[21] = t67;
+    phi_q_t_lambda_q[43] = t67;
     phi_q_t_lambda_q[49] = -lambda_0_1_2_in_j_1;
-    const jg_real t70 = A_ji_3 * lambda[0] - A_ji_0 * lambda[1];
-    const jg_real t71 = A_ji_4 * lambda[0] - A_ji_1 * lambda[1];
-    const jg_real t72 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
+    const jg_real t68 = A_ji_3 * lambda[0] - A_ji_0 * lambda[1];
+    const jg_real t69 = A_ji_4 * lambda[0] - A_ji_1 * lambda[1];
+    const jg_real t70 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
     phi_q_t_lambda_q[57] = -lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[67] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[29] = t70;
-    phi_q_t_lambda_q[38] = t70;
-    phi_q_t_lambda_q[30] = t71;
-    phi_q_t_lambda_q[41] = t71;
-    phi_q_t_lambda_q[31] = t72;
-    phi_q_t_lambda_q[44] = t72;
+    phi_q_t_lambda_q[29] = t68;
+    phi_q_t_lambda_q[38] = t68;
+    phi_q_t_lambda_q[30] = t69;
+    phi_q_t_lambda_q[41] = t69;
+    phi_q_t_lambda_q[31] = t70;
+    phi_q_t_lambda_q[44] = t70;
+    /* v_10_in_i = 2 omega_i, axes of body i */
+    const jg_real v_10_in_i_0 = JG_REAL(2.0) * omega_i[0];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    const jg_real v_10_in_i_1 = JG_REAL(2.0) * omega_i[1];
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    /* v_10_in_i = 2 omega_i, axes of body i */
-    const jg_real v_10_in_i_0 = JG_REAL(2.0) * omega_i[0];
+    const jg_real v_10_in_i_2 = JG_REAL(2.0) * omega_i[2];
     const jg_real f_star_in_i_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real v_10_in_i_1 = JG_REAL(2.0) * omega_i[1];
     const jg_real f_star_in_i_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* g_star_dot_h_j = g_star . h_j */
-    const jg_real g_star_dot_h_j = h_j_in_i_0 * g_star_in_i_0 + h_j_in_i_1 * g_star_in_i_1 + h_j_in_i_2 *
+    const jg_real g_star_dot_h_j = h_j_in_i_1 * g_star_in_i_1 + h_j_in_i_0 * g_star_in_i_0 + h_j_in_i_2 *
         g_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = A_ji_1 * g_star_in_i_0 + A_ji_4 * g_star_in_i_1 + A_ji_7 * g_star_in_i_2;
@@ -1143,8 +1142,8 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     /* v_8_in_j = lambda_3 g_star, axes of body j */
     const jg_real v_8_in_j_1 = g_star_in_j_1 * lambda[3];
     const jg_real v_8_in_j_2 = g_star_in_j_2 * lambda[3];
-    const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - g_star_in_j_0 * h_star_in_j_2;
-    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - g_star_in_j_1 * h_star_in_j_0;
+    const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - h_star_in_j_2 * g_star_in_j_0;
+    const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - g_star_in_j_1 * h_star_in_j_0;
     const jg_real v_8_in_j_0 = g_star_in_j_0 * lambda[3];
     const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_3_in_i_2 + f_star_in_i_0 * v_4_in_i_2 +
         g_star_in_i_0 * v_5_in_i_2;
@@ -1191,9 +1190,9 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     const jg_real g_star_cross_h_j_in_i_2 = f_star_in_i_2 * h_star_dot_h_j - C_i[8] * f_star_dot_h_j;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_6_in_j_0 + C_j[3] * v_7_in_j_0 + C_j[6] *
         v_8_in_j_0;
-    const jg_real t113 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t114 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t115 = M_1_j_j_0 + M_1_j_j_4;
+    const jg_real t112 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t113 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t114 = M_1_j_j_4 + M_1_j_j_0;
     /* v_9_in_star = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body star */
     const jg_real v_9_in_star_2 = g_star_dot_h_j * lambda[3] + f_star_dot_g_j * lambda[5];
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_6_in_j_1 + C_j[3] * v_7_in_j_1 + C_j[6] *
@@ -1204,84 +1203,92 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
         v_8_in_j_2;
     phi_q[10] = g_star_cross_h_j_in_i_1;
     phi_q[15] = g_star_cross_h_j_in_i_2;
-    phi_q[30] = h_star_in_j_0 * f_star_dot_h_j - f_star_in_j_0 * h_star_dot_h_j;
-    phi_q[36] = h_star_in_j_1 * f_star_dot_h_j - f_star_in_j_1 * h_star_dot_h_j;
-    phi_q[42] = h_star_in_j_2 * f_star_dot_h_j - f_star_in_j_2 * h_star_dot_h_j;
+    phi_q[30] = h_star_in_j_0 * f_star_dot_h_j - h_star_dot_h_j * f_star_in_j_0;
+    phi_q[36] = h_star_in_j_1 * f_star_dot_h_j - h_star_dot_h_j * f_star_in_j_1;
+    phi_q[42] = h_star_in_j_2 * f_star_dot_h_j - h_star_dot_h_j * f_star_in_j_2;
     phi_q_t_lambda_q[51] = M_1_j_j_1;
     phi_q_t_lambda_q[69] = M_1_j_j_7;
     phi_q_t_lambda_q[52] = M_1_j_j_2;
     const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_6_in_j_2 + C_j[4] * v_7_in_j_2 + C_j[7] *
         v_8_in_j_2;
     /* v_9_in_j = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body j */
-    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (f_star_in_j_0 * t60 + g_star_in_j_0 * t59);
-    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (f_star_in_j_1 * t60 + g_star_in_j_1 * t59);
-    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (f_star_in_j_2 * t60 + g_star_in_j_2 * t59);
-    const jg_real t124 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t113 + A_ji_2 * M_1_j_j_6);
+    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (h_star_dot_h_j * v_8_in_j_0 + h_star_dot_g_j *
+        v_7_in_j_0);
+    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (h_star_dot_h_j * v_8_in_j_1 + h_star_dot_g_j *
+        v_7_in_j_1);
+    const jg_real t122 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t112 + A_ji_2 * M_1_j_j_6);
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_3_in_i_0 + f_star_in_i_1 * v_4_in_i_0 +
+        g_star_in_i_1 * v_5_in_i_0;
     phi_q_t_lambda_q[61] = M_1_j_j_5;
     phi_q_t_lambda_q[53] = v_9_in_j_0;
     phi_q_t_lambda_q[75] = v_9_in_j_0;
     phi_q_t_lambda_q[62] = v_9_in_j_1;
     phi_q_t_lambda_q[76] = v_9_in_j_1;
-    phi_q_t_lambda_q[71] = v_9_in_j_2;
-    phi_q_t_lambda_q[77] = v_9_in_j_2;
-    phi_q_t_lambda_q[12] = t124;
-    phi_q_t_lambda_q[45] = t124;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_3_in_i_0 + f_star_in_i_1 * v_4_in_i_0 +
-        g_star_in_i_1 * v_5_in_i_0;
+    phi_q_t_lambda_q[12] = t122;
+    phi_q_t_lambda_q[45] = t122;
+    phi_q_t_lambda_q[16] = M_0_i_i_1;
+    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (h_star_dot_h_j * v_8_in_j_2 + h_star_dot_g_j *
+        v_7_in_j_2);
     const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_3_in_i_0 + f_star_in_i_0 * v_4_in_i_0 +
         g_star_in_i_0 * v_5_in_i_0;
-    const jg_real t127 = A_ji_2 * t115 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
-    const jg_real t128 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t114 + A_ji_2 * M_1_j_j_7);
+    const jg_real t126 = A_ji_2 * t114 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    const jg_real t127 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t113 + A_ji_2 * M_1_j_j_7);
     const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_3_in_i_2 + f_star_in_i_1 * v_4_in_i_2 +
         g_star_in_i_1 * v_5_in_i_2;
     /* v_9_in_i = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body i */
     const jg_real v_9_in_i_0 = A_ji_0 * v_9_in_j_0 + A_ji_1 * v_9_in_j_1 + A_ji_2 * v_9_in_j_2;
-    const jg_real t131 = -v_9_in_i_0;
-    phi_q_t_lambda_q[16] = M_0_i_i_1;
-    phi_q_t_lambda_q[14] = t127;
-    phi_q_t_lambda_q[63] = t127;
-    phi_q_t_lambda_q[13] = t128;
-    phi_q_t_lambda_q[54] = t128;
+    phi_q_t_lambda_q[71] = v_9_in_j_2;
+    phi_q_t_lambda_q[77] = v_9_in_j_2;
+    phi_q_t_lambda_q[14] = t126;
+    phi_q_t_lambda_q[63] = t126;
+    phi_q_t_lambda_q[13] = t127;
+    phi_q_t_lambda_q[54] = t127;
     phi_q_t_lambda_q[18] = M_0_i_i_7;
-    phi_q_t_lambda_q[17] = -(M_0_i_i_0 + M_0_i_i_8);
+    phi_q_t_lambda_q[17] = -(M_0_i_i_8 + M_0_i_i_0);
+    const jg_real t130 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t112 + A_ji_5 * M_1_j_j_6);
+    const jg_real t131 = -v_9_in_i_0;
+    const jg_real t132 = A_ji_5 * t114 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    const jg_real t133 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t113 + A_ji_5 * M_1_j_j_7);
+    phi_q_t_lambda_q[22] = t130;
+    phi_q_t_lambda_q[46] = t130;
     phi_q_t_lambda_q[15] = t131;
     phi_q_t_lambda_q[72] = t131;
-    const jg_real t132 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t113 + A_ji_5 * M_1_j_j_6);
-    const jg_real t133 = A_ji_5 * t115 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
-    const jg_real t134 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t114 + A_ji_5 * M_1_j_j_7);
+    phi_q_t_lambda_q[24] = t132;
+    phi_q_t_lambda_q[64] = t132;
+    phi_q_t_lambda_q[23] = t133;
+    phi_q_t_lambda_q[55] = t133;
     const jg_real v_9_in_i_1 = A_ji_3 * v_9_in_j_0 + A_ji_4 * v_9_in_j_1 + A_ji_5 * v_9_in_j_2;
     const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_3_in_i_0 + f_star_in_i_2 * v_4_in_i_0 +
         g_star_in_i_2 * v_5_in_i_0;
-    phi_q_t_lambda_q[22] = t132;
-    phi_q_t_lambda_q[46] = t132;
-    phi_q_t_lambda_q[24] = t133;
-    phi_q_t_lambda_q[64] = t133;
-    phi_q_t_lambda_q[23] = t134;
-    phi_q_t_lambda_q[55] = t134;
-    phi_q_t_lambda_q[28] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[26] = M_0_i_i_2;
     const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_3_in_i_1 + f_star_in_i_2 * v_4_in_i_1 +
         g_star_in_i_2 * v_5_in_i_1;
-    const jg_real t138 = -v_9_in_i_1;
+    const jg_real t137 = -v_9_in_i_1;
+    phi_q_t_lambda_q[28] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[26] = M_0_i_i_2;
+    phi_q_t_lambda_q[27] = M_0_i_i_5;
+    phi_q_t_lambda_q[25] = t137;
+    phi_q_t_lambda_q[73] = t137;
+    phi_q_t_lambda_q[50] = -t112;
+    phi_q_t_lambda_q[60] = -t113;
+    phi_q_t_lambda_q[70] = -t114;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    const jg_real v_10_in_i_2 = JG_REAL(2.0) * omega_i[2];
-    const jg_real t142 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t113 + A_ji_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[27] = M_0_i_i_5;
-    phi_q_t_lambda_q[25] = t138;
-    phi_q_t_lambda_q[73] = t138;
-    phi_q_t_lambda_q[50] = -t113;
-    phi_q_t_lambda_q[60] = -t114;
-    phi_q_t_lambda_q[70] = -t115;
-    phi_q_t_lambda_q[78] = -v_9_in_star_2;
-    phi_q_t_lambda_q[32] = t142;
-    phi_q_t_lambda_q[47] = t142;
-    const jg_real t143 = A_ji_8 * t115 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    const jg_real t140 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t112 + A_ji_8 * M_1_j_j_6);
+    const jg_real t141 = A_ji_8 * t114 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
     const jg_real v_9_in_i_2 = A_ji_6 * v_9_in_j_0 + A_ji_7 * v_9_in_j_1 + A_ji_8 * v_9_in_j_2;
-    const jg_real t145 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t114 + A_ji_8 * M_1_j_j_7);
-    const jg_real t146 = -v_9_in_i_2;
+    const jg_real t143 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t113 + A_ji_8 * M_1_j_j_7);
+    const jg_real t144 = -v_9_in_i_2;
+    phi_q_t_lambda_q[78] = -v_9_in_star_2;
+    phi_q_t_lambda_q[32] = t140;
+    phi_q_t_lambda_q[47] = t140;
+    phi_q_t_lambda_q[34] = t141;
+    phi_q_t_lambda_q[65] = t141;
+    phi_q_t_lambda_q[33] = t143;
+    phi_q_t_lambda_q[56] = t143;
+    phi_q_t_lambda_q[35] = t144;
+    phi_q_t_lambda_q[74] = t144;
     /* f_star_dot_omega_i = f_star . omega_i */
     const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
@@ -1295,83 +1302,76 @@ void jg_planar_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_r
     /* g_star_dot_omega_i = g_star . omega_i */
     const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
         omega_i[2];
-    /* v_13_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_13_in_i_0 = v_10_in_i_0 - omega_j_in_i_0;
     /* h_star_dot_omega_i = h_star . omega_i */
     const jg_real h_star_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    const jg_real v_13_in_i_1 = v_10_in_i_1 - omega_j_in_i_1;
-    const jg_real v_13_in_i_2 = v_10_in_i_2 - omega_j_in_i_2;
+    /* v_13_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_13_in_i_0 = v_10_in_i_0 - omega_j_in_i_0;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
         h_j_dot_omega_j * h_j_dot_omega_j;
-    const jg_real t157 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    const jg_real v_13_in_i_1 = v_10_in_i_1 - omega_j_in_i_1;
+    const jg_real v_13_in_i_2 = v_10_in_i_2 - omega_j_in_i_2;
+    const jg_real t155 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = f_star_dot_omega_i * f_star_dot_omega_i + g_star_dot_omega_i *
         g_star_dot_omega_i + h_star_dot_omega_i * h_star_dot_omega_i;
     /* v_11_in_i = v_j - v_i, axes of body i */
     const jg_real v_11_in_i_2 = v_j_in_i_2 - v_i[2];
     const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real t163 = s_j_in_i_0 * v_13_in_i_0 + s_j_in_i_1 * v_13_in_i_1 + s_j_in_i_2 * v_13_in_i_2;
+    const jg_real t161 = s_j_in_i_0 * v_13_in_i_0 + s_j_in_i_1 * v_13_in_i_1 + s_j_in_i_2 * v_13_in_i_2;
     const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
     const jg_real v_11_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real t166 = JG_REAL(2.0) * alphadot[2];
     const jg_real v_11_in_i_0 = v_j_in_i_0 - v_i[0];
-    const jg_real t168 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
+    const jg_real t165 = JG_REAL(2.0) * alphadot[2];
     /* h_star_dot_omega_j = h_star . omega_j */
     const jg_real h_star_dot_omega_j = h_star_dot_f_j * f_j_dot_omega_j + h_star_dot_g_j * g_j_dot_omega_j +
         h_star_dot_h_j * h_j_dot_omega_j;
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_i_0 * omega_j_in_i_0 + g_star_in_i_1 * omega_j_in_i_1 +
         g_star_in_i_2 * omega_j_in_i_2;
+    const jg_real t168 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
     /* v_12_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
     const jg_real v_12_in_i_0 = v_10_in_i_1 * v_11_in_i_2 - v_10_in_i_2 * v_11_in_i_1;
-    const jg_real t172 = t168 + alphadot[2] * alphadot[2];
     const jg_real v_12_in_i_1 = v_10_in_i_2 * v_11_in_i_0 - v_10_in_i_0 * v_11_in_i_2;
     const jg_real v_12_in_i_2 = v_10_in_i_0 * v_11_in_i_1 - v_10_in_i_1 * v_11_in_i_0;
+    const jg_real t172 = t168 + alphadot[2] * alphadot[2];
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = f_star_dot_h_j * f_star_dot_omega_i + g_star_dot_h_j * g_star_dot_omega_i +
         h_star_dot_h_j * h_star_dot_omega_i;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    /* v_14_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_14_in_i_0 = v_1_in_i_0 * omega_i_dot_omega_i + s_j_in_i_0 * t168 - omega_i[0] * t157 +
-        omega_j_in_i_0 * t163;
-    const jg_real v_14_in_i_1 = v_1_in_i_1 * omega_i_dot_omega_i + s_j_in_i_1 * t168 - omega_i[1] * t157 +
-        omega_j_in_i_1 * t163;
-    const jg_real v_14_in_i_2 = v_1_in_i_2 * omega_i_dot_omega_i + s_j_in_i_2 * t168 - omega_i[2] * t157 +
-        omega_j_in_i_2 * t163;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
         omega_j[2];
+    /* v_14_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_14_in_i_0 = s_j_in_i_0 * t168 + v_1_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t155 +
+        omega_j_in_i_0 * t161;
+    const jg_real v_14_in_i_1 = s_j_in_i_1 * t168 + v_1_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t155 +
+        omega_j_in_i_1 * t161;
+    const jg_real v_14_in_i_2 = s_j_in_i_2 * t168 + v_1_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t155 +
+        omega_j_in_i_2 * t161;
     /* v_15_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_15_in_i_0 = v_12_in_i_0 + v_14_in_i_0;
-    const jg_real v_15_in_i_1 = v_12_in_i_1 + v_14_in_i_1;
-    phi_q_t_lambda_q[34] = t143;
-    phi_q_t_lambda_q[65] = t143;
-    phi_q_t_lambda_q[33] = t145;
-    phi_q_t_lambda_q[56] = t145;
-    phi_q_t_lambda_q[35] = t146;
-    phi_q_t_lambda_q[74] = t146;
-    gamma[0] = v_15_in_i_0;
-    gamma[1] = v_15_in_i_1;
-    const jg_real v_15_in_i_2 = v_12_in_i_2 + v_14_in_i_2;
+    const jg_real v_15_in_i_0 = v_14_in_i_0 + v_12_in_i_0;
+    const jg_real v_15_in_i_1 = v_14_in_i_1 + v_12_in_i_1;
+    const jg_real v_15_in_i_2 = v_14_in_i_2 + v_12_in_i_2;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    gamma[0] = v_15_in_i_0;
+    gamma[1] = v_15_in_i_1;
     gamma[2] = v_15_in_i_2;
     gamma[4] = h_star_dot_f_j * t168 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
         h_star_dot_omega_i * f_j_dot_omega_i;
     gamma[3] = g_star_dot_h_j * t172 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
         (g_star_dot_h_j * h_star_dot_omega_i - h_star_dot_h_j * g_star_dot_omega_i - (g_star_dot_h_j *
-        h_star_dot_omega_j - h_star_dot_h_j * g_star_dot_omega_j)) * t166 - g_star_dot_omega_i * h_j_dot_omega_i;
-    gamma[5] = f_star_dot_g_j * t172 + t166 * (h_star_dot_g_j * f_star_dot_omega_j - f_star_dot_g_j *
-        h_star_dot_omega_j - (h_star_dot_g_j * f_star_dot_omega_i - f_star_dot_g_j * h_star_dot_omega_i)) +
-        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - f_star_dot_omega_i *
-        g_j_dot_omega_i;
+        h_star_dot_omega_j - h_star_dot_h_j * g_star_dot_omega_j)) * t165 - g_star_dot_omega_i * h_j_dot_omega_i;
+    gamma[5] = t165 * (h_star_dot_g_j * f_star_dot_omega_j - f_star_dot_g_j * h_star_dot_omega_j - (h_star_dot_g_j *
+        f_star_dot_omega_i - f_star_dot_g_j * h_star_dot_omega_i)) + f_star_dot_g_j * t172 + f_star_dot_omega_j *
+        (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - f_star_dot_omega_i * g_j_dot_omega_i;
 }
 
 void jg_planar_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -897,21 +897,21 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real v_7_in_i_1 = C_i[1] * lambda[0];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
-    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
+    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
     const jg_real h_i_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
     const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
     /* g_i_world = g_i, world axes */
@@ -931,7 +931,7 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
+    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - h_i_world_2 * g_i_world_0;
     phi_q[28] = g_i_world_1;
     phi_q[32] = h_i_world_2;
     phi_q[31] = g_i_world_2;
@@ -940,17 +940,17 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     phi_q[25] = g_i_world_0;
     phi_q[24] = f_i_world_0;
     phi_q[27] = f_i_world_1;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
+    const jg_real f_i_world_2 = h_i_world_1 * g_i_world_0 - g_i_world_1 * h_i_world_0;
     /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
+    const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
     /* s_j_dot_h_i = s_j . h_i */
     const jg_real s_j_dot_h_i = h_i_in_j_0 * s_j[0] + h_i_in_j_1 * s_j[1] + h_i_in_j_2 * s_j[2];
     /* r_ij_dot_g_i = r_ij . g_i */
-    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
-        g_i_world_2;
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
-        h_i_world_2;
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
     /* e_ij_in_joint_i = r_ij + s_j, axes of joint i */
     const jg_real e_ij_in_joint_i_1 = r_ij_dot_g_i + s_j_dot_g_i;
     /* f_i_dot_f_j = f_i . f_j */
@@ -967,8 +967,8 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
     /* r_ij_dot_f_i = r_ij . f_i */
-    const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
-        f_i_world_2;
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
     /* g_i_dot_f_j = g_i . f_j */
@@ -996,15 +996,15 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
     const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
     /* e_ij_in_i = r_ij + s_j, axes of body i */
-    const jg_real e_ij_in_i_0 = C_i[0] * e_ij_in_joint_i_0 + C_i[3] * e_ij_in_joint_i_1 + C_i[6] *
+    const jg_real e_ij_in_i_0 = e_ij_in_joint_i_0 * C_i[0] + C_i[3] * e_ij_in_joint_i_1 + C_i[6] *
         e_ij_in_joint_i_2;
-    const jg_real e_ij_in_i_1 = C_i[1] * e_ij_in_joint_i_0 + C_i[4] * e_ij_in_joint_i_1 + C_i[7] *
+    const jg_real e_ij_in_i_1 = e_ij_in_joint_i_0 * C_i[1] + C_i[4] * e_ij_in_joint_i_1 + C_i[7] *
         e_ij_in_joint_i_2;
-    const jg_real e_ij_in_i_2 = C_i[2] * e_ij_in_joint_i_0 + C_i[5] * e_ij_in_joint_i_1 + C_i[8] *
+    const jg_real e_ij_in_i_2 = e_ij_in_joint_i_0 * C_i[2] + C_i[5] * e_ij_in_joint_i_1 + C_i[8] *
         e_ij_in_joint_i_2;
     const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
     /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
-    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
+    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - f_i_in_j_1 * s_j[2];
     /* s_j_cross_g_i_in_j = s_j x g_i, axes of body j */
     const jg_real s_j_cross_g_i_in_j_0 = g_i_in_j_2 * s_j[1] - g_i_in_j_1 * s_j[2];
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
@@ -1022,10 +1022,10 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     phi_q[22] = g_i_cross_h_j_in_i_2;
     phi_q[33] = s_j_cross_f_i_in_j_0;
     phi_q[34] = s_j_cross_g_i_in_j_0;
-    phi_q[9] = C_i[1] * e_ij_in_i_2 - C_i[2] * e_ij_in_i_1;
+    phi_q[9] = C_i[1] * e_ij_in_i_2 - e_ij_in_i_1 * C_i[2];
     phi_q[10] = C_i[4] * e_ij_in_i_2 - C_i[5] * e_ij_in_i_1;
     phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
-    phi_q[14] = C_i[2] * e_ij_in_i_0 - C_i[0] * e_ij_in_i_2;
+    phi_q[14] = e_ij_in_i_0 * C_i[2] - C_i[0] * e_ij_in_i_2;
     const jg_real v_2_in_i_1 = C_i[6] * e_ij_in_i_2 - C_i[8] * e_ij_in_i_0;
     /* v_4_in_j = (h_i . f_j) f_j, axes of body j */
     const jg_real v_4_in_j_0 = C_j[0] * h_i_dot_f_j;
@@ -1036,12 +1036,12 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real t75 = pitch * spread;
     /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
     const jg_real s_j_cross_h_i_in_j_0 = h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2];
-    const jg_real s_j_cross_f_i_in_j_1 = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
+    const jg_real s_j_cross_f_i_in_j_1 = f_i_in_j_0 * s_j[2] - s_j[0] * f_i_in_j_2;
     const jg_real v_4_in_j_1 = C_j[1] * h_i_dot_f_j;
     const jg_real s_j_cross_g_i_in_j_1 = g_i_in_j_0 * s_j[2] - g_i_in_j_2 * s_j[0];
     phi[1] = C_i[3] * d_ij_in_i_0 + C_i[4] * d_ij_in_i_1 + C_i[5] * d_ij_in_i_2;
     phi_q[15] = C_i[5] * e_ij_in_i_0 - C_i[3] * e_ij_in_i_2;
-    phi_q[19] = C_i[0] * e_ij_in_i_1 - C_i[1] * e_ij_in_i_0;
+    phi_q[19] = C_i[0] * e_ij_in_i_1 - e_ij_in_i_0 * C_i[1];
     phi_q[35] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
     phi_q[20] = C_i[3] * e_ij_in_i_1 - C_i[4] * e_ij_in_i_0;
     phi_q[36] = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
@@ -1049,7 +1049,7 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     phi_q[39] = s_j_cross_g_i_in_j_1;
     const jg_real across_in_j_1 = h_i_in_j_1 - v_4_in_j_1;
     const jg_real s_j_cross_h_i_in_j_1 = h_i_in_j_0 * s_j[2] - h_i_in_j_2 * s_j[0];
-    const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
+    const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - f_i_in_j_0 * s_j[1];
     /* v_3_in_i = pitch spread across - r_ij x h_i - s_j x h_i, axes of body i */
     const jg_real v_3_in_i_0 = t75 * across_in_i_0 - v_2_in_i_0;
     const jg_real v_3_in_i_1 = t75 * across_in_i_1 - v_2_in_i_1;
@@ -1075,83 +1075,82 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real s_j_cross_h_i_in_j_2 = h_i_in_j_1 * s_j[0] - h_i_in_j_0 * s_j[1];
     /* v_8_in_i = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body i */
     const jg_real v_8_in_i_1 = v_6_in_i_1 + v_7_in_i_1;
+    const jg_real t96 = spread * JG_REAL(2.0);
     const jg_real v_8_in_i_2 = v_6_in_i_2 + v_7_in_i_2;
     const jg_real v_6_in_i_0 = C_i[3] * lambda[1] + C_i[6] * lambda[4];
-    /* v_11_in_joint_i = pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_11_in_joint_i_2 = spread * v_10_in_joint_i_2;
     /* v_9_in_i = pitch spread lambda_4 f_j, axes of body i */
     const jg_real v_9_in_i_1 = f_j_in_i_1 * v_10_in_joint_i_2;
+    const jg_real v_9_in_i_2 = f_j_in_i_2 * v_10_in_joint_i_2;
     const jg_real v_8_in_i_0 = v_6_in_i_0 + v_7_in_i_0;
-    const jg_real t101 = A_i[6] * v_8_in_i_1 - A_i[3] * v_8_in_i_2;
+    const jg_real t102 = A_i[6] * v_8_in_i_1 - A_i[3] * v_8_in_i_2;
     /* v_13_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_13_in_joint_i_2 = JG_REAL(2.0) * v_11_in_joint_i_2;
-    const jg_real t103 = A_i[7] * v_8_in_i_1 - A_i[4] * v_8_in_i_2;
+    const jg_real v_13_in_joint_i_2 = v_10_in_joint_i_2 * t96;
+    const jg_real t104 = A_i[7] * v_8_in_i_1 - A_i[4] * v_8_in_i_2;
     phi_q[45] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
     phi_q[42] = s_j_cross_h_i_in_j_1 - t75 * across_in_j_1;
     phi_q[46] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
     phi_q[47] = s_j_cross_h_i_in_j_2 - t75 * across_in_j_2;
-    phi_q_t_lambda_q[15] = t101;
-    phi_q_t_lambda_q[45] = t101;
-    phi_q_t_lambda_q[16] = t103;
-    phi_q_t_lambda_q[48] = t103;
-    const jg_real t104 = A_i[8] * v_8_in_i_1 - A_i[5] * v_8_in_i_2;
+    phi_q_t_lambda_q[15] = t102;
+    phi_q_t_lambda_q[45] = t102;
+    phi_q_t_lambda_q[16] = t104;
+    phi_q_t_lambda_q[48] = t104;
+    const jg_real t105 = A_i[8] * v_8_in_i_1 - A_i[5] * v_8_in_i_2;
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
     const jg_real h_i_cross_f_j_in_i_1 = C_i[4] * f_i_dot_f_j - C_i[1] * g_i_dot_f_j;
-    const jg_real t106 = -t101;
+    const jg_real t107 = -t102;
     /* v_15_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
     const jg_real v_15_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real t108 = h_i_dot_f_j * v_13_in_joint_i_2;
-    const jg_real t109 = v_8_in_i_2 * A_i[0] - A_i[6] * v_8_in_i_0;
-    const jg_real t110 = A_i[3] * v_8_in_i_0 - v_8_in_i_1 * A_i[0];
-    phi_q_t_lambda_q[17] = t104;
-    phi_q_t_lambda_q[51] = t104;
-    phi_q_t_lambda_q[0] = t106;
-    phi_q_t_lambda_q[9] = t106;
-    phi_q_t_lambda_q[27] = t109;
-    phi_q_t_lambda_q[46] = t109;
-    phi_q_t_lambda_q[39] = t110;
-    phi_q_t_lambda_q[47] = t110;
-    const jg_real t111 = -t103;
-    const jg_real t112 = v_8_in_i_2 * A_i[1] - A_i[7] * v_8_in_i_0;
-    const jg_real t113 = A_i[4] * v_8_in_i_0 - v_8_in_i_1 * A_i[1];
-    const jg_real t114 = v_8_in_i_2 * A_i[2] - A_i[8] * v_8_in_i_0;
-    phi_q_t_lambda_q[3] = t111;
-    phi_q_t_lambda_q[10] = t111;
-    phi_q_t_lambda_q[28] = t112;
-    phi_q_t_lambda_q[49] = t112;
-    phi_q_t_lambda_q[40] = t113;
-    phi_q_t_lambda_q[50] = t113;
-    phi_q_t_lambda_q[29] = t114;
-    phi_q_t_lambda_q[52] = t114;
-    const jg_real t115 = -t104;
-    const jg_real t116 = A_i[5] * v_8_in_i_0 - v_8_in_i_1 * A_i[2];
-    const jg_real v_9_in_i_2 = f_j_in_i_2 * v_10_in_joint_i_2;
-    const jg_real t118 = -t109;
-    const jg_real t119 = -t110;
-    phi_q_t_lambda_q[6] = t115;
-    phi_q_t_lambda_q[11] = t115;
-    phi_q_t_lambda_q[41] = t116;
-    phi_q_t_lambda_q[53] = t116;
+    const jg_real t109 = h_i_dot_f_j * v_13_in_joint_i_2;
+    const jg_real t110 = v_8_in_i_2 * A_i[0] - A_i[6] * v_8_in_i_0;
+    const jg_real t111 = A_i[3] * v_8_in_i_0 - v_8_in_i_1 * A_i[0];
+    phi_q_t_lambda_q[17] = t105;
+    phi_q_t_lambda_q[51] = t105;
+    phi_q_t_lambda_q[0] = t107;
+    phi_q_t_lambda_q[9] = t107;
+    phi_q_t_lambda_q[27] = t110;
+    phi_q_t_lambda_q[46] = t110;
+    phi_q_t_lambda_q[39] = t111;
+    phi_q_t_lambda_q[47] = t111;
+    const jg_real t112 = -t104;
+    const jg_real t113 = v_8_in_i_2 * A_i[1] - A_i[7] * v_8_in_i_0;
+    const jg_real t114 = A_i[4] * v_8_in_i_0 - v_8_in_i_1 * A_i[1];
+    const jg_real t115 = v_8_in_i_2 * A_i[2] - A_i[8] * v_8_in_i_0;
+    phi_q_t_lambda_q[3] = t112;
+    phi_q_t_lambda_q[10] = t112;
+    phi_q_t_lambda_q[28] = t113;
+    phi_q_t_lambda_q[49] = t113;
+    phi_q_t_lambda_q[40] = t114;
+    phi_q_t_lambda_q[50] = t114;
+    phi_q_t_lambda_q[29] = t115;
+    phi_q_t_lambda_q[52] = t115;
+    const jg_real t116 = -t105;
+    const jg_real t117 = A_i[5] * v_8_in_i_0 - v_8_in_i_1 * A_i[2];
+    const jg_real t118 = -t110;
+    const jg_real t119 = -t111;
+    phi_q_t_lambda_q[6] = t116;
+    phi_q_t_lambda_q[11] = t116;
+    phi_q_t_lambda_q[41] = t117;
+    phi_q_t_lambda_q[53] = t117;
     phi_q_t_lambda_q[1] = t118;
     phi_q_t_lambda_q[21] = t118;
     phi_q_t_lambda_q[2] = t119;
     phi_q_t_lambda_q[33] = t119;
-    const jg_real t120 = -t112;
-    const jg_real t121 = -t113;
-    const jg_real t122 = -t114;
-    const jg_real h_i_cross_f_j_in_i_2 = C_i[5] * f_i_dot_f_j - C_i[2] * g_i_dot_f_j;
-    const jg_real t124 = -t116;
+    const jg_real t120 = -t113;
+    const jg_real t121 = -t114;
+    const jg_real t122 = -t115;
+    const jg_real t123 = -t117;
     phi_q_t_lambda_q[4] = t120;
     phi_q_t_lambda_q[22] = t120;
     phi_q_t_lambda_q[5] = t121;
     phi_q_t_lambda_q[34] = t121;
     phi_q_t_lambda_q[7] = t122;
     phi_q_t_lambda_q[23] = t122;
-    phi_q_t_lambda_q[8] = t124;
-    phi_q_t_lambda_q[35] = t124;
+    phi_q_t_lambda_q[8] = t123;
+    phi_q_t_lambda_q[35] = t123;
+    const jg_real h_i_cross_f_j_in_i_2 = C_i[5] * f_i_dot_f_j - C_i[2] * g_i_dot_f_j;
     /* v_14_in_i = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body i */
-    const jg_real v_14_in_i_1 = v_9_in_i_1 - across_in_i_1 * t108;
-    const jg_real v_14_in_i_2 = v_9_in_i_2 - across_in_i_2 * t108;
+    const jg_real v_14_in_i_1 = v_9_in_i_1 - across_in_i_1 * t109;
+    const jg_real v_14_in_i_2 = v_9_in_i_2 - across_in_i_2 * t109;
     /* v_16_in_i = pitch (h_i . f_j) spread lambda_4 f_j, axes of body i */
     const jg_real v_16_in_i_2 = h_i_dot_f_j * v_9_in_i_2;
     const jg_real v_16_in_i_1 = h_i_dot_f_j * v_9_in_i_1;
@@ -1159,7 +1158,7 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real h_i_cross_f_j_in_i_0 = C_i[3] * f_i_dot_f_j - C_i[0] * g_i_dot_f_j;
     const jg_real v_15_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
     /* v_14_in_j = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body j */
-    const jg_real v_14_in_j_0 = C_j[0] * v_10_in_joint_i_2 - across_in_j_0 * t108;
+    const jg_real v_14_in_j_0 = C_j[0] * v_10_in_joint_i_2 - across_in_j_0 * t109;
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
     const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
     /* v_15_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
@@ -1171,102 +1170,102 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
         v_15_in_i_1;
     const jg_real M_0_i_i_8 = e_ij_in_i_2 * v_8_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_i_2 + h_j_in_i_2 *
         v_15_in_i_2;
-    /* v_8_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_8_in_j_0 = A_ji_0 * v_8_in_i_0 + A_ji_3 * v_8_in_i_1 + A_ji_6 * v_8_in_i_2;
     /* v_18_in_j = pitch (h_i . f_j) spread lambda_4 f_j + pitch spread lambda_4 across, axes of body j */
     const jg_real v_18_in_j_2 = v_10_in_joint_i_2 * v_17_in_j_2;
-    const jg_real v_14_in_j_1 = C_j[1] * v_10_in_joint_i_2 - across_in_j_1 * t108;
+    /* v_8_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
+    const jg_real v_8_in_j_0 = A_ji_0 * v_8_in_i_0 + A_ji_3 * v_8_in_i_1 + A_ji_6 * v_8_in_i_2;
+    const jg_real v_14_in_j_1 = C_j[1] * v_10_in_joint_i_2 - across_in_j_1 * t109;
     const jg_real M_0_i_i_3 = e_ij_in_i_1 * v_8_in_i_0 - v_14_in_i_1 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 *
         v_15_in_i_0;
     const jg_real M_0_i_i_6 = e_ij_in_i_2 * v_8_in_i_0 - v_14_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
         v_15_in_i_0;
     const jg_real v_15_in_j_1 = f_i_in_j_1 * lambda[2] + g_i_in_j_1 * lambda[3];
-    const jg_real v_14_in_j_2 = C_j[2] * v_10_in_joint_i_2 - across_in_j_2 * t108;
+    const jg_real v_14_in_j_2 = C_j[2] * v_10_in_joint_i_2 - across_in_j_2 * t109;
     const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
     const jg_real v_8_in_j_1 = A_ji_1 * v_8_in_i_0 + A_ji_4 * v_8_in_i_1 + A_ji_7 * v_8_in_i_2;
     const jg_real v_17_in_j_1 = v_4_in_j_1 + across_in_j_1;
     const jg_real v_15_in_j_2 = f_i_in_j_2 * lambda[2] + g_i_in_j_2 * lambda[3];
     /* M_2_j_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_2_j_j_3 = s_j[1] * v_8_in_j_0 + C_j[7] * v_15_in_j_0 - h_i_cross_f_j_in_j_1 * v_14_in_j_0;
+    const jg_real M_2_j_j_3 = C_j[7] * v_15_in_j_0 + s_j[1] * v_8_in_j_0 - v_14_in_j_0 * h_i_cross_f_j_in_j_1;
     const jg_real v_18_in_j_1 = v_10_in_joint_i_2 * v_17_in_j_1;
     const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
     const jg_real t152 = M_2_j_j_3 + v_18_in_j_2;
     const jg_real v_8_in_j_2 = A_ji_2 * v_8_in_i_0 + A_ji_5 * v_8_in_i_1 + A_ji_8 * v_8_in_i_2;
-    const jg_real M_2_j_j_6 = s_j[2] * v_8_in_j_0 + C_j[8] * v_15_in_j_0 - h_i_cross_f_j_in_j_2 * v_14_in_j_0;
-    const jg_real M_2_j_j_4 = s_j[1] * v_8_in_j_1 + C_j[7] * v_15_in_j_1 - h_i_cross_f_j_in_j_1 * v_14_in_j_1;
+    const jg_real M_2_j_j_6 = C_j[8] * v_15_in_j_0 + s_j[2] * v_8_in_j_0 - v_14_in_j_0 * h_i_cross_f_j_in_j_2;
+    const jg_real M_2_j_j_4 = C_j[7] * v_15_in_j_1 + s_j[1] * v_8_in_j_1 - h_i_cross_f_j_in_j_1 * v_14_in_j_1;
     const jg_real v_17_in_j_0 = v_4_in_j_0 + across_in_j_0;
     const jg_real t157 = M_2_j_j_6 - v_18_in_j_1;
-    const jg_real M_2_j_j_1 = s_j[0] * v_8_in_j_1 + C_j[6] * v_15_in_j_1 - h_i_cross_f_j_in_j_0 * v_14_in_j_1;
-    const jg_real M_2_j_j_0 = s_j[0] * v_8_in_j_0 + C_j[6] * v_15_in_j_0 - h_i_cross_f_j_in_j_0 * v_14_in_j_0;
+    const jg_real M_2_j_j_1 = C_j[6] * v_15_in_j_1 + s_j[0] * v_8_in_j_1 - v_14_in_j_1 * h_i_cross_f_j_in_j_0;
+    const jg_real M_2_j_j_0 = C_j[6] * v_15_in_j_0 + s_j[0] * v_8_in_j_0 - v_14_in_j_0 * h_i_cross_f_j_in_j_0;
     const jg_real v_18_in_j_0 = v_10_in_joint_i_2 * v_17_in_j_0;
-    const jg_real M_2_j_j_7 = s_j[2] * v_8_in_j_1 + C_j[8] * v_15_in_j_1 - h_i_cross_f_j_in_j_2 * v_14_in_j_1;
+    const jg_real M_2_j_j_7 = C_j[8] * v_15_in_j_1 + s_j[2] * v_8_in_j_1 - v_14_in_j_1 * h_i_cross_f_j_in_j_2;
     const jg_real t162 = M_2_j_j_1 - v_18_in_j_2;
-    const jg_real t163 = M_2_j_j_0 + M_2_j_j_4;
+    const jg_real t163 = M_2_j_j_4 + M_2_j_j_0;
     const jg_real v_9_in_i_0 = f_j_in_i_0 * v_10_in_joint_i_2;
-    const jg_real M_2_j_j_8 = s_j[2] * v_8_in_j_2 + C_j[8] * v_15_in_j_2 - h_i_cross_f_j_in_j_2 * v_14_in_j_2;
+    const jg_real M_2_j_j_8 = C_j[8] * v_15_in_j_2 + s_j[2] * v_8_in_j_2 - v_14_in_j_2 * h_i_cross_f_j_in_j_2;
     const jg_real t166 = M_2_j_j_7 + v_18_in_j_0;
     phi_q_t_lambda_q[13] = M_0_i_i_3 - v_16_in_i_2;
     phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
     phi_q_t_lambda_q[14] = M_0_i_i_6 + v_16_in_i_1;
     phi_q_t_lambda_q[63] = t152;
     phi_q_t_lambda_q[69] = t157;
-    phi[4] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2 - pitch * (theta + theta_0 +
-        revolutions * JG_REAL(6.283185307179586));
+    phi[4] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2 - (theta + theta_0 + revolutions *
+        JG_REAL(6.283185307179586)) * pitch;
     phi_q_t_lambda_q[58] = t162;
     phi_q_t_lambda_q[70] = t166;
-    const jg_real M_2_j_j_2 = s_j[0] * v_8_in_j_2 + C_j[6] * v_15_in_j_2 - h_i_cross_f_j_in_j_0 * v_14_in_j_2;
-    const jg_real v_14_in_i_0 = v_9_in_i_0 - across_in_i_0 * t108;
+    const jg_real M_2_j_j_2 = C_j[6] * v_15_in_j_2 + s_j[0] * v_8_in_j_2 - v_14_in_j_2 * h_i_cross_f_j_in_j_0;
+    const jg_real v_14_in_i_0 = v_9_in_i_0 - across_in_i_0 * t109;
     const jg_real t169 = M_2_j_j_4 + M_2_j_j_8;
-    const jg_real t170 = M_2_j_j_0 + M_2_j_j_8;
+    const jg_real t170 = M_2_j_j_8 + M_2_j_j_0;
     const jg_real v_16_in_i_0 = h_i_dot_f_j * v_9_in_i_0;
-    const jg_real M_2_j_j_5 = s_j[1] * v_8_in_j_2 + C_j[7] * v_15_in_j_2 - h_i_cross_f_j_in_j_1 * v_14_in_j_2;
-    const jg_real t173 = M_2_j_j_2 + v_18_in_j_1;
+    const jg_real M_2_j_j_5 = C_j[7] * v_15_in_j_2 + s_j[1] * v_8_in_j_2 - h_i_cross_f_j_in_j_1 * v_14_in_j_2;
+    const jg_real t173 = v_18_in_j_1 + M_2_j_j_2;
     const jg_real t174 = M_2_j_j_5 - v_18_in_j_0;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_8_in_i_1 - v_14_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_8_in_i_1 - h_i_cross_f_j_in_i_1 * v_14_in_i_2 + h_j_in_i_2 *
         v_15_in_i_1;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_8_in_i_1 - v_14_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_8_in_i_1 - h_i_cross_f_j_in_i_1 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_i_1;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_8_in_i_0 - v_14_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_8_in_i_0 - h_i_cross_f_j_in_i_0 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_i_0;
     phi_q_t_lambda_q[59] = t173;
     phi_q_t_lambda_q[65] = t174;
     phi_q_t_lambda_q[26] = M_0_i_i_7 - v_16_in_i_0;
-    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_16_in_i_2;
+    phi_q_t_lambda_q[24] = v_16_in_i_2 + M_0_i_i_1;
     phi_q_t_lambda_q[18] = -(A_ji_1 * t152 - A_ji_0 * t169 + A_ji_2 * t157);
     phi_q_t_lambda_q[19] = -(A_ji_0 * t162 - A_ji_1 * t170 + A_ji_2 * t166);
     phi_q_t_lambda_q[30] = -(A_ji_4 * t152 - A_ji_3 * t169 + A_ji_5 * t157);
     phi_q_t_lambda_q[20] = A_ji_2 * t163 - (A_ji_0 * t173 + A_ji_1 * t174);
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_8_in_i_2 - v_14_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
+    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_8_in_i_2 - h_i_cross_f_j_in_i_2 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_i_2;
     const jg_real M_0_i_i_5 = e_ij_in_i_1 * v_8_in_i_2 - v_14_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
         v_15_in_i_2;
     const jg_real t180 = M_2_j_j_8 + t163;
     phi_q_t_lambda_q[31] = -(A_ji_3 * t162 - A_ji_4 * t170 + A_ji_5 * t166);
     phi_q_t_lambda_q[32] = A_ji_5 * t163 - (A_ji_3 * t173 + A_ji_4 * t174);
-    phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
+    phi_q_t_lambda_q[25] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[38] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[36] = M_0_i_i_2 - v_16_in_i_1;
-    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_16_in_i_0;
+    phi_q_t_lambda_q[37] = v_16_in_i_0 + M_0_i_i_5;
     phi_q_t_lambda_q[44] = A_ji_8 * t163 - (A_ji_6 * t173 + A_ji_7 * t174);
     phi_q_t_lambda_q[42] = -(A_ji_7 * t152 - A_ji_6 * t169 + A_ji_8 * t157);
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = C_i[0] * s_j_dot_f_i + C_i[3] * s_j_dot_g_i + C_i[6] * s_j_dot_h_i;
-    const jg_real s_j_in_i_1 = C_i[1] * s_j_dot_f_i + C_i[4] * s_j_dot_g_i + C_i[7] * s_j_dot_h_i;
-    const jg_real s_j_in_i_2 = C_i[2] * s_j_dot_f_i + C_i[5] * s_j_dot_g_i + C_i[8] * s_j_dot_h_i;
+    const jg_real s_j_in_i_0 = s_j_dot_f_i * C_i[0] + C_i[3] * s_j_dot_g_i + C_i[6] * s_j_dot_h_i;
+    const jg_real s_j_in_i_1 = s_j_dot_f_i * C_i[1] + C_i[4] * s_j_dot_g_i + C_i[7] * s_j_dot_h_i;
+    const jg_real s_j_in_i_2 = s_j_dot_f_i * C_i[2] + C_i[5] * s_j_dot_g_i + C_i[8] * s_j_dot_h_i;
     /* M_1_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_1_i_j_0 = s_j_in_i_0 * v_8_in_j_0 - v_14_in_i_0 * h_i_cross_f_j_in_j_0 + h_j_in_i_0 *
+    const jg_real M_1_i_j_0 = v_8_in_j_0 * s_j_in_i_0 - h_i_cross_f_j_in_j_0 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_j_0;
-    const jg_real M_1_i_j_1 = s_j_in_i_0 * v_8_in_j_1 - v_14_in_i_0 * h_i_cross_f_j_in_j_1 + h_j_in_i_0 *
+    const jg_real M_1_i_j_1 = v_8_in_j_1 * s_j_in_i_0 - h_i_cross_f_j_in_j_1 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_j_1;
-    const jg_real M_1_i_j_3 = s_j_in_i_1 * v_8_in_j_0 - v_14_in_i_1 * h_i_cross_f_j_in_j_0 + h_j_in_i_1 *
+    const jg_real M_1_i_j_3 = v_8_in_j_0 * s_j_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_0 + h_j_in_i_1 *
         v_15_in_j_0;
-    const jg_real M_1_i_j_4 = s_j_in_i_1 * v_8_in_j_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_1 + h_j_in_i_1 *
+    const jg_real M_1_i_j_4 = v_8_in_j_1 * s_j_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_1 + h_j_in_i_1 *
         v_15_in_j_1;
-    const jg_real M_1_i_j_6 = s_j_in_i_2 * v_8_in_j_0 - v_14_in_i_2 * h_i_cross_f_j_in_j_0 + h_j_in_i_2 *
+    const jg_real M_1_i_j_6 = v_8_in_j_0 * s_j_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_0 + h_j_in_i_2 *
         v_15_in_j_0;
-    const jg_real M_1_i_j_7 = s_j_in_i_2 * v_8_in_j_1 - v_14_in_i_2 * h_i_cross_f_j_in_j_1 + h_j_in_i_2 *
+    const jg_real M_1_i_j_7 = v_8_in_j_1 * s_j_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_1 + h_j_in_i_2 *
         v_15_in_j_1;
-    const jg_real M_1_i_j_2 = s_j_in_i_0 * v_8_in_j_2 - v_14_in_i_0 * h_i_cross_f_j_in_j_2 + h_j_in_i_0 *
+    const jg_real M_1_i_j_2 = v_8_in_j_2 * s_j_in_i_0 - h_i_cross_f_j_in_j_2 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_j_2;
     phi_q_t_lambda_q[43] = -(A_ji_6 * t162 - A_ji_7 * t170 + A_ji_8 * t166);
     phi_q_t_lambda_q[57] = -t169;
@@ -1276,9 +1275,9 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     phi_q_t_lambda_q[55] = A_ji_0 * v_16_in_i_2 - A_ji_6 * v_16_in_i_0 - (M_1_i_j_3 - A_ji_3 * t180);
     phi_q_t_lambda_q[61] = A_ji_1 * v_16_in_i_2 - A_ji_7 * v_16_in_i_0 - (M_1_i_j_4 - A_ji_4 * t180);
     phi_q_t_lambda_q[71] = -t163;
-    const jg_real M_1_i_j_5 = s_j_in_i_1 * v_8_in_j_2 - v_14_in_i_1 * h_i_cross_f_j_in_j_2 + h_j_in_i_1 *
+    const jg_real M_1_i_j_5 = v_8_in_j_2 * s_j_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_2 + h_j_in_i_1 *
         v_15_in_j_2;
-    const jg_real M_1_i_j_8 = s_j_in_i_2 * v_8_in_j_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_2 + h_j_in_i_2 *
+    const jg_real M_1_i_j_8 = v_8_in_j_2 * s_j_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_2 + h_j_in_i_2 *
         v_15_in_j_2;
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
@@ -1303,15 +1302,15 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real omega_i_dot_omega_i = omega_i_in_joint_i_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 *
         omega_i_in_joint_i_1 + omega_i_in_joint_i_2 * omega_i_in_joint_i_2;
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i_in_joint_i_0 * f_i_dot_omega_j + omega_i_in_joint_i_1 *
-        g_i_dot_omega_j + omega_i_in_joint_i_2 * h_i_dot_omega_j;
+    const jg_real omega_i_dot_omega_j = f_i_dot_omega_j * omega_i_in_joint_i_0 + g_i_dot_omega_j *
+        omega_i_in_joint_i_1 + h_i_dot_omega_j * omega_i_in_joint_i_2;
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = r_ij_dot_f_i * omega_i_in_joint_i_0 + r_ij_dot_g_i * omega_i_in_joint_i_1 +
         r_ij_dot_h_i * omega_i_in_joint_i_2;
     const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
-    const jg_real t208 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    const jg_real t208 = omega_j_dot_omega_j + omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j;
     const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
     const jg_real v_i_in_joint_i_0 = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     const jg_real v_j_in_joint_i_0 = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
@@ -1329,7 +1328,7 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
     const jg_real t219 = t217 - t213;
     const jg_real t220 = f_j_dot_omega_i - f_j_dot_omega_j;
-    const jg_real t221 = omega_i_in_joint_i_1 * f_i_dot_omega_j - omega_i_in_joint_i_0 * g_i_dot_omega_j;
+    const jg_real t221 = f_i_dot_omega_j * omega_i_in_joint_i_1 - g_i_dot_omega_j * omega_i_in_joint_i_0;
     const jg_real t222 = t213 * t220;
     phi_q_t_lambda_q[56] = A_ji_3 * v_16_in_i_0 - A_ji_0 * v_16_in_i_1 - (M_1_i_j_6 - A_ji_6 * t180);
     phi_q_t_lambda_q[62] = A_ji_4 * v_16_in_i_0 - A_ji_1 * v_16_in_i_1 - (M_1_i_j_7 - A_ji_7 * t180);
@@ -1347,17 +1346,16 @@ void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_
         v_i_in_joint_i_0) - JG_REAL(2.0) * (omega_i_in_joint_i_0 * v_j_in_joint_i_2 - omega_i_in_joint_i_2 *
         v_j_in_joint_i_0);
     gamma[2] = f_i_dot_h_j * t208 + f_i_dot_omega_j * t215 - omega_i_in_joint_i_0 * h_j_dot_omega_i;
-    const jg_real t223 = t217 * t220;
+    const jg_real t223 = t220 * t217;
     gamma[3] = g_i_dot_h_j * t208 + g_i_dot_omega_j * t215 - omega_i_in_joint_i_1 * h_j_dot_omega_i;
-    gamma[4] = -(t75 * (t222 + h_i_dot_f_j * (f_i_dot_f_j * (omega_i_in_joint_i_2 * g_i_dot_omega_j -
-        omega_i_in_joint_i_1 * h_i_dot_omega_j) + g_i_dot_f_j * (omega_i_in_joint_i_0 * h_i_dot_omega_j -
-        omega_i_in_joint_i_2 * f_i_dot_omega_j) + h_i_dot_f_j * t221 + (h_i_dot_f_j * (t222 - t223) +
-        omega_i_in_joint_i_2 * t219 - h_i_dot_omega_j * t219) * (JG_REAL(2.0) * spread)) - t223 - t221) -
-        s_j_dot_h_i * t208 + s_j_dot_omega_i * (omega_i_in_joint_i_2 - JG_REAL(2.0) * h_i_dot_omega_j) -
-        r_ij_dot_h_i * omega_i_dot_omega_i + omega_i_in_joint_i_2 * r_ij_dot_omega_i + h_i_dot_omega_j *
-        s_j_dot_omega_j - JG_REAL(2.0) * (omega_i_in_joint_i_1 * v_i_in_joint_i_0 - omega_i_in_joint_i_0 *
-        v_i_in_joint_i_1) + JG_REAL(2.0) * (omega_i_in_joint_i_1 * v_j_in_joint_i_0 - omega_i_in_joint_i_0 *
-        v_j_in_joint_i_1));
+    gamma[4] = -(t75 * (t222 + h_i_dot_f_j * (f_i_dot_f_j * (g_i_dot_omega_j * omega_i_in_joint_i_2 -
+        h_i_dot_omega_j * omega_i_in_joint_i_1) + g_i_dot_f_j * (h_i_dot_omega_j * omega_i_in_joint_i_0 -
+        f_i_dot_omega_j * omega_i_in_joint_i_2) + h_i_dot_f_j * t221 + t96 * (h_i_dot_f_j * (t222 - t223) +
+        omega_i_in_joint_i_2 * t219 - h_i_dot_omega_j * t219)) - t223 - t221) - s_j_dot_h_i * t208 + s_j_dot_omega_i
+        * (omega_i_in_joint_i_2 - JG_REAL(2.0) * h_i_dot_omega_j) - r_ij_dot_h_i * omega_i_dot_omega_i +
+        omega_i_in_joint_i_2 * r_ij_dot_omega_i + h_i_dot_omega_j * s_j_dot_omega_j - JG_REAL(2.0) *
+        (omega_i_in_joint_i_1 * v_i_in_joint_i_0 - omega_i_in_joint_i_0 * v_i_in_joint_i_1) + JG_REAL(2.0) *
+        (omega_i_in_joint_i_1 * v_j_in_joint_i_0 - omega_i_in_joint_i_0 * v_j_in_joint_i_1));
 }
 
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

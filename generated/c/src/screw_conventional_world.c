@@ -793,14 +793,14 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* r_ij_dot_f_i = r_ij . f_i */
-    const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
-        f_i_world_2;
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* v_1_in_joint_i = r_ij x g_i + s_j x g_i, axes of joint i */
-    const jg_real v_1_in_joint_i_2 = r_ij_dot_f_i + s_j_dot_f_i;
+    const jg_real v_1_in_joint_i_2 = s_j_dot_f_i + r_ij_dot_f_i;
     /* s_i_dot_g_i = s_i . g_i */
     const jg_real s_i_dot_g_i = s_i[0] * C_i[3] + s_i[1] * C_i[4] + s_i[2] * C_i[5];
     /* h_j_world = h_j, world axes */
@@ -824,7 +824,7 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     phi_q[26] = h_i_world_0;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    const jg_real t25 = r_ij_dot_g_i + s_j_dot_g_i;
+    const jg_real t25 = s_j_dot_g_i + r_ij_dot_g_i;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* g_i_dot_h_j = g_i . h_j */
@@ -871,7 +871,7 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
     const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = f_j_world_0 * h_i_world_0 + f_j_world_1 * h_i_world_1 + f_j_world_2 * h_i_world_2;
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
@@ -897,7 +897,7 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     const jg_real s_j_cross_h_i_world_2 = s_j_world_0 * h_i_world_1 - s_j_world_1 * h_i_world_0;
     const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
     /* s_j_cross_f_i_world = s_j x f_i, world axes */
-    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
+    const jg_real s_j_cross_f_i_world_0 = s_j_world_1 * f_i_world_2 - f_i_world_1 * s_j_world_2;
     /* s_j_cross_g_i_world = s_j x g_i, world axes */
     const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
     phi_q[21] = f_i_cross_h_j_world_2;
@@ -908,19 +908,20 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     phi_q[40] = -f_i_cross_h_j_world_1;
     phi_q[41] = -g_i_cross_h_j_world_1;
     phi_q[34] = s_j_cross_g_i_world_0;
-    const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
+    const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - s_j_world_0 * f_i_world_2;
     const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
     /* v_5_world = lambda_1 g_i, world axes */
     const jg_real v_5_world_2 = g_i_world_2 * lambda[1];
-    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
+    const jg_real s_j_cross_f_i_world_2 = s_j_world_0 * f_i_world_1 - f_i_world_0 * s_j_world_1;
     const jg_real v_5_world_1 = g_i_world_1 * lambda[1];
     const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
     const jg_real v_5_world_0 = g_i_world_0 * lambda[1];
     /* v_4_world = lambda_0 f_i + lambda_4 h_i, world axes */
-    const jg_real v_4_world_2 = f_i_world_2 * lambda[0] + h_i_world_2 * lambda[4];
-    const jg_real v_4_world_1 = f_i_world_1 * lambda[0] + h_i_world_1 * lambda[4];
+    const jg_real v_4_world_2 = h_i_world_2 * lambda[4] + f_i_world_2 * lambda[0];
+    const jg_real v_4_world_1 = h_i_world_1 * lambda[4] + f_i_world_1 * lambda[0];
     const jg_real t66 = pitch * spread;
-    const jg_real v_4_world_0 = f_i_world_0 * lambda[0] + h_i_world_0 * lambda[4];
+    const jg_real t67 = spread * JG_REAL(2.0);
+    const jg_real v_4_world_0 = h_i_world_0 * lambda[4] + f_i_world_0 * lambda[0];
     /* h_i_cross_f_j_world = h_i x f_j, world axes */
     const jg_real h_i_cross_f_j_world_1 = g_i_world_1 * f_i_dot_f_j - f_i_world_1 * g_i_dot_f_j;
     /* v_6_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
@@ -951,23 +952,23 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     phi_q_t_lambda_q[39] = v_6_world_0;
     const jg_real h_i_cross_f_j_world_2 = g_i_world_2 * f_i_dot_f_j - f_i_world_2 * g_i_dot_f_j;
     const jg_real v_13_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    const jg_real t76 = -v_6_world_2;
-    const jg_real t77 = -v_6_world_1;
-    phi_q_t_lambda_q[0] = t76;
-    phi_q_t_lambda_q[11] = t76;
-    phi_q_t_lambda_q[16] = t76;
-    phi_q_t_lambda_q[38] = t76;
-    phi_q_t_lambda_q[4] = t77;
-    phi_q_t_lambda_q[7] = t77;
-    phi_q_t_lambda_q[31] = t77;
-    phi_q_t_lambda_q[37] = t77;
+    const jg_real t77 = -v_6_world_2;
+    const jg_real t78 = -v_6_world_1;
+    phi_q_t_lambda_q[0] = t77;
+    phi_q_t_lambda_q[11] = t77;
+    phi_q_t_lambda_q[16] = t77;
+    phi_q_t_lambda_q[38] = t77;
+    phi_q_t_lambda_q[4] = t78;
+    phi_q_t_lambda_q[7] = t78;
+    phi_q_t_lambda_q[31] = t78;
+    phi_q_t_lambda_q[37] = t78;
     /* v_2_world = pitch spread across - s_j x h_i, world axes */
     const jg_real v_2_world_0 = t66 * across_world_0 - s_j_cross_h_i_world_0;
     const jg_real v_2_world_1 = t66 * across_world_1 - s_j_cross_h_i_world_1;
     const jg_real v_2_world_2 = t66 * across_world_2 - s_j_cross_h_i_world_2;
-    /* v_9_in_joint_i = pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_9_in_joint_i_2 = spread * v_8_in_joint_i_2;
-    const jg_real t82 = -v_6_world_0;
+    /* v_11_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
+    const jg_real v_11_in_joint_i_2 = v_8_in_joint_i_2 * t67;
+    const jg_real t83 = -v_6_world_0;
     /* v_7_world = pitch spread lambda_4 f_j, world axes */
     const jg_real v_7_world_1 = f_j_world_1 * v_8_in_joint_i_2;
     const jg_real v_7_world_2 = f_j_world_2 * v_8_in_joint_i_2;
@@ -976,41 +977,35 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     const jg_real v_3_world_0 = v_2_world_0 - r_ij_cross_h_i_world_0;
     const jg_real v_3_world_1 = v_2_world_1 - r_ij_cross_h_i_world_1;
     const jg_real v_3_world_2 = v_2_world_2 - r_ij_cross_h_i_world_2;
-    phi_q_t_lambda_q[3] = t82;
-    phi_q_t_lambda_q[22] = t82;
-    phi_q_t_lambda_q[27] = t82;
-    phi_q_t_lambda_q[41] = t82;
+    phi_q_t_lambda_q[3] = t83;
+    phi_q_t_lambda_q[22] = t83;
+    phi_q_t_lambda_q[27] = t83;
+    phi_q_t_lambda_q[41] = t83;
     phi_q[13] = v_3_world_0;
     phi_q[18] = v_3_world_1;
     phi_q[23] = v_3_world_2;
     phi_q[37] = -v_2_world_0;
-    /* v_11_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_11_in_joint_i_2 = JG_REAL(2.0) * v_9_in_joint_i_2;
+    const jg_real t90 = h_i_dot_f_j * v_11_in_joint_i_2;
     const jg_real h_i_cross_f_j_world_0 = g_i_world_0 * f_i_dot_f_j - f_i_world_0 * g_i_dot_f_j;
-    const jg_real t91 = h_i_dot_f_j * v_11_in_joint_i_2;
     const jg_real v_13_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    /* v_12_world = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, world axes */
+    const jg_real v_12_world_1 = v_7_world_1 - across_world_1 * t90;
+    const jg_real v_12_world_2 = v_7_world_2 - across_world_2 * t90;
+    const jg_real v_12_world_0 = v_7_world_0 - across_world_0 * t90;
     /* v_15_world = pitch (h_i . f_j) spread lambda_4 f_j, world axes */
     const jg_real v_15_world_2 = h_i_dot_f_j * v_7_world_2;
     const jg_real v_15_world_1 = h_i_dot_f_j * v_7_world_1;
     const jg_real v_15_world_0 = h_i_dot_f_j * v_7_world_0;
-    /* v_12_world = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, world axes */
-    const jg_real v_12_world_1 = v_7_world_1 - across_world_1 * t91;
-    const jg_real v_12_world_2 = v_7_world_2 - across_world_2 * t91;
-    const jg_real v_12_world_0 = v_7_world_0 - across_world_0 * t91;
-    /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
     /* M_0_world_world = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j)
         ... */
     const jg_real M_0_world_world_4 = s_j_world_1 * v_6_world_1 - v_12_world_1 * h_i_cross_f_j_world_1 + h_j_world_1
         * v_13_world_1;
     const jg_real M_0_world_world_8 = s_j_world_2 * v_6_world_2 - v_12_world_2 * h_i_cross_f_j_world_2 + h_j_world_2
         * v_13_world_2;
-    const jg_real t102 = h_i_world_0 * v_12_world_0 + h_i_world_1 * v_12_world_1 + h_i_world_2 * v_12_world_2;
-    /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
-    const jg_real M_0_world_world_1 = s_j_world_0 * v_6_world_1 - v_12_world_0 * h_i_cross_f_j_world_1 + h_j_world_0
+    const jg_real t101 = h_i_world_0 * v_12_world_0 + h_i_world_1 * v_12_world_1 + h_i_world_2 * v_12_world_2;
+    const jg_real M_0_world_world_1 = s_j_world_0 * v_6_world_1 - h_i_cross_f_j_world_1 * v_12_world_0 + h_j_world_0
         * v_13_world_1;
-    const jg_real M_0_world_world_2 = s_j_world_0 * v_6_world_2 - v_12_world_0 * h_i_cross_f_j_world_2 + h_j_world_0
+    const jg_real M_0_world_world_2 = s_j_world_0 * v_6_world_2 - h_i_cross_f_j_world_2 * v_12_world_0 + h_j_world_0
         * v_13_world_2;
     const jg_real M_0_world_world_3 = s_j_world_1 * v_6_world_0 - v_12_world_1 * h_i_cross_f_j_world_0 + h_j_world_1
         * v_13_world_0;
@@ -1020,62 +1015,67 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
         * v_13_world_2;
     const jg_real M_0_world_world_6 = s_j_world_2 * v_6_world_0 - v_12_world_2 * h_i_cross_f_j_world_0 + h_j_world_2
         * v_13_world_0;
-    const jg_real M_0_world_world_7 = s_j_world_2 * v_6_world_1 - v_12_world_2 * h_i_cross_f_j_world_1 + h_j_world_2
-        * v_13_world_1;
-    const jg_real t111 = M_0_world_world_4 + r_ij_world_1 * v_6_world_1;
-    const jg_real t112 = M_0_world_world_8 + r_ij_world_2 * v_6_world_2;
-    const jg_real t113 = M_0_world_world_4 + M_0_world_world_8;
+    /* v_j_in_joint_i = v_j, axes of joint i */
+    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    const jg_real t109 = M_0_world_world_4 + r_ij_world_1 * v_6_world_1;
+    const jg_real t110 = M_0_world_world_8 + r_ij_world_2 * v_6_world_2;
+    const jg_real t111 = M_0_world_world_4 + M_0_world_world_8;
     /* v_14_world = (2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread lambda_4 - 2 pitch (h_i . f_j) ... */
-    const jg_real v_14_world_2 = f_j_world_2 * t102;
-    const jg_real v_14_world_1 = f_j_world_1 * t102;
-    const jg_real v_14_world_0 = f_j_world_0 * t102;
-    const jg_real t117 = M_0_world_world_1 + v_15_world_2;
-    const jg_real t118 = M_0_world_world_3 - v_15_world_2;
-    const jg_real t119 = M_0_world_world_0 + r_ij_world_0 * v_6_world_0;
-    const jg_real t120 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real v_14_world_2 = f_j_world_2 * t101;
+    const jg_real v_14_world_1 = f_j_world_1 * t101;
+    const jg_real v_14_world_0 = f_j_world_0 * t101;
+    const jg_real M_0_world_world_7 = s_j_world_2 * v_6_world_1 - h_i_cross_f_j_world_1 * v_12_world_2 + h_j_world_2
+        * v_13_world_1;
+    const jg_real t116 = M_0_world_world_3 - v_15_world_2;
+    const jg_real t117 = M_0_world_world_0 + r_ij_world_0 * v_6_world_0;
+    const jg_real t118 = M_0_world_world_8 + M_0_world_world_0;
+    const jg_real t119 = M_0_world_world_4 + M_0_world_world_0;
     phi_q[42] = -v_2_world_1;
     phi_q[47] = -v_2_world_2;
-    phi_q_t_lambda_q[13] = t113;
-    phi_q_t_lambda_q[42] = t113;
-    phi_q_t_lambda_q[51] = t117;
-    phi_q_t_lambda_q[46] = t118;
-    phi_q_t_lambda_q[24] = t120;
-    phi_q_t_lambda_q[49] = t120;
-    const jg_real t121 = M_0_world_world_0 + M_0_world_world_4;
-    const jg_real t122 = M_0_world_world_6 + v_15_world_1;
-    const jg_real t123 = M_0_world_world_7 - v_15_world_0;
-    const jg_real t124 = M_0_world_world_1 - v_14_world_2;
-    const jg_real t125 = M_0_world_world_2 + v_14_world_1;
-    const jg_real t126 = M_0_world_world_3 + v_14_world_2;
-    const jg_real t127 = M_0_world_world_5 - v_14_world_0;
-    const jg_real t128 = M_0_world_world_6 - v_14_world_1;
-    const jg_real t129 = M_0_world_world_7 + v_14_world_0;
-    phi_q_t_lambda_q[35] = t121;
-    phi_q_t_lambda_q[56] = t121;
-    phi_q_t_lambda_q[47] = t122;
-    phi_q_t_lambda_q[53] = t123;
-    phi_q_t_lambda_q[45] = -t113;
-    phi_q_t_lambda_q[43] = -t118;
-    phi_q_t_lambda_q[44] = -t122;
-    phi_q_t_lambda_q[8] = -(t111 + t112);
-    phi_q_t_lambda_q[48] = -t117;
-    phi_q_t_lambda_q[9] = t124 + r_ij_world_0 * v_6_world_1;
-    phi_q_t_lambda_q[10] = t125 + r_ij_world_0 * v_6_world_2;
-    phi_q_t_lambda_q[14] = -t124;
-    phi_q_t_lambda_q[15] = -t125;
-    phi_q_t_lambda_q[18] = t126 + r_ij_world_1 * v_6_world_0;
-    phi_q_t_lambda_q[19] = -(t119 + t112);
-    phi_q_t_lambda_q[20] = t127 + r_ij_world_1 * v_6_world_2;
-    phi_q_t_lambda_q[23] = -t126;
-    phi_q_t_lambda_q[25] = -t127;
-    phi_q_t_lambda_q[28] = t128 + r_ij_world_2 * v_6_world_0;
-    phi_q_t_lambda_q[29] = t129 + r_ij_world_2 * v_6_world_1;
-    phi_q_t_lambda_q[30] = -(t119 + t111);
-    phi_q_t_lambda_q[33] = -t128;
-    phi_q_t_lambda_q[34] = -t129;
-    phi_q_t_lambda_q[50] = -t123;
-    const jg_real t130 = M_0_world_world_2 - v_15_world_1;
-    const jg_real t131 = M_0_world_world_5 + v_15_world_0;
+    phi_q_t_lambda_q[13] = t111;
+    phi_q_t_lambda_q[42] = t111;
+    phi_q_t_lambda_q[46] = t116;
+    phi_q_t_lambda_q[24] = t118;
+    phi_q_t_lambda_q[49] = t118;
+    phi_q_t_lambda_q[35] = t119;
+    phi_q_t_lambda_q[56] = t119;
+    const jg_real t120 = M_0_world_world_6 + v_15_world_1;
+    const jg_real t121 = M_0_world_world_1 + v_15_world_2;
+    const jg_real t122 = M_0_world_world_1 - v_14_world_2;
+    const jg_real t123 = v_14_world_1 + M_0_world_world_2;
+    const jg_real t124 = v_14_world_2 + M_0_world_world_3;
+    const jg_real t125 = M_0_world_world_5 - v_14_world_0;
+    const jg_real t126 = M_0_world_world_6 - v_14_world_1;
+    const jg_real t127 = v_14_world_0 + M_0_world_world_7;
+    phi_q_t_lambda_q[47] = t120;
+    phi_q_t_lambda_q[51] = t121;
+    phi_q_t_lambda_q[45] = -t111;
+    phi_q_t_lambda_q[43] = -t116;
+    phi_q_t_lambda_q[44] = -t120;
+    phi_q_t_lambda_q[8] = -(t109 + t110);
+    phi_q_t_lambda_q[48] = -t121;
+    phi_q_t_lambda_q[9] = t122 + r_ij_world_0 * v_6_world_1;
+    phi_q_t_lambda_q[10] = t123 + r_ij_world_0 * v_6_world_2;
+    phi_q_t_lambda_q[14] = -t122;
+    phi_q_t_lambda_q[15] = -t123;
+    phi_q_t_lambda_q[18] = t124 + r_ij_world_1 * v_6_world_0;
+    phi_q_t_lambda_q[19] = -(t110 + t117);
+    phi_q_t_lambda_q[20] = t125 + r_ij_world_1 * v_6_world_2;
+    phi_q_t_lambda_q[23] = -t124;
+    phi_q_t_lambda_q[25] = -t125;
+    const jg_real t128 = M_0_world_world_7 - v_15_world_0;
+    const jg_real t129 = M_0_world_world_2 - v_15_world_1;
+    phi_q_t_lambda_q[28] = t126 + r_ij_world_2 * v_6_world_0;
+    phi_q_t_lambda_q[29] = t127 + r_ij_world_2 * v_6_world_1;
+    phi_q_t_lambda_q[30] = -(t109 + t117);
+    phi_q_t_lambda_q[33] = -t126;
+    phi_q_t_lambda_q[34] = -t127;
+    phi_q_t_lambda_q[53] = t128;
+    phi_q_t_lambda_q[52] = -t118;
+    phi_q_t_lambda_q[57] = t129;
+    const jg_real t130 = M_0_world_world_5 + v_15_world_0;
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 * omega_i[2];
     const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
@@ -1092,9 +1092,9 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i[0] + r_ij_world_1 * omega_i[1] + r_ij_world_2 *
         omega_i[2];
+    const jg_real t140 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
-    const jg_real t141 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* v_i_in_joint_i = v_i, axes of joint i */
@@ -1108,17 +1108,6 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i[0] + h_j_world_1 * omega_i[1] + h_j_world_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
-    phi_q_t_lambda_q[52] = -t120;
-    phi_q_t_lambda_q[57] = t130;
-    phi_q_t_lambda_q[58] = t131;
-    phi_q_t_lambda_q[59] = -t121;
-    phi_q_t_lambda_q[54] = -t130;
-    phi_q_t_lambda_q[55] = -t131;
-    phi[4] = v_0_in_joint_i_1 - s_i_dot_h_i - pitch * (theta + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    gamma[0] = s_j_dot_f_i * t141 - f_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
-        (JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j) + r_ij_dot_f_i * omega_i_dot_omega_i + JG_REAL(2.0) *
-        (g_i_dot_omega_i * v_j_in_joint_i_2 - h_i_dot_omega_i * v_j_in_joint_i_1) - JG_REAL(2.0) * (g_i_dot_omega_i
-        * v_i_in_joint_i_2 - h_i_dot_omega_i * v_i_in_joint_i_1);
     /* f_j_cross_omega_i_in_joint_i = f_j x omega_i, axes of joint i */
     const jg_real f_j_cross_omega_i_in_joint_i_2 = f_i_dot_f_j * g_i_dot_omega_i - g_i_dot_f_j * f_i_dot_omega_i;
     const jg_real t151 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
@@ -1130,24 +1119,33 @@ void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, con
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_j_world_0 * omega_j[0] + f_j_world_1 * omega_j[1] + f_j_world_2 * omega_j[2];
     const jg_real t156 = t154 - f_j_cross_omega_i_in_joint_i_2;
+    phi_q_t_lambda_q[58] = t130;
+    phi_q_t_lambda_q[59] = -t119;
+    phi_q_t_lambda_q[50] = -t128;
+    phi_q_t_lambda_q[54] = -t129;
+    phi_q_t_lambda_q[55] = -t130;
+    phi[4] = v_0_in_joint_i_1 - s_i_dot_h_i - (theta + theta_0 + revolutions * JG_REAL(6.283185307179586)) * pitch;
+    gamma[0] = s_j_dot_f_i * t140 - f_i_dot_omega_i * (s_j_dot_omega_i + r_ij_dot_omega_i) + (JG_REAL(2.0) *
+        s_j_dot_omega_i - s_j_dot_omega_j) * f_i_dot_omega_j + r_ij_dot_f_i * omega_i_dot_omega_i + JG_REAL(2.0) *
+        (v_j_in_joint_i_2 * g_i_dot_omega_i - h_i_dot_omega_i * v_j_in_joint_i_1) - JG_REAL(2.0) * (g_i_dot_omega_i
+        * v_i_in_joint_i_2 - h_i_dot_omega_i * v_i_in_joint_i_1);
+    gamma[2] = f_i_dot_h_j * t140 + f_i_dot_omega_j * t151 - f_i_dot_omega_i * h_j_dot_omega_i;
     const jg_real t157 = f_j_dot_omega_i - f_j_dot_omega_j;
     const jg_real t158 = f_j_cross_omega_i_in_joint_i_2 * t157;
-    const jg_real t159 = t154 * t157;
-    gamma[2] = f_i_dot_h_j * t141 + f_i_dot_omega_j * t151 - f_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[3] = g_i_dot_h_j * t141 + g_i_dot_omega_j * t151 - g_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[1] = s_j_dot_g_i * t141 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
-        r_ij_dot_g_i * omega_i_dot_omega_i - r_ij_dot_omega_i * g_i_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
-        + JG_REAL(2.0) * (h_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i * v_j_in_joint_i_2) - JG_REAL(2.0) *
+    const jg_real t159 = t157 * t154;
+    gamma[3] = g_i_dot_h_j * t140 + g_i_dot_omega_j * t151 - g_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[1] = s_j_dot_g_i * t140 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
+        r_ij_dot_g_i * omega_i_dot_omega_i - g_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
+        + JG_REAL(2.0) * (h_i_dot_omega_i * v_j_in_joint_i_0 - v_j_in_joint_i_2 * f_i_dot_omega_i) - JG_REAL(2.0) *
         (h_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_2);
     gamma[4] = t66 * (t158 + h_i_dot_f_j * (h_i_dot_omega_j * f_j_cross_omega_i_in_joint_i_2 - (f_i_dot_omega_j *
         (h_i_dot_f_j * g_i_dot_omega_i - g_i_dot_f_j * h_i_dot_omega_i) + g_i_dot_omega_j * (f_i_dot_f_j *
-        h_i_dot_omega_i - h_i_dot_f_j * f_i_dot_omega_i)) + (h_i_dot_f_j * (t158 - t159) + h_i_dot_omega_i * t156 -
-        h_i_dot_omega_j * t156) * (JG_REAL(2.0) * spread)) - t159 - (f_i_dot_omega_i * g_i_dot_omega_j -
-        f_i_dot_omega_j * g_i_dot_omega_i)) + s_j_dot_h_i * t141 + s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j
-        - h_i_dot_omega_i) + r_ij_dot_h_i * omega_i_dot_omega_i - r_ij_dot_omega_i * h_i_dot_omega_i -
-        s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0) * (g_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i *
-        v_j_in_joint_i_1) + JG_REAL(2.0) * (g_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i *
-        v_i_in_joint_i_1);
+        h_i_dot_omega_i - h_i_dot_f_j * f_i_dot_omega_i)) + t67 * (h_i_dot_f_j * (t158 - t159) + h_i_dot_omega_i *
+        t156 - h_i_dot_omega_j * t156)) - t159 - (f_i_dot_omega_i * g_i_dot_omega_j - g_i_dot_omega_i *
+        f_i_dot_omega_j)) + s_j_dot_h_i * t140 + s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j -
+        h_i_dot_omega_i) + r_ij_dot_h_i * omega_i_dot_omega_i - h_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j
+        * h_i_dot_omega_j - JG_REAL(2.0) * (g_i_dot_omega_i * v_j_in_joint_i_0 - v_j_in_joint_i_1 * f_i_dot_omega_i)
+        + JG_REAL(2.0) * (g_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_1);
 }
 
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

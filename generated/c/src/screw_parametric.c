@@ -969,18 +969,21 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    /* v_3_in_i = pitch h_i, axes of body i */
+    const jg_real v_3_in_i_0 = pitch * C_i[6];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t11 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real t9 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real v_3_in_i_1 = pitch * C_i[7];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    /* v_1_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
+    const jg_real v_1_in_i_0 = t9 * v_3_in_i_0 + s_i[0];
+    const jg_real v_3_in_i_2 = pitch * C_i[8];
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
     phi_q[22] = A_ij_4;
     phi_q[26] = A_ij_8;
     phi_q[23] = A_ij_5;
@@ -989,40 +992,41 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
     phi_q[24] = A_ij_6;
     phi_q[18] = A_ij_0;
     phi_q[19] = A_ij_1;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    /* v_1_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + t11 * C_i[6];
-    const jg_real v_1_in_i_1 = s_i[1] + t11 * C_i[7];
-    const jg_real v_1_in_i_2 = s_i[2] + t11 * C_i[8];
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real v_1_in_i_1 = t9 * v_3_in_i_1 + s_i[1];
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    const jg_real v_1_in_i_2 = t9 * v_3_in_i_2 + s_i[2];
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
+    const jg_real s_j_in_i_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
+    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
     /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
     const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
     phi_q[20] = A_ij_2;
     phi_q[9] = e_ij_in_i_0;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[13] = e_ij_in_i_1;
-    phi_q[3] = e_ij_in_i_2;
     phi[0] = v_2_in_i_0;
+    phi_q[3] = e_ij_in_i_2;
     const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
+    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
     /* h_star_dot_h_j = h_star . h_j */
     const jg_real h_star_dot_h_j = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
@@ -1031,119 +1035,138 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
     phi_q[4] = -e_ij_in_i_1;
     phi[2] = v_2_in_i_2;
     phi_q[8] = -e_ij_in_i_2;
-    phi_q[27] = A_ij_1 * s_j_in_i_2 - A_ij_2 * s_j_in_i_1;
-    phi_q[28] = A_ij_2 * s_j_in_i_0 - A_ij_0 * s_j_in_i_2;
-    phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
+    phi_q[27] = A_ij_1 * s_j_in_i_2 - s_j_in_i_1 * A_ij_2;
+    phi_q[28] = s_j_in_i_0 * A_ij_2 - A_ij_0 * s_j_in_i_2;
+    phi_q[29] = A_ij_0 * s_j_in_i_1 - s_j_in_i_0 * A_ij_1;
     /* h_star_dot_g_j = h_star . g_j */
-    const jg_real h_star_dot_g_j = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
-    /* v_3_in_i = pitch h_i, axes of body i */
-    const jg_real v_3_in_i_0 = pitch * C_i[6];
-    const jg_real v_3_in_i_1 = pitch * C_i[7];
-    const jg_real v_3_in_i_2 = pitch * C_i[8];
+    const jg_real h_star_dot_g_j = h_star_in_j_0 * C_j[3] + h_star_in_j_1 * C_j[4] + C_j[5] * h_star_in_j_2;
     phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
     phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
     phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
     phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
+    phi_q[45] = -v_3_in_i_0;
+    phi_q[46] = -v_3_in_i_1;
     phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
-    phi_q_t_lambda_q[2] = lambda[2];
-    phi_q_t_lambda_q[0] = -lambda[2];
-    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
+    phi_q[47] = -v_3_in_i_2;
     /* v_6_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_6_in_i_1 = h_j_in_i_1 * lambda[3];
     const jg_real v_6_in_i_2 = h_j_in_i_2 * lambda[3];
+    phi_q_t_lambda_q[2] = lambda[2];
+    phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    phi_q[45] = -v_3_in_i_0;
-    phi_q[46] = -v_3_in_i_1;
-    phi_q[47] = -v_3_in_i_2;
+    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
     phi_q[31] = C_j[6] * h_star_dot_g_j - C_j[3] * h_star_dot_h_j;
     /* v_4_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_4_in_j_1 = C_j[1] * lambda[4];
+    const jg_real v_4_in_j_1 = lambda[4] * C_j[1];
     const jg_real t44 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    const jg_real v_4_in_j_2 = C_j[2] * lambda[4];
-    const jg_real t46 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    const jg_real t45 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    const jg_real v_4_in_j_2 = lambda[4] * C_j[2];
     const jg_real t47 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
     phi_q[37] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
     phi_q[43] = C_j[8] * h_star_dot_g_j - C_j[5] * h_star_dot_h_j;
     phi_q_t_lambda_q[9] = t44;
     phi_q_t_lambda_q[36] = t44;
-    phi_q_t_lambda_q[10] = t46;
-    phi_q_t_lambda_q[39] = t46;
+    phi_q_t_lambda_q[10] = t45;
+    phi_q_t_lambda_q[39] = t45;
     phi_q_t_lambda_q[11] = t47;
     phi_q_t_lambda_q[42] = t47;
-    const jg_real v_4_in_j_0 = C_j[0] * lambda[4];
-    const jg_real t49 = h_star_dot_g_j * lambda[5];
+    const jg_real v_4_in_j_0 = lambda[4] * C_j[0];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    const jg_real t51 = h_star_dot_h_j * lambda[3];
     const jg_real v_6_in_i_0 = h_j_in_i_0 * lambda[3];
     const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
     const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    const jg_real t55 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    const jg_real t56 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    const jg_real t57 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    const jg_real t53 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    const jg_real t54 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    const jg_real t55 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
     phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[19] = t55;
-    phi_q_t_lambda_q[37] = t55;
-    phi_q_t_lambda_q[20] = t56;
-    phi_q_t_lambda_q[40] = t56;
-    phi_q_t_lambda_q[21] = t57;
-    phi_q_t_lambda_q[43] = t57;
-    const jg_real t58 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    const jg_real t60 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real t62 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[19] = t53;
+    phi_q_t_lambda_q[37] = t53;
+    phi_q_t_lambda_q[20] = t54;
+    phi_q_t_lambda_q[40] = t54;
+    phi_q_t_lambda_q[21] = t55;
+    phi_q_t_lambda_q[43] = t55;
+    const jg_real t56 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    const jg_real t57 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    const jg_real t58 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
     phi_q_t_lambda_q[49] = -lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[57] = -lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[67] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[29] = t58;
-    phi_q_t_lambda_q[38] = t58;
-    phi_q_t_lambda_q[30] = t60;
-    phi_q_t_lambda_q[41] = t60;
-    phi_q_t_lambda_q[31] = t62;
-    phi_q_t_lambda_q[44] = t62;
+    phi_q_t_lambda_q[29] = t56;
+    phi_q_t_lambda_q[38] = t56;
+    phi_q_t_lambda_q[30] = t57;
+    phi_q_t_lambda_q[41] = t57;
+    phi_q_t_lambda_q[31] = t58;
+    phi_q_t_lambda_q[44] = t58;
+    /* v_10_in_i = 2 omega_i, axes of body i */
+    const jg_real v_10_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_10_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_10_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    /* h_star_dot_omega_j = h_star . omega_j */
+    const jg_real h_star_dot_omega_j = h_star_in_j_0 * omega_j[0] + h_star_in_j_1 * omega_j[1] + h_star_in_j_2 *
+        omega_j[2];
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    const jg_real t65 = JG_REAL(2.0) * alphadot;
+    const jg_real t66 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    /* v_13_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
+    const jg_real v_13_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
+    const jg_real v_13_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
+    const jg_real v_13_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
+    /* v_16_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
+    const jg_real v_16_in_i_0 = omega_i[0] * t66;
+    /* g_star_in_i = g_star, axes of body i */
+    const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    /* v_11_in_i = v_j - v_i, axes of body i */
+    const jg_real v_11_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real v_16_in_i_1 = omega_i[1] * t66;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + C_i[3] * sine_0;
+    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real v_16_in_i_2 = omega_i[2] * t66;
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = h_j_in_i_0 * g_star_in_i_0 + h_j_in_i_1 * g_star_in_i_1 + h_j_in_i_2 *
         g_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_ij_3 * f_star_in_i_0 + A_ij_4 * f_star_in_i_1 + A_ij_5 * f_star_in_i_2;
     const jg_real f_star_in_j_0 = A_ij_0 * f_star_in_i_0 + A_ij_1 * f_star_in_i_1 + A_ij_2 * f_star_in_i_2;
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real v_11_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_11_in_i_0 = v_j_in_i_0 - v_i[0];
     const jg_real f_star_in_j_2 = A_ij_6 * f_star_in_i_0 + A_ij_7 * f_star_in_i_1 + A_ij_8 * f_star_in_i_2;
-    /* v_10_in_i = 2 omega_i, axes of body i */
-    const jg_real v_10_in_i_0 = JG_REAL(2.0) * omega_i[0];
-    const jg_real v_10_in_i_1 = JG_REAL(2.0) * omega_i[1];
-    const jg_real v_10_in_i_2 = JG_REAL(2.0) * omega_i[2];
     /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
+    const jg_real g_star_in_j_2 = h_star_in_j_0 * f_star_in_j_1 - f_star_in_j_0 * h_star_in_j_1;
     /* v_7_in_j = lambda_5 f_star, axes of body j */
     const jg_real v_7_in_j_1 = f_star_in_j_1 * lambda[5];
-    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
-    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
+    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - h_star_in_j_0 * f_star_in_j_2;
+    const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real v_7_in_j_2 = f_star_in_j_2 * lambda[5];
     const jg_real v_7_in_j_0 = f_star_in_j_0 * lambda[5];
     /* v_8_in_j = lambda_3 g_star, axes of body j */
     const jg_real v_8_in_j_2 = g_star_in_j_2 * lambda[3];
     /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + C_j[5] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
     const jg_real v_8_in_j_1 = g_star_in_j_1 * lambda[3];
     const jg_real v_8_in_j_0 = g_star_in_j_0 * lambda[3];
     /* g_star_dot_g_j = g_star . g_j */
-    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
+    const jg_real g_star_dot_g_j = g_star_in_j_1 * C_j[4] + g_star_in_j_0 * C_j[3] + g_star_in_j_2 * C_j[5];
     /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
     const jg_real g_star_cross_h_j_in_i_0 = f_star_in_i_0 * h_star_dot_h_j - C_i[6] * f_star_dot_h_j;
     const jg_real g_star_cross_h_j_in_i_1 = f_star_in_i_1 * h_star_dot_h_j - C_i[7] * f_star_dot_h_j;
@@ -1175,15 +1198,15 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
     phi_q[17] = f_star_cross_g_j_in_i_2;
     phi_q[32] = g_star_in_j_0 * h_star_dot_g_j - h_star_in_j_0 * g_star_dot_g_j;
     phi_q[38] = g_star_in_j_1 * h_star_dot_g_j - h_star_in_j_1 * g_star_dot_g_j;
-    const jg_real t96 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t111 = M_1_j_j_4 + M_1_j_j_8;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + h_star_in_j_0 * v_4_in_j_2 + C_j[5] * v_7_in_j_0 +
         C_j[8] * v_8_in_j_0;
     /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_1 = f_star_in_i_1 * f_star_dot_g_j + g_star_in_i_1 * g_star_dot_g_j + C_i[7] *
+    const jg_real g_j_in_i_1 = g_star_in_i_1 * g_star_dot_g_j + f_star_in_i_1 * f_star_dot_g_j + C_i[7] *
         h_star_dot_g_j;
-    const jg_real g_j_in_i_2 = f_star_in_i_2 * f_star_dot_g_j + g_star_in_i_2 * g_star_dot_g_j + C_i[8] *
+    const jg_real g_j_in_i_2 = g_star_in_i_2 * g_star_dot_g_j + f_star_in_i_2 * f_star_dot_g_j + C_i[8] *
         h_star_dot_g_j;
-    const jg_real g_j_in_i_0 = f_star_in_i_0 * f_star_dot_g_j + g_star_in_i_0 * g_star_dot_g_j + C_i[6] *
+    const jg_real g_j_in_i_0 = g_star_in_i_0 * g_star_dot_g_j + f_star_in_i_0 * f_star_dot_g_j + C_i[6] *
         h_star_dot_g_j;
     /* v_5_in_i = lambda_5 g_j, axes of body i */
     const jg_real v_5_in_i_1 = g_j_in_i_1 * lambda[5];
@@ -1205,7 +1228,7 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
         C_j[6] * v_8_in_j_1;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + h_star_in_j_1 * v_4_in_j_2 + C_j[5] * v_7_in_j_1 +
         C_j[8] * v_8_in_j_1;
-    const jg_real t114 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t96 + A_ij_6 * M_1_j_j_6);
+    const jg_real t129 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t111 + A_ij_6 * M_1_j_j_6);
     phi_q[44] = g_star_in_j_2 * h_star_dot_g_j - h_star_in_j_2 * g_star_dot_g_j;
     phi_q_t_lambda_q[68] = M_1_j_j_6;
     phi_q[6] = h_star_cross_f_j_in_i_0;
@@ -1213,10 +1236,10 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
     phi_q[16] = h_star_cross_f_j_in_i_2;
     phi_q_t_lambda_q[51] = M_1_j_j_1;
     phi_q_t_lambda_q[69] = M_1_j_j_7;
-    phi_q_t_lambda_q[12] = t114;
-    phi_q_t_lambda_q[45] = t114;
-    const jg_real t115 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t116 = M_1_j_j_0 + M_1_j_j_4;
+    phi_q_t_lambda_q[12] = t129;
+    phi_q_t_lambda_q[45] = t129;
+    const jg_real t130 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t131 = M_1_j_j_4 + M_1_j_j_0;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
     const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + h_star_in_j_2 * v_4_in_j_0 + C_j[3] * v_7_in_j_2 +
@@ -1226,129 +1249,119 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
     /* v_9_in_star = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body star */
     const jg_real v_9_in_star_2 = g_star_dot_h_j * lambda[3] + f_star_dot_g_j * lambda[5];
     const jg_real v_4_in_i_0 = f_j_in_i_0 * lambda[4];
-    const jg_real v_5_in_i_0 = g_j_in_i_0 * lambda[5];
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + C_i[7] * v_4_in_i_1 + f_star_in_i_1 * v_5_in_i_1 +
+    const jg_real M_0_i_i_4 = C_i[7] * v_4_in_i_1 + e_ij_in_i_1 * lambda[1] + f_star_in_i_1 * v_5_in_i_1 +
         g_star_in_i_1 * v_6_in_i_1;
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + C_i[6] * v_4_in_i_1 + f_star_in_i_0 * v_5_in_i_1 +
+    const jg_real M_0_i_i_3 = C_i[6] * v_4_in_i_1 + e_ij_in_i_1 * lambda[0] + f_star_in_i_0 * v_5_in_i_1 +
         g_star_in_i_0 * v_6_in_i_1;
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + C_i[8] * v_4_in_i_2 + f_star_in_i_2 * v_5_in_i_2 +
+    const jg_real M_0_i_i_8 = C_i[8] * v_4_in_i_2 + e_ij_in_i_2 * lambda[2] + f_star_in_i_2 * v_5_in_i_2 +
         g_star_in_i_2 * v_6_in_i_2;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_4_in_i_2 + f_star_in_i_0 * v_5_in_i_2 +
+    const jg_real M_0_i_i_6 = C_i[6] * v_4_in_i_2 + e_ij_in_i_2 * lambda[0] + f_star_in_i_0 * v_5_in_i_2 +
         g_star_in_i_0 * v_6_in_i_2;
-    const jg_real t127 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t115 + A_ij_6 * M_1_j_j_7);
+    const jg_real v_5_in_i_0 = g_j_in_i_0 * lambda[5];
+    const jg_real t142 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t130 + A_ij_6 * M_1_j_j_7);
     /* v_9_in_j = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body j */
-    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (f_star_in_j_0 * t49 + g_star_in_j_0 * t51);
+    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_0 + h_star_dot_h_j *
+        v_8_in_j_0);
     phi[4] = h_star_dot_f_j;
     phi_q_t_lambda_q[52] = M_1_j_j_2;
     phi_q_t_lambda_q[61] = M_1_j_j_5;
     phi_q_t_lambda_q[7] = M_0_i_i_3;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
-    phi_q_t_lambda_q[13] = t127;
-    phi_q_t_lambda_q[54] = t127;
+    phi_q_t_lambda_q[13] = t142;
+    phi_q_t_lambda_q[54] = t142;
     phi_q_t_lambda_q[53] = v_9_in_j_0;
     phi_q_t_lambda_q[75] = v_9_in_j_0;
-    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (f_star_in_j_1 * t49 + g_star_in_j_1 * t51);
-    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (f_star_in_j_2 * t49 + g_star_in_j_2 * t51);
-    const jg_real t131 = A_ij_6 * t116 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_4_in_i_0 + f_star_in_i_1 * v_5_in_i_0 +
+    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (h_star_dot_h_j * v_8_in_j_1 + h_star_dot_g_j *
+        v_7_in_j_1);
+    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (h_star_dot_h_j * v_8_in_j_2 + h_star_dot_g_j *
+        v_7_in_j_2);
+    const jg_real t146 = A_ij_6 * t131 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real M_0_i_i_1 = C_i[7] * v_4_in_i_0 + e_ij_in_i_0 * lambda[1] + f_star_in_i_1 * v_5_in_i_0 +
         g_star_in_i_1 * v_6_in_i_0;
     phi_q_t_lambda_q[62] = v_9_in_j_1;
     phi_q_t_lambda_q[76] = v_9_in_j_1;
     phi_q_t_lambda_q[71] = v_9_in_j_2;
     phi_q_t_lambda_q[77] = v_9_in_j_2;
-    phi_q_t_lambda_q[14] = t131;
-    phi_q_t_lambda_q[63] = t131;
+    phi_q_t_lambda_q[14] = t146;
+    phi_q_t_lambda_q[63] = t146;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     phi_q_t_lambda_q[16] = M_0_i_i_1;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_4_in_i_0 + f_star_in_i_0 * v_5_in_i_0 +
+    const jg_real M_0_i_i_0 = C_i[6] * v_4_in_i_0 + e_ij_in_i_0 * lambda[0] + f_star_in_i_0 * v_5_in_i_0 +
         g_star_in_i_0 * v_6_in_i_0;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_4_in_i_2 + f_star_in_i_1 * v_5_in_i_2 +
+    const jg_real M_0_i_i_7 = C_i[7] * v_4_in_i_2 + e_ij_in_i_2 * lambda[1] + f_star_in_i_1 * v_5_in_i_2 +
         g_star_in_i_1 * v_6_in_i_2;
     /* v_9_in_i = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body i */
     const jg_real v_9_in_i_0 = A_ij_0 * v_9_in_j_0 + A_ij_3 * v_9_in_j_1 + A_ij_6 * v_9_in_j_2;
-    const jg_real t136 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t96 + A_ij_7 * M_1_j_j_6);
-    const jg_real t137 = A_ij_7 * t116 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    const jg_real t138 = -v_9_in_i_0;
+    const jg_real t151 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t111 + A_ij_7 * M_1_j_j_6);
+    const jg_real t152 = -v_9_in_i_0;
+    const jg_real t153 = A_ij_7 * t131 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
     const jg_real v_9_in_i_1 = A_ij_1 * v_9_in_j_0 + A_ij_4 * v_9_in_j_1 + A_ij_7 * v_9_in_j_2;
-    const jg_real t140 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t115 + A_ij_7 * M_1_j_j_7);
+    const jg_real t155 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t130 + A_ij_7 * M_1_j_j_7);
     phi_q_t_lambda_q[18] = M_0_i_i_7;
-    phi_q_t_lambda_q[22] = t136;
-    phi_q_t_lambda_q[46] = t136;
-    phi_q_t_lambda_q[24] = t137;
-    phi_q_t_lambda_q[64] = t137;
-    phi_q_t_lambda_q[15] = t138;
-    phi_q_t_lambda_q[72] = t138;
-    phi_q_t_lambda_q[23] = t140;
-    phi_q_t_lambda_q[55] = t140;
-    const jg_real t141 = -v_9_in_i_1;
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_4_in_i_0 + f_star_in_i_2 * v_5_in_i_0 +
+    phi_q_t_lambda_q[22] = t151;
+    phi_q_t_lambda_q[46] = t151;
+    phi_q_t_lambda_q[15] = t152;
+    phi_q_t_lambda_q[72] = t152;
+    phi_q_t_lambda_q[24] = t153;
+    phi_q_t_lambda_q[64] = t153;
+    phi_q_t_lambda_q[23] = t155;
+    phi_q_t_lambda_q[55] = t155;
+    const jg_real t156 = -v_9_in_i_1;
+    const jg_real M_0_i_i_2 = C_i[8] * v_4_in_i_0 + e_ij_in_i_0 * lambda[2] + f_star_in_i_2 * v_5_in_i_0 +
         g_star_in_i_2 * v_6_in_i_0;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_4_in_i_1 + f_star_in_i_2 * v_5_in_i_1 +
+    const jg_real M_0_i_i_5 = C_i[8] * v_4_in_i_1 + e_ij_in_i_1 * lambda[2] + f_star_in_i_2 * v_5_in_i_1 +
         g_star_in_i_2 * v_6_in_i_1;
-    phi_q_t_lambda_q[17] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[28] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[25] = t141;
-    phi_q_t_lambda_q[73] = t141;
+    phi_q_t_lambda_q[17] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[28] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[25] = t156;
+    phi_q_t_lambda_q[73] = t156;
     phi_q_t_lambda_q[26] = M_0_i_i_2;
-    phi_q_t_lambda_q[50] = -t96;
+    phi_q_t_lambda_q[50] = -t111;
+    phi_q_t_lambda_q[60] = -t130;
     phi_q_t_lambda_q[27] = M_0_i_i_5;
-    phi_q_t_lambda_q[60] = -t115;
-    const jg_real t144 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t96 + A_ij_8 * M_1_j_j_6);
-    /* h_star_dot_omega_j = h_star . omega_j */
-    const jg_real h_star_dot_omega_j = h_star_in_j_0 * omega_j[0] + h_star_in_j_1 * omega_j[1] + h_star_in_j_2 *
-        omega_j[2];
-    const jg_real t146 = A_ij_8 * t116 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t159 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t111 + A_ij_8 * M_1_j_j_6);
+    const jg_real t160 = A_ij_8 * t131 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
     const jg_real v_9_in_i_2 = A_ij_2 * v_9_in_j_0 + A_ij_5 * v_9_in_j_1 + A_ij_8 * v_9_in_j_2;
-    const jg_real t148 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t115 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[70] = -t116;
+    const jg_real t162 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t130 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[70] = -t131;
     phi_q_t_lambda_q[78] = -v_9_in_star_2;
-    phi_q_t_lambda_q[32] = t144;
-    phi_q_t_lambda_q[47] = t144;
-    phi_q_t_lambda_q[34] = t146;
-    phi_q_t_lambda_q[65] = t146;
-    phi_q_t_lambda_q[33] = t148;
-    phi_q_t_lambda_q[56] = t148;
-    const jg_real t149 = -v_9_in_i_2;
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    /* g_star_dot_omega_j = g_star . omega_j */
-    const jg_real g_star_dot_omega_j = g_star_in_j_0 * omega_j[0] + g_star_in_j_1 * omega_j[1] + g_star_in_j_2 *
-        omega_j[2];
+    phi_q_t_lambda_q[32] = t159;
+    phi_q_t_lambda_q[47] = t159;
+    phi_q_t_lambda_q[34] = t160;
+    phi_q_t_lambda_q[65] = t160;
+    phi_q_t_lambda_q[33] = t162;
+    phi_q_t_lambda_q[56] = t162;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
         omega_j[2];
-    /* v_13_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
-    const jg_real v_13_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
-    const jg_real v_13_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
-    const jg_real t155 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    const jg_real v_13_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
-    /* v_16_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_16_in_i_0 = omega_i[0] * t155;
-    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
-    const jg_real v_16_in_i_1 = omega_i[1] * t155;
-    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
-    const jg_real v_16_in_i_2 = omega_i[2] * t155;
-    /* v_11_in_i = v_j - v_i, axes of body i */
-    const jg_real v_11_in_i_2 = v_j_in_i_2 - v_i[2];
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = f_star_dot_g_j * f_star_dot_omega_j + g_star_dot_g_j * g_star_dot_omega_j +
-        h_star_dot_g_j * h_star_dot_omega_j;
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = f_star_dot_h_j * f_star_dot_omega_j + g_star_dot_h_j * g_star_dot_omega_j +
-        h_star_dot_h_j * h_star_dot_omega_j;
-    const jg_real v_11_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real v_11_in_i_0 = v_j_in_i_0 - v_i[0];
+    /* v_12_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_12_in_i_0 = v_10_in_i_1 * v_11_in_i_2 - v_10_in_i_2 * v_11_in_i_1;
+    const jg_real t165 = -v_9_in_i_2;
+    const jg_real v_12_in_i_1 = v_10_in_i_2 * v_11_in_i_0 - v_10_in_i_0 * v_11_in_i_2;
+    const jg_real v_12_in_i_2 = v_10_in_i_0 * v_11_in_i_1 - v_10_in_i_1 * v_11_in_i_0;
+    /* g_star_dot_omega_j = g_star . omega_j */
+    const jg_real g_star_dot_omega_j = g_star_in_j_1 * omega_j[1] + g_star_in_j_0 * omega_j[0] + g_star_in_j_2 *
+        omega_j[2];
+    /* g_star_dot_omega_i = g_star . omega_i */
+    const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+        omega_i[2];
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
-    /* v_12_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_12_in_i_0 = v_10_in_i_1 * v_11_in_i_2 - v_10_in_i_2 * v_11_in_i_1;
-    const jg_real v_12_in_i_1 = v_10_in_i_2 * v_11_in_i_0 - v_10_in_i_0 * v_11_in_i_2;
-    const jg_real v_12_in_i_2 = v_10_in_i_0 * v_11_in_i_1 - v_10_in_i_1 * v_11_in_i_0;
+    /* f_star_dot_omega_i = f_star . omega_i */
+    const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
+        omega_i[2];
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = g_star_dot_g_j * g_star_dot_omega_j + f_star_dot_g_j * f_star_dot_omega_j +
+        h_star_dot_g_j * h_star_dot_omega_j;
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = g_star_dot_h_j * g_star_dot_omega_j + f_star_dot_h_j * f_star_dot_omega_j +
+        h_star_dot_h_j * h_star_dot_omega_j;
+    /* h_star_dot_omega_i = h_star . omega_i */
+    const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
+        h_star_dot_h_j * h_j_dot_omega_i;
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = f_j_in_i_0 * f_j_dot_omega_j + g_j_in_i_0 * g_j_dot_omega_j + h_j_in_i_0 *
         h_j_dot_omega_j;
@@ -1356,57 +1369,45 @@ void jg_screw_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_re
         h_j_dot_omega_j;
     const jg_real omega_j_in_i_2 = f_j_in_i_2 * f_j_dot_omega_j + g_j_in_i_2 * g_j_dot_omega_j + h_j_in_i_2 *
         h_j_dot_omega_j;
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
+    const jg_real omega_j_dot_omega_j = g_j_dot_omega_j * g_j_dot_omega_j + f_j_dot_omega_j * f_j_dot_omega_j +
         h_j_dot_omega_j * h_j_dot_omega_j;
-    const jg_real t178 = JG_REAL(2.0) * alphadot;
-    /* g_star_dot_omega_i = g_star . omega_i */
-    const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
-        omega_i[2];
     /* v_14_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_14_in_i_0 = v_10_in_i_0 - omega_j_in_i_0;
     const jg_real v_14_in_i_1 = v_10_in_i_1 - omega_j_in_i_1;
     const jg_real v_14_in_i_2 = v_10_in_i_2 - omega_j_in_i_2;
-    /* h_star_dot_omega_i = h_star . omega_i */
-    const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
-        h_star_dot_h_j * h_j_dot_omega_i;
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
-    const jg_real t185 = s_j_in_i_0 * v_14_in_i_0 + s_j_in_i_1 * v_14_in_i_1 + s_j_in_i_2 * v_14_in_i_2;
-    /* f_star_dot_omega_i = f_star . omega_i */
-    const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
         omega_i[2];
-    const jg_real t187 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
-    const jg_real t188 = t187 + alphadot * alphadot;
+    const jg_real t184 = s_j_in_i_0 * v_14_in_i_0 + s_j_in_i_1 * v_14_in_i_1 + s_j_in_i_2 * v_14_in_i_2;
+    const jg_real t185 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
+    const jg_real t186 = t185 + alphadot * alphadot;
     /* v_15_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_15_in_i_0 = s_j_in_i_0 * t187 + omega_j_in_i_0 * t185;
-    const jg_real v_15_in_i_1 = s_j_in_i_1 * t187 + omega_j_in_i_1 * t185;
-    const jg_real v_15_in_i_2 = s_j_in_i_2 * t187 + omega_j_in_i_2 * t185;
+    const jg_real v_15_in_i_0 = s_j_in_i_0 * t185 + omega_j_in_i_0 * t184;
+    const jg_real v_15_in_i_1 = s_j_in_i_1 * t185 + omega_j_in_i_1 * t184;
+    const jg_real v_15_in_i_2 = s_j_in_i_2 * t185 + omega_j_in_i_2 * t184;
     /* v_17_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_17_in_i_0 = v_13_in_i_0 + v_15_in_i_0 - v_16_in_i_0;
-    const jg_real v_17_in_i_1 = v_13_in_i_1 + v_15_in_i_1 - v_16_in_i_1;
-    const jg_real v_17_in_i_2 = v_13_in_i_2 + v_15_in_i_2 - v_16_in_i_2;
+    const jg_real v_17_in_i_0 = v_15_in_i_0 + v_13_in_i_0 - v_16_in_i_0;
+    const jg_real v_17_in_i_1 = v_15_in_i_1 + v_13_in_i_1 - v_16_in_i_1;
+    const jg_real v_17_in_i_2 = v_15_in_i_2 + v_13_in_i_2 - v_16_in_i_2;
     /* v_18_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_18_in_i_0 = v_12_in_i_0 + v_17_in_i_0;
-    const jg_real v_18_in_i_1 = v_12_in_i_1 + v_17_in_i_1;
-    const jg_real v_18_in_i_2 = v_12_in_i_2 + v_17_in_i_2;
-    phi_q_t_lambda_q[35] = t149;
-    phi_q_t_lambda_q[74] = t149;
-    gamma[4] = h_star_dot_f_j * t187 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
+    const jg_real v_18_in_i_0 = v_17_in_i_0 + v_12_in_i_0;
+    const jg_real v_18_in_i_1 = v_17_in_i_1 + v_12_in_i_1;
+    const jg_real v_18_in_i_2 = v_17_in_i_2 + v_12_in_i_2;
+    phi_q_t_lambda_q[35] = t165;
+    phi_q_t_lambda_q[74] = t165;
+    gamma[4] = h_star_dot_f_j * t185 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
         f_j_dot_omega_i * h_star_dot_omega_i;
     gamma[0] = v_18_in_i_0;
     gamma[1] = v_18_in_i_1;
     gamma[2] = v_18_in_i_2;
-    gamma[3] = g_star_dot_h_j * t188 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
+    gamma[3] = g_star_dot_h_j * t186 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
         (g_star_dot_h_j * h_star_dot_omega_i - h_star_dot_h_j * g_star_dot_omega_i + (h_star_dot_h_j *
-        g_star_dot_omega_j - g_star_dot_h_j * h_star_dot_omega_j)) * t178 - h_j_dot_omega_i * g_star_dot_omega_i;
-    gamma[5] = f_star_dot_g_j * t188 + t178 * (h_star_dot_g_j * f_star_dot_omega_j - f_star_dot_g_j *
+        g_star_dot_omega_j - g_star_dot_h_j * h_star_dot_omega_j)) * t65 - h_j_dot_omega_i * g_star_dot_omega_i;
+    gamma[5] = f_star_dot_g_j * t186 + t65 * (h_star_dot_g_j * f_star_dot_omega_j - f_star_dot_g_j *
         h_star_dot_omega_j - (h_star_dot_g_j * f_star_dot_omega_i - f_star_dot_g_j * h_star_dot_omega_i)) +
-        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - f_star_dot_omega_i *
-        g_j_dot_omega_i;
+        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - g_j_dot_omega_i *
+        f_star_dot_omega_i;
 }
 
 void jg_screw_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

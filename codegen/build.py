@@ -19,6 +19,7 @@ from typing import Any
 
 import codegen
 from codegen.attitudes import attitude_routines
+from codegen.counted import Counted, counted
 from codegen.emit.joint_subject import JointSubject
 from codegen.emit.package import Unit, package, specification_hash, unit
 from codegen.emit.prepared import prepare_geometry
@@ -40,7 +41,7 @@ from flopcount.count import count
 LIBRARY = Options()
 """The request for the whole committed library."""
 
-ISSUED = 4
+ISSUED = 3
 """Operations that start in a cycle of the processor for which a routine is ordered."""
 
 Check = Callable[[Routine], Program]
@@ -143,12 +144,25 @@ class _Job:
 
 def _emit_unit(job: _Job) -> Unit:
     """All stages for one variant, or for attitudes, in a worker process."""
+    return _emitted(job, _built(job))
+
+
+def _emit_counted(job: _Job) -> tuple[Unit, Counted]:
+    """The same of a variant of the library, with the counts that the tables compare."""
+    built = _built(job)
+    return _emitted(job, built), counted({routine.output: routine.straight for routine in built})
+
+
+def _built(job: _Job) -> tuple[Routine, ...]:
+    if job.variant is None:
+        return attitude_routines(job.outputs, job.fma)
+    return routines(job.variant, job.outputs, job.fma)
+
+
+def _emitted(job: _Job, built: Sequence[Routine]) -> Unit:
     from codegen.emit import casadi
 
-    if job.variant is None:
-        built, subject = attitude_routines(job.outputs, job.fma), UnitSubject.of_attitudes()
-    else:
-        built, subject = routines(job.variant, job.outputs, job.fma), UnitSubject.of_variant(job.variant)
+    subject = UnitSubject.of_attitudes() if job.variant is None else UnitSubject.of_variant(job.variant)
     serialised = {}
     for routine in built:
         name = routine.subject.routine_stem(routine.output)
@@ -182,6 +196,27 @@ def generate(options: Options, progress: Progress = lambda _: None, check: Check
     Raises:
         SpecificationError: the options cannot be met; all mistakes at once.
     """
+    jobs = _jobs(options, check)
+    units = parallel(_emit_unit, jobs, lambda job: progress(job.name))
+    return _packaged(options, jobs[0].specification, units, check is not None)
+
+
+def generate_library(progress: Progress = lambda _: None) -> tuple[dict[str, bytes], dict[Variant, Counted]]:
+    """Generate the package of the whole library, and count its derivatives.
+
+    Args:
+        progress: told each variant as it is done.
+
+    Returns:
+        The files as for `generate`, and the counts of each variant.
+    """
+    jobs = _jobs(LIBRARY, None)
+    made = parallel(_emit_counted, jobs, lambda job: progress(job.name))
+    files = _packaged(LIBRARY, jobs[0].specification, [unit for unit, _ in made], False)
+    return files, {job.variant: counts for job, (_, counts) in zip(jobs, made, strict=True) if job.variant}
+
+
+def _jobs(options: Options, check: Check | None) -> list[_Job]:
     chosen = variants(options)
     joints = [joint_type(name) for name in dict.fromkeys(variant.joint for variant in chosen)]
     asked: dict[str, Any] = {"outputs": list(options.outputs), "real": options.real}
@@ -190,12 +225,13 @@ def generate(options: Options, progress: Progress = lambda _: None, check: Check
     specification = specification_hash(codegen.__version__, joints, chosen, asked)
     groups: list[tuple[Variant | None, tuple[str, ...]]] = [(variant, options.of_joints) for variant in chosen]
     groups += [(None, options.of_attitudes)] if options.of_attitudes else []
-    jobs = [
+    return [
         _Job(*group, options.real, specification, options.fma, options.batch, check if group[0] else None)
         for group in groups
     ]
-    units = parallel(_emit_unit, jobs, lambda job: progress(job.name))
-    has_choices = check is not None
+
+
+def _packaged(options: Options, specification: str, units: Sequence[Unit], has_choices: bool) -> dict[str, bytes]:
     return package(units, codegen.__version__, options.real, specification, options.fma, options.batch, has_choices)
 
 

@@ -81,9 +81,12 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
     if not check:
         output.check_target(target)
     with _progress(len(build.variants(request)), "generating") as advance:
-        files = build.generate(request, advance)
+        if request == build.LIBRARY:
+            files, counted = build.generate_library(advance)
+        else:
+            files = build.generate(request, advance)
     if request == build.LIBRARY:
-        files |= _flop_files()
+        files |= _flop_files(counted)
     if check:
         _report_differences(target, output.differences(target, files))
         return
@@ -96,13 +99,13 @@ def generate(joint: tuple[str, ...], target: Path, check: bool, dump: str | None
     click.echo(f"{target}: {functions} functions in {len(files)} files")
 
 
-def _flop_files() -> dict[str, bytes]:
+def _flop_files(counted: Any) -> dict[str, bytes]:
     from codegen import comparison
     from codegen.emit.package import banner
     from codegen.report.flop_files import flop_files
 
-    with _progress(len(comparison.counted_variants()), "counting") as advance:
-        return flop_files(comparison.tables(advance), banner(codegen.__version__))
+    with _progress(len(comparison.counted_variants()) - len(counted), "counting") as advance:
+        return flop_files(comparison.tables(advance, known=counted), banner(codegen.__version__))
 
 
 def _request(joint: tuple[str, ...], options: dict[str, Any]) -> Any:

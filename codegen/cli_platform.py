@@ -14,6 +14,7 @@ from codegen.progress import progress
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--variant", help="robust, balanced, fast, values, smooth or literal; as the file says if left out.")
 @click.option("--real", default="double", show_default=True, help="Number type: double or float.")
+@click.option("--fma", is_flag=True, help="Fused multiply-adds, written out as fma(): compile with -mfma.")
 @click.option("--poses", type=click.Path(path_type=Path), help="Evaluate at the poses of a CSV or npy file.")
 @click.option("--grid", help="Evaluate on a grid: x=-0.3:0.3:61,yaw=-20deg:20deg:41 (x y z in m, roll pitch yaw).")
 @click.option("--format", "kind", default="csv", show_default=True, help="Of the results: csv or npz.")
@@ -23,6 +24,7 @@ def platform(
     file: Path,
     variant: str | None,
     real: str,
+    fma: bool,
     poses: Path | None,
     grid: str | None,
     kind: str,
@@ -38,7 +40,7 @@ def platform(
     from codegen.spec.platform_file import read_platform
 
     output.check_target(target)
-    read = with_options(read_platform(text_of(file), str(file)), variant, real)
+    read = with_options(read_platform(text_of(file), str(file)), variant, real, fma)
     where = chosen_poses(read, poses, grid, kind)
     with progress(steps(read), "generating") as advance:
         package = generate_platform(read, real, advance)

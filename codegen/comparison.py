@@ -10,18 +10,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from codegen.build import Progress
+from codegen.counted import Counted, counted
 from codegen.ir.lower import SymbolicOutput
-from codegen.ir.program import Program
 from codegen.mechanics.formulation import coordinate_count
 from codegen.mechanics.joints import BASIC, JOINTS
 from codegen.mechanics.left_out import conventional_quantities, parametric_quantities
 from codegen.models import Model, model
 from codegen.parallel import parallel
-from codegen.passes.split_geometry import split_geometry
 from codegen.spec.request import QUANTITIES, VARIATIONS, Variant
 from codegen.spec.selection import library_variants
 from flopcount.compare import Document, table_2, table_7
-from flopcount.count import count
 from flopcount.counts import Counts
 from flopcount.models import MODELS, Operations
 from flopcount.models import Model as Prices
@@ -37,41 +35,37 @@ def counted_variants() -> tuple[Variant, ...]:
     return (*library, *basic)
 
 
-def tables(progress: Progress = lambda _: None, models: Mapping[str, Prices] = MODELS) -> dict[str, Document]:
+def tables(
+    progress: Progress = lambda _: None,
+    models: Mapping[str, Prices] = MODELS,
+    known: Mapping[Variant, Counted] | None = None,
+) -> dict[str, Document]:
     """Count the derivatives of every joint and basic constraint and compare them with the paper's Tables 2 and 7.
 
     Args:
         progress: told each variant as it is counted.
         models: how to price the operations.
+        known: what is counted already.
     """
-    chosen = counted_variants()
-    counted = parallel(_derivatives, chosen, lambda variant: progress(variant.file_stem))
+    found = dict(known or {})
+    new = [variant for variant in counted_variants() if variant not in found]
+    found |= zip(new, parallel(_derivatives, new, lambda variant: progress(variant.file_stem)), strict=True)
     emitted: dict[tuple[str, Derivative], dict[str, Operations]] = {}
     per_step: dict[tuple[str, Derivative], dict[str, int]] = {}
-    for variant, operations in zip(chosen, counted, strict=True):
+    for variant in counted_variants():
         column = variant.stem.removeprefix(f"jg_{variant.joint}_")
-        for derivative, (number, left) in operations.items():
+        for derivative, (number, left) in found[variant].items():
             emitted.setdefault((variant.joint, derivative), {})[column] = number
             per_step.setdefault((variant.joint, derivative), {})[column] = left
     of_joints = {key: kinds for key, kinds in emitted.items() if key[0] in JOINTS}
     of_basic = {(name, d): emitted[joint.name, d] for name, joint in BASIC.items() for d in DERIVATIVES}
-    left_out = {joint: left_out_operations(joint) for joint in JOINTS}
+    left_out = dict(zip(JOINTS, parallel(left_out_operations, list(JOINTS), lambda _: None), strict=True))
     return {"table2": table_2(of_basic, models), "table7": table_7(of_joints, left_out, models, per_step)}
 
 
-def _derivatives(variant: Variant) -> dict[Derivative, tuple[Operations, int]]:
-    """Operations of each derivative, and how many of them are left for a step when the geometry is prepared."""
+def _derivatives(variant: Variant) -> Counted:
     symbolic = model(variant)
-    programs = {derivative: symbolic.program([derivative]) for derivative in DERIVATIVES}
-    return {
-        derivative: (Operations.of(program), operations_per_step(program)) for derivative, program in programs.items()
-    }
-
-
-def operations_per_step(program: Program) -> int:
-    """Count the operations that prepared geometry leaves."""
-    (step,) = split_geometry([program]).steps
-    return count(step).total
+    return counted({derivative: symbolic.program([derivative]) for derivative in DERIVATIVES})
 
 
 def left_out_operations(joint: str) -> dict[str, Operations]:

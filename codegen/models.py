@@ -20,7 +20,7 @@ from codegen.mechanics.derivation import AS_IT_STANDS, Derivation
 from codegen.mechanics.formulation import Formulation, formulation
 from codegen.mechanics.joints import BASIC, JOINTS, PAIRS
 from codegen.mechanics.places import places
-from codegen.passes import simplify
+from codegen.passes.pipeline import shorten
 from codegen.spec.joints import JointType
 from codegen.spec.request import Variant
 from codegen.spec.selection import incompatibilities
@@ -108,7 +108,7 @@ class Model:
         arguments = frames.arguments(self.joint, self.form.coordinates, self.form.row_count)
         inputs = frames.inputs(self.form.coordinates, self.form.row_count)
         parts = self._parts(outputs, is_substituted)
-        return [simplify(program) for program in lower(arguments, inputs, parts, PRICES, choose)]
+        return [shorten(program) for program in lower(arguments, inputs, parts, PRICES, choose)]
 
     def _parts(self, outputs: tuple[SymbolicOutput, ...], is_substituted: bool | None) -> list[Part]:
         """Outputs by the frames they are written in, in the order in which they come."""

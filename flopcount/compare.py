@@ -11,7 +11,7 @@ from typing import Any
 
 from flopcount.models import MODELS, Model, Operations
 from flopcount.paper import BASIC_CONSTRAINTS, DERIVATIVES, FOOTNOTES, JOINTS, TABLE_2, TABLE_7, Derivative
-from flopcount.rules import SWITCHES, Cell, Form, tally, verdicts
+from flopcount.rules import SWITCHES, Cell, Form, tally, verdict
 
 Document = dict[str, Any]
 Emitted = Mapping[tuple[str, Derivative], Mapping[str, Operations]]
@@ -89,7 +89,7 @@ def _status(cell: Cell, number: int, printed: int) -> str:
     """Exact, or what would explain the printed number."""
     if number == printed:
         return "exact"
-    return next(verdict.status for verdict in verdicts() if verdict.cell == cell)
+    return verdict(cell).status
 
 
 def paper_table_2(assume: Collection[str] = ()) -> Document:

@@ -144,7 +144,7 @@ def our_candidate(package: Ours, joint: str, label: str, seconds: float | None) 
 def _alone(text: str, symbol: str) -> str:
     """The one routine of a source file, if it needs no other; compile time is then that of the routine."""
     body = re.search(rf"^void {symbol}\(.*?^\}}\n", text, re.MULTILINE | re.DOTALL)
-    head = "".join(line + "\n" for line in text.splitlines() if line.startswith("#include"))
+    head = "".join(line + "\n" for line in text.splitlines() if line.startswith("#"))
     if body is None or re.search(r"^(#define|typedef|static)", text, re.MULTILINE):
         return text
     defined = re.findall(r"^\w[^;{}]*?\b(\w+)\([^;{}]*\)\s*\{", text, re.MULTILINE)

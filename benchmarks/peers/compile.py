@@ -8,15 +8,19 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
 import shutil
 import subprocess
+import tempfile
 from collections import Counter
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.peers.candidates import BUILD, Candidate, children_seconds
+from benchmarks.peers.candidates import BUILD, Candidate
 
 DIALECT = {".c": "-std=gnu11", ".cpp": "-std=gnu++17"}
 COMPILERS = {"gcc": {".c": "gcc", ".cpp": "g++"}, "clang": {".c": "clang", ".cpp": "clang++"}}
@@ -64,6 +68,22 @@ def settings(names: Sequence[str]) -> list[Setting]:
     return [Setting(compiler, FLAGS[name]) for compiler in present for name in names]
 
 
+def compile_all(candidates: Sequence[Candidate], settings: Sequence[Setting]) -> None:
+    """Compile on all processors what is asked for one by one later, for timing and for counting.
+
+    What does not compile is left out; `compiled` says why.
+    """
+    made = [(candidate, setting) for setting in settings for candidate in candidates]
+    made += [(candidate, _counting(candidate)) for candidate in candidates]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(_compiled_if_possible, *zip(*made, strict=True)))
+
+
+def _compiled_if_possible(candidate: Candidate, setting: Setting) -> None:
+    with suppress(CompilationError):
+        compiled(candidate, setting)
+
+
 def compiled(candidate: Candidate, setting: Setting) -> Compiled:
     """Compile a candidate, or take the object of an earlier run.
 
@@ -79,9 +99,7 @@ def compiled(candidate: Candidate, setting: Setting) -> Compiled:
     record = place.with_suffix(".json")
     if not record.exists():
         place.parent.mkdir(parents=True, exist_ok=True)
-        start = children_seconds()
-        _run([*command, "-o", str(place)])
-        seconds = children_seconds() - start
+        _, seconds = _run([*command, "-o", str(place)])
         _keep_symbol(place, candidate.symbol)
         record.write_text(json.dumps({"seconds": seconds}))
     return Compiled(candidate, place, json.loads(record.read_text())["seconds"])
@@ -104,12 +122,18 @@ def _command(candidate: Candidate, setting: Setting) -> list[str]:
     return [compiler, DIALECT[ending], *setting.flags, "-DNDEBUG", *includes, "-c", str(candidate.source)]
 
 
-def _run(command: list[str]) -> str:
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        lines = [line for line in done.stderr.splitlines() if "error" in line] or ["the compiler fails"]
-        raise CompilationError(lines[0])
-    return done.stdout
+def _run(command: list[str]) -> tuple[str, float]:
+    """What a command writes, and its processor seconds; those of other commands that run meanwhile are not counted."""
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+        process = subprocess.Popen(command, stdout=out, stderr=err)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        out.seek(0)
+        err.seek(0)
+        if process.returncode:
+            lines = [line for line in err if "error" in line] or ["the compiler fails"]
+            raise CompilationError(lines[0].rstrip())
+        return out.read(), usage.ru_utime + usage.ru_stime
 
 
 def operations(candidate: Candidate) -> dict[str, int] | None:
@@ -125,7 +149,7 @@ def operations(candidate: Candidate) -> dict[str, int] | None:
         return None
     is_eigen = candidate.name == "eigen"
     try:
-        listed = _disassembly(candidate, _COUNTING_TEMPLATES if is_eigen else _COUNTING)
+        listed = _disassembly(candidate)
     except CompilationError:
         return None
     if "x86-64" not in listed:
@@ -137,9 +161,13 @@ def operations(candidate: Candidate) -> dict[str, int] | None:
     return dict(sorted(total.items())) | {"total": sum(total.values())}
 
 
-def _disassembly(candidate: Candidate, flags: tuple[str, ...]) -> str:
-    made = compiled(candidate, Setting("gcc", flags))
-    return _run(["objdump", "-dr", "--no-show-raw-insn", str(made.object)])
+def _counting(candidate: Candidate) -> Setting:
+    return Setting("gcc", _COUNTING_TEMPLATES if candidate.name == "eigen" else _COUNTING)
+
+
+def _disassembly(candidate: Candidate) -> str:
+    made = compiled(candidate, _counting(candidate))
+    return _run(["objdump", "-dr", "--no-show-raw-insn", str(made.object)])[0]
 
 
 def _functions(listed: str) -> dict[str, list[str]]:

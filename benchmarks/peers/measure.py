@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.peers.candidates import Candidate
-from benchmarks.peers.compile import CompilationError, Compiled, Setting, compiled, operations
+from benchmarks.peers.compile import CompilationError, Compiled, Setting, compile_all, compiled, operations
 from benchmarks.peers.harness import build
 from benchmarks.peers.oracle import TOLERANCE, Truth
 from benchmarks.peers.work import Work
@@ -66,6 +66,7 @@ def measure(
 ) -> list[Measured]:
     """Measure the candidates of a joint with every setting."""
     timings: dict[str, dict[str, Timing]] = {candidate.symbol: {} for candidate in candidates}
+    compile_all(candidates, settings)
     for setting in settings:
         made = _compiled(candidates, setting, log)
         for candidate, timing in _timed(work, truth, made, rounds, count_instructions, log).items():

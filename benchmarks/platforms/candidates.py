@@ -6,6 +6,7 @@ import ctypes
 import os
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +64,7 @@ def candidates(platform: Platform, folder: Path) -> dict[str, Evaluate]:
         chosen = with_variant(platform, variant)
         found[f"ours, {variant}, one pose"] = _scalar(chosen, folder)
         found[f"ours, {variant}, batch"] = _batch(chosen, folder)
+        found[f"ours, {variant}, batch, --fma"] = _batch(with_variant(platform, variant, True), folder)
     found["CasADi's C, robust program"] = _casadi(with_variant(platform, "robust"), folder)
     found |= _eigen(platform, folder)
     found["numpy, batch QR and SVD"] = _numpy_batch(platform)
@@ -70,11 +72,9 @@ def candidates(platform: Platform, folder: Path) -> dict[str, Evaluate]:
     return found
 
 
-def with_variant(platform: Platform, variant: str) -> Platform:
+def with_variant(platform: Platform, variant: str, fma: bool = False) -> Platform:
     """The platform evaluated in another way."""
-    from dataclasses import replace
-
-    return replace(platform, wanted=replace(platform.wanted, variant=variant, attitude="matrix"))
+    return replace(platform, wanted=replace(platform.wanted, variant=variant, attitude="matrix", fma=fma))
 
 
 def _compiled(folder: Path, source: Path, compiler: str, flags: tuple[str, ...] = ()) -> ctypes.CDLL:
@@ -109,7 +109,7 @@ def _scalar(platform: Platform, folder: Path) -> Evaluate:
 def _batch(platform: Platform, folder: Path) -> Evaluate:
     made, lanes = routine(platform, "all", ("D", "C")), LANES["double"]
     groups = batch_routines(made, lanes)[:1]
-    own = folder / f"batch_{platform.wanted.variant}"
+    own = folder / f"batch_{platform.wanted.variant}{'_fma' * platform.wanted.fma}"
     own.mkdir()
     source = own / "batch.c"
     source.write_text(batch_source(platform.name, groups, lanes, "", "benchmark"))

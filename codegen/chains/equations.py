@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from codegen.chains.partition import Partition
+
+if TYPE_CHECKING:
+    from codegen.chains.rate_code import RateCode
+    from codegen.chains.switches import Switch
 
 Array = NDArray[np.float64]
 
@@ -67,11 +74,20 @@ class Equations(Protocol):
     def gamma(self, q: Array, qd: Array) -> Array:
         """Evaluate gamma_R [6 nr]."""
 
+    def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> RateCode | None:
+        """Compile the motion by the independent coordinates [nv]; None where it is not generated."""
+
     def terms(self, q: Array, qd: Array) -> Terms:
         """Evaluate the terms of the equations of motion."""
 
-    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Evaluate tau_A [n] and f_A [6 ne], what acts at all times on coordinates and at effectors."""
+    def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:
+        """Evaluate what acts on coordinates [n] and at effectors [6 ne], axes of these.
+
+        Args:
+            q: [n].
+            qd: [n].
+            on: 1 for each force that switches and acts, 0 for one that does not.
+        """
 
     def effectors(self, q: Array) -> Array:
         """Evaluate D_E [6 ne, n], axes of the effectors."""

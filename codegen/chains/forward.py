@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.factor import RankLoss
-from codegen.chains.integrate import Stopped, outputs
+from codegen.chains.integrate import outputs
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.motion import Drives
 from codegen.chains.moving import Moving
@@ -14,6 +14,7 @@ from codegen.chains.path import Branch, PathEnd
 from codegen.chains.reduced import NoInertia
 from codegen.chains.run import Progress, Run
 from codegen.chains.state import State
+from codegen.chains.steps import Stopped
 from codegen.chains.stop import free_words, inertia_words, path_words
 from codegen.chains.switches import switches
 
@@ -40,16 +41,16 @@ def run(
         tolerance: relative, and absolute in rad, characteristic lengths and their rates.
         progress: told the time reached.
     """
-    forces, part = mechanism.forces, mechanism.part
-    found = switches(forces.conditions, [forces.coordinate(one) for one in forces.conditions])
+    part = mechanism.part
+    found = switches(mechanism.conditions.conditions, mechanism.conditions.coordinates)
     motion, free = Moving(mechanism, start, found, drives), ~drives.is_driven
     y = np.concatenate([start.q[part.v][free], qd_v[free], [0.0]])
     states: list[State] = []
     failure = ""
     try:
-        motion.is_on = tuple(motion.value(k, float(times[0]), y) > 0 for k in range(len(found)))
+        motion.begin(float(times[0]), y)
         states.append(motion.state(float(times[0]), y))
-        for t, now in outputs(motion, y, times, tolerance):
+        for t, now in outputs(motion, y, states[0], times, tolerance):
             states.append(motion.state(t, now))
             progress(t)
     except PathEnd as end:
@@ -61,4 +62,4 @@ def run(
     except Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure
-    return Run(tuple(states), words, motion.here.iterations, motion.events_met, motion.evaluations)
+    return Run(tuple(states), words, motion.iterations, motion.events_met, motion.evaluations)

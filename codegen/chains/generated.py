@@ -9,9 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.equations import Closure, Terms
+from codegen.chains.partition import Partition
+from codegen.chains.programs import part as quantities_of
+from codegen.chains.rate_code import RateCode
+from codegen.chains.switches import Switch
 from codegen.ir.program import Program
 from codegen.mechanics.chain.model import chain_program, kept_rows
-from codegen.passes import simplify
 from codegen.simulate.callable import Evaluate, callables
 from codegen.spec.chain import Chain
 
@@ -43,7 +46,10 @@ class Generated:
         self._rows = np.array(kept_rows(chain), dtype=np.intp)
         self._height = 6 * len(chain.cuts)
         wanted = _wanted(chain, has_loads)
-        compiled = functions([simplify(chain_program(chain, names)) for names in wanted.values()])
+        names = [*dict.fromkeys(name for names in wanted.values() for name in names)]
+        self._program = chain_program(chain, names)
+        compiled = functions([quantities_of(self._program, names) for names in wanted.values()])
+        self._codes: dict[tuple[bool, ...], RateCode] = {}
         self._routines: dict[str, Evaluate] = dict(zip(wanted, compiled, strict=True))
 
     @property
@@ -85,11 +91,17 @@ class Generated:
         gamma = self._all_rows(found["gamma_R"]) if self._height else np.zeros(0)
         return Terms(gamma, found["M"].reshape(len(q), -1), found["f_C"], found["f_G"])
 
-    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
-        """Evaluate tau_A [n] and f_A [6 ne]; they are 0 where nothing acts."""
-        found = self._routines["applied"](q=q, qd=qd) if "applied" in self._routines else {}
-        size = 6 * len(self._chain.effectors)
-        return found.get("tau_A", np.zeros(len(q))), found.get("f_A", np.zeros(size))
+    def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> RateCode:
+        """Compile the motion by the independent coordinates [nv], once."""
+        key = tuple(is_driven.tolist())
+        if key not in self._codes:
+            self._codes[key] = RateCode(self._chain.name, self._program, part, is_driven, switches)
+        return self._codes[key]
+
+    def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:
+        """Evaluate what acts on coordinates [n] and at effectors [6 ne]."""
+        found = self._routines["applied"](q=q, qd=qd, on=on)
+        return found["tau_S"], found.get("f_S", np.zeros(0))
 
     def effectors(self, q: Array) -> Array:
         """Evaluate D_E [6 ne, n], axes of the effectors."""
@@ -117,7 +129,7 @@ _ROUTINES: dict[str, tuple[str, ...]] = {
     "constraint": ("closure", "phi", "phi_q"),
     "gamma": ("gamma_R",),
     "terms": _TERMS,
-    "applied": ("tau_A", "f_A"),
+    "applied": ("tau_S", "f_S"),
     "effectors": ("D_E",),
     "frames": ("frames",),
     "wrenches": ("wrenches",),
@@ -128,7 +140,7 @@ _OF_LOADS = ("terms", "applied", "wrenches")
 
 def _wanted(chain: Chain, has_loads: bool) -> dict[str, tuple[str, ...]]:
     """Routine -> those of its quantities that the chain has, in a routine that has any."""
-    known = replace(chain, quantities=()).wanted
+    known = (*replace(chain, quantities=()).wanted, "tau_S", *(["f_S"] if chain.effectors else []))
     names = [name for name in _ROUTINES if has_loads or name not in _OF_LOADS]
     found = {name: tuple(quantity for quantity in _ROUTINES[name] if quantity in known) for name in names}
     return {name: quantities for name, quantities in found.items() if quantities}

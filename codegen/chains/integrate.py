@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from codegen.chains.moving import Moving
+from codegen.chains.state import State
+from codegen.chains.steps import Step, Stopped, Tolerances, steps, taken
 
 Array = NDArray[np.float64]
-
-_FIRST = 0.1
-"""The first step takes this part of the largest."""
 
 _SAME = 1e-12
 """Part of the duration: events that are closer are one after the other at the same time."""
@@ -26,23 +22,26 @@ _MOST = 20
 """Events at the same time, after which forces switch without end."""
 
 
-class Stopped(Exception):
-    """The integrator cannot go on; the words say why."""
-
-
-def outputs(motion: Moving, y: Array, times: Array, tolerance: float) -> Iterator[tuple[float, Array]]:
+def outputs(motion: Moving, y: Array, first: State, times: Array, tolerance: float) -> Iterator[tuple[float, Array]]:
     """Integrated variables at the output times, the first one left out.
+
+    Args:
+        motion: the chain.
+        y: integrated variables at times[0].
+        first: the state there.
+        times: [n] s, ascending.
+        tolerance: relative, and absolute in rad, characteristic lengths and their rates.
 
     Raises:
         Stopped: the integrator cannot go on, or forces switch without end.
     """
     t, end, met = float(times[0]), float(times[-1]), 0
-    limits = {"rtol": max(tolerance, 3e-14), "atol": _absolute(motion, t, y, tolerance, end)}
+    tolerances = Tolerances(max(tolerance, 3e-14), _absolute(motion, first, tolerance, end - t))
     left = [float(at) for at in times[1:]]
     while left:
         begun, event = t, None
-        for step in _steps(motion, t, y, end, limits):
-            event = _event(motion, step, limits)
+        for step in steps(motion, t, y, end, tolerances, left):
+            event = _event(motion, step, tolerances)
             t, y = (event.t, event.y) if event else (step.t, step.y)
             while left and left[0] <= t:
                 at = left.pop(0)
@@ -57,17 +56,6 @@ def outputs(motion: Moving, y: Array, times: Array, tolerance: float) -> Iterato
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Step:
-    """One step: from where to where, and what lies between."""
-
-    begun: float
-    start: Array
-    t: float
-    y: Array
-    between: Callable[[float], Array]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class _Event:
     """A switch that changes, and the place."""
 
@@ -76,31 +64,7 @@ class _Event:
     y: Array
 
 
-def _steps(motion: Moving, t: float, y: Array, end: float, limits: Mapping[str, Any]) -> Iterator[_Step]:
-    """Take steps up to the end; the first is short, since an estimate of its error knows nothing of what comes.
-
-    Raises:
-        Stopped: no step meets the tolerance.
-    """
-    reach = motion.reach(t, y)
-    first = min(_FIRST * reach, end - t)
-    solver = DOP853(motion.rate, t, y, end, first_step=first if np.isfinite(reach) else None, **limits)
-    while solver.status == "running":
-        solver.max_step = motion.reach(solver.t, solver.y)
-        start = solver.y
-        solver.step()
-        if solver.status == "failed":
-            raise Stopped(motion.failure or "the integrator takes no step that meets the tolerance")
-        yield _Step(float(solver.t_old), start, float(solver.t), solver.y, _between(solver))
-
-
-def _between(solver: DOP853) -> Callable[[float], Array]:
-    """The interpolant of the last step, made when it is needed; it is to be made before the next step."""
-    interpolant = cache(solver.dense_output)
-    return lambda t: np.asarray(interpolant()(t))
-
-
-def _event(motion: Moving, step: _Step, limits: Mapping[str, Any]) -> _Event | None:
+def _event(motion: Moving, step: Step, tolerances: Tolerances) -> _Event | None:
     """The first change of a switch within a step.
 
     It is sought on the interpolant of the step; then the step is taken anew up to there, and once more after a
@@ -110,15 +74,15 @@ def _event(motion: Moving, step: _Step, limits: Mapping[str, Any]) -> _Event | N
     if not found:
         return None
     t, k = min(found)
-    y = _taken(motion, step, t, limits)
+    y = taken(motion, step, t, tolerances)
     slope = motion.slope(k, t, y)
     corrected = t - motion.value(k, t, y) / slope if slope else t
     if step.begun < corrected < step.t and abs(corrected - t) < 0.01 * (step.t - step.begun):
-        t, y = corrected, _taken(motion, step, corrected, limits)
+        t, y = corrected, taken(motion, step, corrected, tolerances)
     return _Event(k, t, y)
 
 
-def _root(motion: Moving, k: int, step: _Step) -> float:
+def _root(motion: Moving, k: int, step: Step) -> float:
     """Where a switch changes on the interpolant; the start of the step where it does at once."""
 
     def value(t: float) -> float:
@@ -129,24 +93,11 @@ def _root(motion: Moving, k: int, step: _Step) -> float:
     return float(brentq(value, step.begun, step.t, xtol=1e-15, rtol=1e-15))
 
 
-def _taken(motion: Moving, step: _Step, t: float, limits: Mapping[str, Any]) -> Array:
-    """The state at a time within a step, by steps of its own."""
-    if t <= step.begun:
-        return step.start
-    solver = DOP853(motion.rate, step.begun, step.start, t, first_step=t - step.begun, **limits)
-    while solver.status == "running":
-        solver.step()
-    if solver.status == "failed":
-        raise Stopped(motion.failure or "the integrator takes no step that meets the tolerance")
-    return np.asarray(solver.y)
-
-
-def _absolute(motion: Moving, t: float, y: Array, tolerance: float, end: float) -> Array:
+def _absolute(motion: Moving, first: State, tolerance: float, duration: float) -> Array:
     """Absolute tolerances of angles, rates and work.
 
     The work is controlled too: one more component whose error estimate does not vanish where those of the others do.
     """
-    found = motion.at(t, y)
-    _, power = motion.acceleration(t, found)
-    energy = max(found.kinetic_energy(), abs(power) * (end - t)) or np.inf
-    return tolerance * np.concatenate([motion.units, motion.units, [energy]])
+    loads = first.loads
+    energy = 0.0 if loads is None else max(loads.kinetic, abs(loads.power) * duration)
+    return tolerance * np.concatenate([motion.units, motion.units, [energy or np.inf]])

@@ -1,4 +1,4 @@
-"""A chain ready to be run: its equations, how its coordinates are parted, what acts on it."""
+"""A chain ready to be run: its equations, how its coordinates are parted, when forces switch."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from codegen.chains.conditions import Conditions
 from codegen.chains.equations import Equations
-from codegen.chains.forces import Forces
 from codegen.chains.partition import Partition, partition
 from codegen.spec.chain import Chain, Row
 
@@ -30,14 +30,14 @@ class Mechanism:
         chain: as its file has it.
         equations: of the chain.
         part: its coordinates and rows.
-        forces: what acts on it.
+        conditions: of its forces that switch.
         length: characteristic, m.
     """
 
     chain: Chain
     equations: Equations
     part: Partition
-    forces: Forces
+    conditions: Conditions
     length: float
 
     def row_name(self, row: int) -> str:
@@ -66,7 +66,7 @@ def mechanism(chain: Chain, equations: Equations) -> Mechanism:
     is_prismatic = [link.unit == "m" for link in chain.links]
     independent = [chain.index(one.joint) for one in chain.independents]
     part = partition(is_prismatic, independent, list(equations.binding), length, reach)
-    return Mechanism(chain, equations, part, Forces(chain), length)
+    return Mechanism(chain, equations, part, Conditions(chain), length)
 
 
 def characteristic_length(chain: Chain) -> float:

@@ -63,7 +63,7 @@ class Drives:
         self.is_driven, self.longest, self._given = is_driven, longest, given
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
-        """Give value, rate and acceleration of each, [nd]."""
+        """Give values, rates and accelerations, [nd] each."""
         return self._given.at(t)
 
 

@@ -1,6 +1,13 @@
-"""A chain in motion: its integrated variables and drives give all else, on the branch that is remembered."""
+"""A chain in motion: its integrated variables and drives give all else, on the branch that is remembered.
+
+Where there is compiled code it is taken, and what it refuses is done here, step by step, so that it can be told.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +15,10 @@ from numpy.typing import NDArray
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.motion import Drives
-from codegen.chains.path import Branch, PathEnd, follow
+from codegen.chains.path import Branch, PathEnd, branch, follow
+from codegen.chains.position import close
+from codegen.chains.rate_code import FURTHEST
+from codegen.chains.rate_solver import RateSolver
 from codegen.chains.reduced import Reduced, reduced
 from codegen.chains.state import State, generalised, loaded
 from codegen.chains.stop import free_words, path_words
@@ -16,8 +26,8 @@ from codegen.chains.switches import Switch, active
 
 Array = NDArray[np.float64]
 
-FURTHEST = 0.25
-"""rad, or characteristic lengths: an independent coordinate moves by about as much in a step, at most."""
+_BEYOND = 0.01
+"""rad, or characteristic lengths."""
 
 
 class Moving:
@@ -31,17 +41,44 @@ class Moving:
     """
 
     def __init__(self, mechanism: Mechanism, start: Branch, found: tuple[Switch, ...], drives: Drives) -> None:
-        self.mechanism, self.here, self.switches, self.drives = mechanism, start, found, drives
-        self.is_on: tuple[bool, ...] = ()
+        self.mechanism, self.switches, self.drives = mechanism, found, drives
+        self.is_on: tuple[bool, ...] = (False,) * len(found)
+        self._here = start
         self._last: tuple[Array, Reduced] | None = None
-        self.failure = ""
+        self._code = mechanism.equations.code(mechanism.part, drives.is_driven, found)
+        self._has_entered = self._is_ahead = False
+        self._rates: tuple[Array, Array | None] = (np.zeros(0), None)
+        self._before = 0 if self._code is None else self._code.iterations
+        if self._code is not None:
+            self._code.drive(lambda t: np.concatenate(drives.at(t)), drives.longest)
+        self._told: Callable[[], str] = str
         self.evaluations = 0
         self.events_met = 0
 
     @property
+    def is_compiled(self) -> bool:
+        """Whether there is compiled code."""
+        return self._code is not None
+
+    @property
+    def iterations(self) -> int:
+        """Of Newton's method."""
+        return self._here.iterations + (0 if self._code is None else self._code.iterations - self._before)
+
+    @property
+    def here(self) -> Branch:
+        """The last pose."""
+        if self._is_ahead and self._code is not None:
+            found = close(self.mechanism.equations, self.mechanism.part, self._code.q)
+            last, self._is_ahead = branch(self.mechanism.part, found), False
+            done = self._here.iterations + last.iterations
+            self._here = replace(last, orientation=self._here.orientation, iterations=done)
+        return self._here
+
+    @property
     def active(self) -> tuple[bool, ...]:
         """Which conditions hold."""
-        return active(self.switches, self.is_on, len(self.mechanism.forces.conditions))
+        return active(self.switches, self.is_on, len(self.mechanism.conditions.conditions))
 
     @property
     def units(self) -> Array:
@@ -67,10 +104,24 @@ class Moving:
         q_v, qd_v = self._independent(t, y)
         where = np.concatenate([q_v, qd_v])
         if self._last is None or not np.array_equal(self._last[0], where):
-            self.here = follow(self.mechanism.equations, self.mechanism.part, self.here, q_v)
-            found = reduced(self.mechanism.equations, self.mechanism.part, self.here.q, qd_v)
-            self._last = where, found
+            before = self.here.q
+            self._here = follow(self.mechanism.equations, self.mechanism.part, self.here, q_v)
+            self._has_entered = self._has_entered and np.array_equal(self._here.q, before)
+            self._last = where, reduced(self.mechanism.equations, self.mechanism.part, self._here.q, qd_v)
         return self._last[1]
+
+    def _compiled(self, t: float, y: Array) -> Array | None:
+        """Rates by the compiled code, which is then where they are; None if there is none, or it refuses."""
+        code = self._code
+        if code is None:
+            return None
+        where = np.array([t, *y])
+        if not np.array_equal(where, self._rates[0]):
+            self._has_entered = self._has_entered or code.enter(self.here.q, self.here.factor.A)
+            code.switch(self.is_on, self.active)
+            self._rates = where, code.rate(t, y) if self._has_entered else None
+            self._is_ahead = self._has_entered
+        return self._rates[1]
 
     def acceleration(self, t: float, found: Reduced) -> tuple[Array, float]:
         """Accelerations of the independent coordinates, and the power of all forces and drives."""
@@ -86,25 +137,66 @@ class Moving:
     def rate(self, t: float, y: Array) -> Array:
         """Right-hand side; what is no number makes the integrator take a smaller step."""
         self.evaluations += 1
+        compiled = self._compiled(t, y)
+        if compiled is not None:
+            return compiled
+        if not np.isfinite(y).all():
+            return np.full(len(y), np.nan)
         size = len(y) // 2
         try:
             qdd_v, power = self.acceleration(t, self.at(t, y))
         except PathEnd as end:
-            self.failure = path_words(self.mechanism, end)
-            return np.full(len(y), np.nan)
+            return self._failed(partial(self._end_words, t, y, end), y)
         except RankLoss as loss:
-            self.failure = f"singular pose: {free_words(self.mechanism, loss)}"
-            return np.full(len(y), np.nan)
+            return self._failed(partial(_singular_words, self.mechanism, loss), y)
         return np.concatenate([y[size : 2 * size], qdd_v[~self.drives.is_driven], [power]])
+
+    @property
+    def failure(self) -> str:
+        """Why rates were no numbers at last; empty if they always were."""
+        return self._told()
+
+    def _failed(self, told: Callable[[], str], y: Array) -> Array:
+        self._told = told
+        return np.full(len(y), np.nan)
+
+    def _end_words(self, t: float, y: Array, end: PathEnd) -> str:
+        """Tell an end by a place well beyond: a hair beyond its end every path seems to go on."""
+        mechanism, v = self.mechanism, self.mechanism.part.v
+        way = self._independent(t, y)[1]
+        size = float(np.max(np.abs(way / mechanism.part.units[v]), initial=0.0))
+        try:
+            follow(mechanism.equations, mechanism.part, end.reached, end.reached.q[v] + _BEYOND * way / (size or 1.0))
+        except PathEnd as further:
+            return path_words(mechanism, further)
+        return path_words(mechanism, end)
+
+    def solver(self, t: float, y: Array, end: float, h: float, relative: float, absolute: Array) -> RateSolver | None:
+        """Begin to integrate by the compiled code; None if there is none, or it refuses."""
+        rates = self._compiled(t, y)
+        if self._code is None or rates is None:
+            return None
+        return RateSolver(self._code, t, y, rates, end, h, relative, absolute)
+
+    def moved(self, solver: RateSolver) -> None:
+        """Be where the compiled code went."""
+        self._is_ahead, self._rates = True, (np.zeros(0), None)
+        self.evaluations += solver.counted()
 
     def value(self, k: int, t: float, y: Array) -> float:
         """What is positive while a switch is on."""
-        found, switch = self.at(t, y), self.switches[k]
+        switch = self.switches[k]
+        if self._code is not None and self._compiled(t, y) is not None:
+            return switch.value(self._code.q[switch.coordinate], self._code.qd[switch.coordinate])
+        found = self.at(t, y)
         return switch.value(self.here.q[switch.coordinate], found.rates.qd[switch.coordinate])
 
     def slope(self, k: int, t: float, y: Array) -> float:
         """Its rate."""
-        found, switch = self.at(t, y), self.switches[k]
+        switch = self.switches[k]
+        if self._code is not None and self._compiled(t, y) is not None:
+            return switch.rate(self._code.qd[switch.coordinate], self._code.qdd[switch.coordinate])
+        found = self.at(t, y)
         qdd = found.rates.acceleration(self.acceleration(t, found)[0])
         return switch.rate(found.rates.qd[switch.coordinate], qdd[switch.coordinate])
 
@@ -123,11 +215,26 @@ class Moving:
 
     def state(self, t: float, y: Array) -> State:
         """The chain at an output."""
-        found = self.at(t, y)
-        qdd_v, _ = self.acceleration(t, found)
-        return loaded(self.mechanism, t, self.here.q, found, qdd_v, self.active, self.drives.is_driven)
+        mechanism, v, code = self.mechanism, self.mechanism.part.v, self._code
+        if code is not None and self._compiled(t, y) is not None:
+            q, qdd_v = code.q.copy(), code.qdd[v]
+            found = reduced(mechanism.equations, mechanism.part, q, code.qd[v])
+        else:
+            found = self.at(t, y)
+            q, qdd_v = self.here.q, self.acceleration(t, found)[0]
+        return loaded(mechanism, t, q, found, qdd_v, self.active, self.drives.is_driven)
+
+    def begin(self, t: float, y: Array) -> None:
+        """Set the switches as they are at the start."""
+        self.is_on = tuple(self.value(k, t, y) > 0 for k in range(len(self.switches)))
+        self._rates = np.zeros(0), None
 
     def switch(self, k: int) -> None:
         """Change a switch that an event told."""
         self.is_on = tuple(on != (place == k) for place, on in enumerate(self.is_on))
         self.events_met += 1
+        self._rates = np.zeros(0), None
+
+
+def _singular_words(mechanism: Mechanism, loss: RankLoss) -> str:
+    return f"singular pose: {free_words(mechanism, loss)}"

@@ -8,7 +8,9 @@ pieces of any length ends at a singular pose, where branches meet, or where the 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,18 +22,18 @@ from codegen.chains.position import Position, close, nearest
 
 Array = NDArray[np.float64]
 
-_CONTRACTION = 0.25
+CONTRACTION = 0.25
 """The second step of Newton is smaller than this part of the first (after Deuflhard), unless both are tiny."""
 
-_TINY = 1e-6
-_PREDICTED = 0.3
+TINY = 1e-6
+PREDICTED = 0.3
 """rad, or characteristic lengths: no coordinate is predicted further, so that angles keep their turns."""
 
-_CORRECTED = 0.1
+CORRECTED = 0.1
 _SHORTEST = 1e-9
 """rad, or characteristic lengths: the shortest piece of the path of q_v."""
 
-_ITERATIONS = 12
+ITERATIONS = 12
 
 _PAST = 1e-5
 """rad, or characteristic lengths: so far beyond its end a path is looked at first."""
@@ -48,12 +50,16 @@ class PathEnd(Exception):
 
     Attributes:
         reached: the last closed pose.
-        beyond: where the cuts are most open between there and the target, at the pose that opens them least.
     """
 
-    def __init__(self, reached: Branch, beyond: Position) -> None:
+    def __init__(self, reached: Branch, look: Callable[[], Position]) -> None:
         super().__init__()
-        self.reached, self.beyond = reached, beyond
+        self.reached, self._look = reached, look
+
+    @cached_property
+    def beyond(self) -> Position:
+        """Where the cuts are most open between there and the target, at the pose that opens them least."""
+        return self._look()
 
     @property
     def is_singular(self) -> bool:
@@ -123,7 +129,7 @@ def follow(equations: Equations, part: Partition, start: Branch, q_v: Array) -> 
     while done < 1.0:
         piece = min(piece, 1.0 - done)
         rate = float(np.max(np.abs(here.slope @ whole), initial=0.0))
-        piece = min(piece, _PREDICTED / rate if rate > 0 else 1.0)
+        piece = min(piece, PREDICTED / rate if rate > 0 else 1.0)
         guess = here.q.copy()
         guess[part.v] = q_v if done + piece >= 1.0 else origin + (done + piece) * whole * units_v
         guess[part.w] += piece * (here.slope @ whole) * units_w
@@ -133,7 +139,7 @@ def follow(equations: Equations, part: Partition, start: Branch, q_v: Array) -> 
             continue
         piece /= 2
         if piece * size < _SHORTEST:
-            raise PathEnd(here, _beyond(equations, part, here, q_v))
+            raise PathEnd(here, partial(_beyond, equations, part, here, q_v))
     return here
 
 
@@ -151,10 +157,10 @@ def _beyond(equations: Equations, part: Partition, here: Branch, q_v: Array) -> 
 
 def _tried(equations: Equations, part: Partition, here: Branch, guess: Array) -> Branch | None:
     """The same branch at a guess; None if it is not found there."""
-    found = close(equations, part, guess, _ITERATIONS)
+    found = close(equations, part, guess, ITERATIONS)
     if not found.is_closed:
         return None
-    if found.correction > _TINY and (found.contraction > _CONTRACTION or found.correction > _CORRECTED):
+    if found.correction > TINY and (found.contraction > CONTRACTION or found.correction > CORRECTED):
         return None
     try:
         there = branch(part, found, here)

@@ -64,5 +64,5 @@ def _kinematic(mechanism: Mechanism, t: float, q: Array, qd_v: Array, qdd_v: Arr
 
 def _inverse(mechanism: Mechanism, t: float, q: Array, qd_v: Array, qdd_v: Array) -> State:
     found = reduced(mechanism.equations, mechanism.part, q, qd_v)
-    active = mechanism.forces.active(q, found.rates.qd)
+    active = mechanism.conditions.active(q, found.rates.qd)
     return loaded(mechanism, t, q, found, qdd_v, active, np.ones(len(qdd_v), dtype=bool))

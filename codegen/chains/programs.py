@@ -38,10 +38,11 @@ def programs(chain: Chain, routines: Mapping[str, Sequence[str]]) -> Iterator[tu
     whole = [chain_program(chain, names, progressive) for progressive in (True, False)[: 2 if chain.cuts else 1]]
     for routine, asked in routines.items():
         ways = whole if "M" in asked else whole[:1]
-        yield routine, min((_part(way, asked) for way in ways), key=lambda found: count(found).total)
+        yield routine, min((part(way, asked) for way in ways), key=lambda found: count(found).total)
 
 
-def _part(program: Program, names: Sequence[str]) -> Program:
+def part(program: Program, names: Sequence[str]) -> Program:
+    """Give the program of some of the quantities of a program."""
     outputs = tuple(program.output(name) for name in names)
     return simplify(drop_unused(replace(program, outputs=outputs)))
 

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.factor import least_singular_value
-from codegen.chains.forces import Forces
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.reduced import Reduced
 
@@ -60,9 +59,7 @@ class State:
 
 def acting(mechanism: Mechanism, q: Array, qd: Array, active: tuple[bool, ...]) -> tuple[Array, Array]:
     """Give the forces of the file on coordinates [n], and the wrenches at the effectors [6 ne], their axes."""
-    tau, wrenches = mechanism.equations.applied(q, qd)
-    forces: Forces = mechanism.forces
-    return tau + forces.on_joints(q, qd, active), wrenches + forces.at_effectors(active).ravel()
+    return mechanism.equations.applied(q, qd, np.array(active, dtype=np.float64))
 
 
 def generalised(mechanism: Mechanism, q: Array, qd: Array, active: tuple[bool, ...]) -> Array:

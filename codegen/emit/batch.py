@@ -19,7 +19,14 @@ from codegen.emit.routine import Parameter, Routine
 from codegen.emit.statements import Notation, Statements
 from codegen.ir.program import Program
 
-VECTORS = Notation("jg_vector", "JG_IN({array}, {index})", "JG_OUT({array}, {index})", "jg_splat({literal})", "_batch")
+VECTORS = Notation(
+    number="jg_vector",
+    read="JG_IN({array}, {index})",
+    store="JG_OUT({array}, {index})",
+    constant="jg_splat({literal})",
+    suffix="_batch",
+    together=1,
+)
 
 _WIDTH = 112
 

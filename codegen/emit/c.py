@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from codegen.emit.declarations import WIDTH, declaration, unpacking, views, wrapped
+from codegen.emit.declarations import WIDTH, declaration, heading, unpacking, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.looped import looped_definition
 from codegen.emit.packed import packed
@@ -72,7 +72,7 @@ def definition(symbol: str, declared: Sequence[Parameter], program: Program, kin
     """Write a C function that evaluates a program and stores nonzeros; gives its text and number of temporaries."""
     statements = Statements(program, views(declared))
     body = unpacking(declared, statements.used_views) + wrapped(statements.lines)
-    text = render("c/function.c.j2", signature=declaration(symbol, declared, kind=kind), body=body)
+    text = render("c/function.c.j2", signature=heading(symbol, declared, program, kind), body=body)
     return text, statements.temporaries
 
 

@@ -5,15 +5,37 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 
+from codegen.emit.registers import is_better_read_again
 from codegen.emit.routine import Parameter
+from codegen.emit.statements import TOGETHER
+from codegen.ir.program import Program
 
 WIDTH = 116
 
 
 def declaration(symbol: str, declared: Sequence[Parameter], leading: Sequence[str] = (), kind: str = "void") -> str:
     """Declaration of a function, with further parameters before; lines break between parameters only."""
-    kinds = {"in": "const jg_real *JG_RESTRICT", "out": "jg_real *JG_RESTRICT"}
-    words = [*leading, *(f"{kinds[p.direction]} {p.name}" for p in declared)]
+    return _signature(symbol, declared, leading, kind, "*JG_RESTRICT ")
+
+
+def heading(symbol: str, declared: Sequence[Parameter], program: Program, kind: str = "void") -> str:
+    """Head of the definition of a declared function.
+
+    Where it is better that the compiler reads inputs again, it does not repeat that arrays do not overlap.
+
+    Args:
+        symbol: its name.
+        declared: its parameters.
+        program: what it evaluates.
+        kind: ``void`` or ``static void``.
+    """
+    pointer = "*" if is_better_read_again(program, TOGETHER) else "*JG_RESTRICT "
+    return _signature(symbol, declared, (), kind, pointer)
+
+
+def _signature(symbol: str, declared: Sequence[Parameter], leading: Sequence[str], kind: str, pointer: str) -> str:
+    kinds = {"in": f"const jg_real {pointer}", "out": f"jg_real {pointer}"}
+    words = [*leading, *(f"{kinds[p.direction]}{p.name}" for p in declared)]
     lines = [f"{kind} {symbol}("]
     for k, word in enumerate(words):
         piece = word + (", " if k + 1 < len(words) else ")")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.emit.declarations import declaration, unpacking, views, wrapped
+from codegen.emit.declarations import heading, unpacking, views, wrapped
 from codegen.emit.environment import render
 from codegen.emit.literals import literal
 from codegen.emit.packed import packed
@@ -48,7 +48,7 @@ def _part(symbol: str, loop: Loop, flat: Flat, subject: Subject) -> tuple[str, i
         declared.insert(0, _parameter(Piece(GEOMETRY, GEOMETRY, 0, len(loop.geometry[0]), 0, 0), "in"))
     statements = Statements(flat.program, views(declared))
     body = unpacking(declared, statements.used_views) + wrapped(statements.lines)
-    signature = declaration(symbol, declared, kind="static void")
+    signature = heading(symbol, declared, flat.program, "static void")
     return render("c/function.c.j2", signature=signature, body=body), statements.temporaries
 
 

@@ -100,7 +100,6 @@ def unit(
         options=options,
         specification=specification,
         header=header,
-        keeps_entries_apart=True,
         functions=[*patterns.values(), *(entry.text for entry in emitted)],
     )
     declarations: list[tuple[tuple[str, ...], str]] = [

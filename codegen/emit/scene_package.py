@@ -46,6 +46,7 @@ class ScenePackage:
         batch: what the manifest says of batch routines.
         choices: whether routines choose between values.
         checks: output -> conditions that its routine asserts in debug builds.
+        fma: whether products and sums are fused.
     """
 
     name: str
@@ -63,6 +64,7 @@ class ScenePackage:
     batch: dict[str, Any] | None = None
     choices: bool = False
     checks: Mapping[str, Program] = field(default_factory=dict)
+    fma: bool = False
 
 
 def scene_files(package: ScenePackage) -> dict[str, bytes]:
@@ -72,7 +74,9 @@ def scene_files(package: ScenePackage) -> dict[str, bytes]:
     files = {
         f"{package.name}.h": _header(package, emitted, list(patterns)),
         f"{package.name}.c": _source(package, emitted, list(patterns.values())),
-        "jg_real.h": real_header(package.version, package.real, package.choices, package.batch is not None),
+        "jg_real.h": real_header(
+            package.version, package.real, package.choices, package.batch is not None, package.fma
+        ),
         f"{package.name}_example.c": _example(package, [e for e in emitted if e.storage != "dense"][-1]),
         "README.md": package.readme,
         "manifest.json": _manifest(package, emitted),
@@ -95,7 +99,7 @@ def _checked(entry: Entry, package: ScenePackage) -> Entry:
     return entry if check is None or entry.storage == "dense" else guarded(entry, check)
 
 
-def real_header(version: str, real: str, choices: bool, has_batch: bool = False) -> str:
+def real_header(version: str, real: str, choices: bool, has_batch: bool = False, fma: bool = False) -> str:
     """Text of ``jg_real.h`` for one mechanism.
 
     Args:
@@ -103,9 +107,10 @@ def real_header(version: str, real: str, choices: bool, has_batch: bool = False)
         real: default number type.
         choices: whether it has absolute values and choices.
         has_batch: whether ``jg_own.h`` lies beside it.
+        fma: whether products and sums are fused.
     """
     return render(
-        "c/jg_real.h.j2", banner=banner(version), real=real, fma=False, batch=has_batch or None, choices=choices
+        "c/jg_real.h.j2", banner=banner(version), real=real, fma=fma, batch=has_batch or None, choices=choices
     )
 
 
@@ -148,7 +153,6 @@ def _source(package: ScenePackage, emitted: Sequence[Entry], patterns: Sequence[
         options=f"{package.kind} {package.name}, real {package.real}",
         specification=package.specification,
         header=f"{package.name}.h",
-        keeps_entries_apart=False,
         functions=[*patterns, *(entry.text for entry in emitted)],
     )
 
@@ -165,9 +169,8 @@ def _manifest(package: ScenePackage, emitted: Sequence[Entry]) -> str:
             record |= {"external": {"name": name, "source": "casadi/external.c"}}  # type: ignore[dict-item]
         casadi.append(record)
     whole = {package.kind: package.record}
-    return manifest(
-        package.version, package.real, package.specification, records, casadi, batch=package.batch, whole=whole
-    )
+    made = (package.version, package.real, package.specification)
+    return manifest(*made, records, casadi, package.fma, package.batch, whole)
 
 
 def _example(package: ScenePackage, entry: Entry) -> str:

@@ -1,7 +1,8 @@
 """Turn a program into C statements.
 
 A value that is used once and has no name is written inside the expression that uses it; every other value is a
-``const`` of its stage's name (``A_ij_4``) or ``t12``. Results are stored where they are ready.
+``const`` of its stage's name (``A_ij_4``) or ``t12``. Results are stored near where they are ready, some at a
+time: behind a store a compiler reads the inputs again, where it does not know that arrays do not overlap.
 """
 
 from __future__ import annotations
@@ -14,6 +15,9 @@ from codegen.emit.literals import literal
 from codegen.errors import InternalError
 from codegen.ir.ops import COMMUTATIVE, LEAVES, PROJECTIONS, Op
 from codegen.ir.program import Instruction, Program
+
+TOGETHER = 8
+"""How many results are stored at a time in a routine for one of a kind."""
 
 _INFIX: dict[Op, str] = {Op.ADD: "+", Op.SUBTRACT: "-", Op.MULTIPLY: "*", Op.DIVIDE: "/"}
 _CALL: dict[Op, str] = {
@@ -42,6 +46,7 @@ class Notation:
         store: entry ``index`` of the output ``array``.
         constant: a literal that stands alone, not beside a value in an operation.
         suffix: of the functions.
+        together: how many results are stored at a time.
     """
 
     number: str = "jg_real"
@@ -49,6 +54,7 @@ class Notation:
     store: str = "{array}[{index}]"
     constant: str = "{literal}"
     suffix: str = ""
+    together: int = TOGETHER
 
 
 SCALAR = Notation()
@@ -86,14 +92,17 @@ class Statements:
         self._write()
 
     def _write(self) -> None:
-        stores = self._stores()
+        stores, ready = self._stores(), list[str]()
         for position, instruction in enumerate(self._program.instructions):
             if instruction.op is Op.SINCOS:
                 self._write_sincos(position, instruction)
             elif instruction.op not in PROJECTIONS:
                 self._write_value(position, instruction)
-            for store in stores.get(position, ()):
-                self.lines.append(f"{store} = {self._alone(position)};")
+            ready += [f"{store} = {self._alone(position)};" for store in stores.get(position, ())]
+            if len(ready) >= self._notation.together:
+                self.lines += ready
+                ready = []
+        self.lines += ready
         self.lines += [f"(void){output.name};" for output in self._program.outputs if not output.values]
 
     def _stores(self) -> dict[int, list[str]]:

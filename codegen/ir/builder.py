@@ -21,6 +21,7 @@ class Builder:
     def __init__(self) -> None:
         self.instructions: list[Instruction] = []
         self._known: dict[_Key, int] = {}
+        self._integers: dict[int, int] = {}
 
     def append(self, instruction: Instruction) -> int:
         """Append an instruction, or find the equal one that is there; give its position."""
@@ -42,7 +43,13 @@ class Builder:
 
     def constant(self, value: Constant | Fraction | int) -> int:
         """Append an exact constant."""
-        constant = value if isinstance(value, Constant) else Constant(Fraction(value))
+        if isinstance(value, int):
+            if value not in self._integers:
+                self._integers[value] = self._constant(Constant(Fraction(value)))
+            return self._integers[value]
+        return self._constant(value if isinstance(value, Constant) else Constant(value))
+
+    def _constant(self, constant: Constant) -> int:
         return self.append(Instruction(Op.CONSTANT, constant=constant))
 
     def input(self, argument: str, index: int) -> int:

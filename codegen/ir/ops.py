@@ -38,6 +38,9 @@ class Op(Enum):
     SELECT = "select"
 
 
+for _op in Op:  # as plain attributes, which Python 3.12 makes of them; 3.11 finds members by a slow detour
+    type.__setattr__(Op, _op.name, _op)
+
 ARITY: dict[Op, int] = {
     Op.CONSTANT: 0,
     Op.INPUT: 0,

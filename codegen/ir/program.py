@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import NamedTuple
 
 from codegen.errors import InternalError
 from codegen.ir.ops import ARITY, Constant, Op
@@ -68,9 +69,8 @@ class Sparsity:
         return Sparsity(nrow, ncol, tuple(accumulate(counts)), tuple(row for _, row in ordered))
 
 
-@dataclass(frozen=True, slots=True)
-class Instruction:
-    """One scalar operation.
+class Instruction(NamedTuple):
+    """One scalar operation; a tuple, since passes make them by the million.
 
     Attributes:
         op: the operation.

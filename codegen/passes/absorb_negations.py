@@ -19,6 +19,6 @@ def absorb_negations(program: Program) -> Program:
         inner = program.instructions[instruction.operands[0]]
         if inner.op is not Op.SUBTRACT or uses[instruction.operands[0]] > 1:
             return instruction
-        return replace(inner, operands=inner.operands[::-1], label=instruction.label)
+        return inner._replace(operands=inner.operands[::-1], label=instruction.label)
 
     return drop_unused(replace(program, instructions=tuple(absorbed(i) for i in program.instructions)))

@@ -12,10 +12,11 @@ from codegen.passes.rewrite import is_constant, negated, rebuild
 
 def eliminate_zeros(program: Program) -> Program:
     """Apply ``x + 0 = x``, ``0 x = 0``, ``1 x = x``, ``x - x = 0`` and their like."""
-    return rebuild(program, _place)
+    return rebuild(program, without_zeros)
 
 
-def _place(builder: Builder, instruction: Instruction) -> int:
+def without_zeros(builder: Builder, instruction: Instruction) -> int | None:
+    """What an operation with zero or one leaves: a rule of `rebuild`."""
     match instruction.op:
         case Op.ADD:
             first, second = instruction.operands
@@ -45,25 +46,30 @@ def _place(builder: Builder, instruction: Instruction) -> int:
                 return other
         case Op.NEGATE:
             return negated(builder, instruction.operands[0])
-    return builder.append(instruction)
+    return None
 
 
-def _fused(builder: Builder, instruction: Instruction) -> int:
+def _fused(builder: Builder, instruction: Instruction) -> int | None:
     """Leave what a zero or a one makes of ``a b + c``."""
     first, second, addend = instruction.operands
     if is_constant(builder, addend, 0):
-        return _product(builder, Instruction(Op.MULTIPLY, (first, second)))
+        return _placed(builder, Instruction(Op.MULTIPLY, (first, second)))
     for factor, other in ((first, second), (second, first)):
         if is_constant(builder, factor, 0):
             return addend
         if is_constant(builder, factor, 1):
-            return _place(builder, Instruction(Op.ADD, (other, addend)))
+            return _placed(builder, Instruction(Op.ADD, (other, addend)))
         if is_constant(builder, factor, -1):
-            return _place(builder, Instruction(Op.SUBTRACT, (addend, other)))
-    return builder.append(instruction)
+            return _placed(builder, Instruction(Op.SUBTRACT, (addend, other)))
+    return None
 
 
-def _product(builder: Builder, instruction: Instruction) -> int:
+def _placed(builder: Builder, instruction: Instruction) -> int:
+    position = without_zeros(builder, instruction)
+    return builder.append(instruction) if position is None else position
+
+
+def _product(builder: Builder, instruction: Instruction) -> int | None:
     for factor, other in (instruction.operands, instruction.operands[::-1]):
         if is_constant(builder, factor, 0):
             return factor
@@ -71,7 +77,7 @@ def _product(builder: Builder, instruction: Instruction) -> int:
             return other
         if is_constant(builder, factor, -1):
             return negated(builder, other)
-    return builder.append(instruction)
+    return None
 
 
 def compress(program: Program) -> Program:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from codegen.ir.looped import GEOMETRY, Loop, Looped
 from codegen.ir.program import Argument, Output, Program, Sparsity
@@ -75,7 +75,7 @@ def _name(name: str, number: int) -> str:
 def _flat(program: Program, inputs: list[Piece], outputs: list[Piece]) -> Program:
     sources = {(p.array, p.first + k): (p.name, k) for p in inputs for k in range(p.length)}
     instructions = tuple(
-        i if i.source is None or i.source[0] == GEOMETRY else replace(i, source=sources[i.source])
+        i if i.source is None or i.source[0] == GEOMETRY else i._replace(source=sources[i.source])
         for i in program.instructions
     )
     arguments = [a for a in program.arguments if a.name == GEOMETRY]

@@ -12,17 +12,19 @@ from codegen.passes.rewrite import rebuild
 
 def fold_constants(program: Program) -> Program:
     """Replace operations on constants by their exact value, where that is a rational times a power of pi."""
-    return rebuild(program, _place)
+    return rebuild(program, folded)
 
 
-def _place(builder: Builder, instruction: Instruction) -> int:
-    values = [builder.value_of(operand) for operand in instruction.operands]
-    known = [value for value in values if value is not None]
-    if known and len(known) == len(values):
-        folded = _fold(instruction.op, known)
-        if folded is not None:
-            return builder.constant(folded)
-    return builder.append(instruction)
+def folded(builder: Builder, instruction: Instruction) -> int | None:
+    """The constant that an operation on constants gives: a rule of `rebuild`."""
+    known = []
+    for operand in instruction.operands:
+        value = builder.value_of(operand)
+        if value is None:
+            return None
+        known.append(value)
+    constant = _fold(instruction.op, known) if known else None
+    return None if constant is None else builder.constant(constant)
 
 
 def _fold(op: Op, values: list[Constant]) -> Constant | None:

@@ -23,7 +23,7 @@ def overlap(program: Program, issued: int = 2) -> Program:
         program: in an order that keeps few values alive (`codegen.passes.schedule`): its parts stay together.
         issued: operations that start in a cycle of the model; with more of them the order comes apart more.
     """
-    uses, missing = _dependencies(program)
+    uses, missing = dependencies(program)
     waiting = [(0, place) for place, count in enumerate(missing) if count == 0]
     ready: list[int] = []
     arrival = [0] * len(missing)
@@ -46,7 +46,7 @@ def overlap(program: Program, issued: int = 2) -> Program:
     return reorder(program, order)
 
 
-def _dependencies(program: Program) -> tuple[list[list[int]], list[int]]:
+def dependencies(program: Program) -> tuple[list[list[int]], list[int]]:
     """For each instruction those that take its value, and how many values it takes; -1 for what is not used."""
     uses: list[list[int]] = [[] for _ in program.instructions]
     missing = [-1] * len(uses)

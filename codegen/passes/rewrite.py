@@ -39,25 +39,35 @@ class Rebuilding:
         return _with(self._program, self.builder, self.moved)
 
 
-def rebuild(program: Program, place: Callable[[Builder, Instruction], int]) -> Program:
-    """Rebuild a program; ``place`` appends each instruction, operands mapped already, and gives its new position."""
+Rule = Callable[[Builder, Instruction], int | None]
+"""Position of what stands for an instruction, appended where it is new; None where the rule has nothing to say."""
+
+
+def rebuild(program: Program, *rules: Rule) -> Program:
+    """Rebuild a program: each instruction, its operands mapped already, by the first rule that has something to say."""
     rebuilding = Rebuilding(program)
-    moved = rebuilding.moved
+    moved, builder = rebuilding.moved, rebuilding.builder
     for instruction in program.instructions:
-        operands = tuple([moved[operand] for operand in instruction.operands])
-        moving = instruction.with_operands(operands) if operands else instruction
-        rebuilding.put(instruction, place(rebuilding.builder, moving))
+        operands = instruction.operands
+        moving = instruction.with_operands(tuple([moved[operand] for operand in operands])) if operands else instruction
+        for rule in rules:
+            position = rule(builder, moving)
+            if position is not None:
+                rebuilding.put(instruction, position)
+                break
+        else:
+            rebuilding.put(instruction, builder.append(moving))
     return rebuilding.finish()
 
 
 def reorder(program: Program, order: Sequence[int]) -> Program:
     """Give the program with only these instructions, in this order; operands must come before their uses."""
-    new_place = {old: new for new, old in enumerate(order)}
+    new_place = [0] * len(program.instructions)
+    for new, old in enumerate(order):
+        new_place[old] = new
+    kept = [program.instructions[old] for old in order]
     instructions = tuple(
-        program.instructions[old].with_operands(
-            tuple(new_place[operand] for operand in program.instructions[old].operands)
-        )
-        for old in order
+        [i.with_operands(tuple([new_place[o] for o in i.operands])) if i.operands else i for i in kept]
     )
     outputs = tuple(
         replace(output, values=tuple(new_place[value] for value in output.values)) for output in program.outputs

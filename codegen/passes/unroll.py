@@ -36,7 +36,7 @@ def _copy(program: Program, instance: int) -> Program:
     if instance == 0:
         return program
     named = (
-        replace(i, label=(f"{i.label[0]}_copy_{instance + 1}", i.label[1])) if i.label else i
+        i._replace(label=(f"{i.label[0]}_copy_{instance + 1}", i.label[1])) if i.label else i
         for i in program.instructions
     )
     return replace(program, instructions=tuple(named))

@@ -34,8 +34,8 @@ Progress = Callable[[str], None]
 """Told what is finished."""
 
 
-def with_options(platform: Platform, variant: str | None, real: str) -> Platform:
-    """Give the platform with the variant of the command line in the place of that of the file.
+def with_options(platform: Platform, variant: str | None, real: str, fma: bool = False) -> Platform:
+    """Give the platform with the options of the command line in the place of those of the file.
 
     Raises:
         SpecificationError: there is no such option, or the variant does not offer what is asked for.
@@ -48,7 +48,8 @@ def with_options(platform: Platform, variant: str | None, real: str) -> Platform
     ]
     if mistakes:
         raise SpecificationError(mistakes)
-    chosen = replace(platform, wanted=replace(platform.wanted, variant=variant or platform.wanted.variant))
+    wanted = replace(platform.wanted, variant=variant or platform.wanted.variant, fma=fma)
+    chosen = replace(platform, wanted=wanted)
     mistakes = list(wanted_mistakes(chosen.wanted, "--variant"))
     if mistakes:
         raise SpecificationError(mistakes)
@@ -88,6 +89,7 @@ def generate_platform(
         _batch_files(platform, batches, specification, real),
         _batch_manifest(platform, batches, LANES[real]),
         True,
+        fma=platform.wanted.fma,
     )
     return scene_files(package)
 

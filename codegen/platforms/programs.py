@@ -1,4 +1,4 @@
-"""From a platform to its routines: derivation, lowering, passes, the last of which orders by latency."""
+"""From a platform to its routines: derivation, lowering, passes, the last of which orders and fuses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from codegen.emit.routine import Routine
 from codegen.ir.program import Program
 from codegen.mechanics.velocity.model import velocity_program
 from codegen.passes import simplify
-from codegen.passes.overlap import overlap
+from codegen.passes.contract_fma import contract_fma
+from codegen.passes.pipelines import pipeline
 from codegen.spec.platform import Platform
 from flopcount.count import count
 
@@ -23,7 +24,8 @@ def program(platform: Platform, names: tuple[str, ...], real: str = "double", is
         real: ``double`` or ``float``: decides what is rounding.
         is_symbolic: whether the joints are arguments too.
     """
-    return overlap(simplify(velocity_program(platform, names, real, is_symbolic)))
+    found = pipeline(simplify(velocity_program(platform, names, real, is_symbolic)))
+    return contract_fma(found) if platform.wanted.fma else found
 
 
 def routine(platform: Platform, output: str, names: tuple[str, ...], real: str = "double") -> Routine:

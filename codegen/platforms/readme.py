@@ -16,7 +16,7 @@ _VARIANTS = {
     "robust": "Every index is right to a few eps times the condition number of J.",
     "balanced": "As robust where only one value of a block is small; one closed form a block instead of two.",
     "fast": "Gram matrices: errors grow with the square of the condition number of J.",
-    "values": "The four products alone, right to eps times the condition number of J.",
+    "values": "The four products alone, right to eps kappa; less where J loses two degrees at once.",
     "smooth": "C is the condition number of Frobenius: smooth, 1 for equal values only.",
     "literal": "The formulas as printed, for comparison: half of the digits are lost at repeated values.",
 }
@@ -32,6 +32,7 @@ def readme(subject: PlatformSubject, routines: Sequence[Routine], lanes: int, sp
         specification: hash of the request.
     """
     platform = subject.platform
+    fused = " Products and sums are fused: compile with `-mfma` or `-march=native`, and with `-ffp-contract=off`."
     functions = [
         (
             Code(routine.symbol),
@@ -48,7 +49,7 @@ def readme(subject: PlatformSubject, routines: Sequence[Routine], lanes: int, sp
         banner=banner(codegen.__version__),
         specification=specification,
         variant=platform.wanted.variant,
-        words=_VARIANTS[platform.wanted.variant],
+        words=_VARIANTS[platform.wanted.variant] + fused * platform.wanted.fma,
         lanes=lanes,
         functions=table(("function", "takes", "gives", "unit", "operations"), functions),
     )

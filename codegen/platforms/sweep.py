@@ -82,7 +82,8 @@ def kernel(platform: Platform) -> Kernel:
     lanes = LANES["double"]
     symbol = f"{made.symbol}_batch{lanes}_soa"
     groups = batch_routines(made, lanes)[:1]
-    headers = _headers(batch_header(platform.name, groups, lanes, ""), f"{platform.name}_batch{lanes}.h")
+    declared_in = {f"{platform.name}_batch{lanes}.h": batch_header(platform.name, groups, lanes, "")}
+    headers = declared_in | _shared_headers(platform.wanted.fma)
     loaded = library(batch_source(platform.name, groups, lanes, "", "sweep"), headers, FLAGS)
     function = loaded[symbol]
     function.restype = None
@@ -127,7 +128,7 @@ def _names(parameter: Parameter) -> list[str]:
     return [name if size == 1 else f"{name}{k + 1}" for name, size in parts for k in range(size)]
 
 
-def _headers(own: str, name: str) -> dict[str, str]:
+def _shared_headers(fma: bool) -> dict[str, str]:
     shared = vector_headers(LANES["double"], banner(codegen.__version__), choices=True)
-    real = real_header(codegen.__version__, "double", choices=True, has_batch=True)
-    return {name: own, "jg_real.h": real} | {f"{header}.h": text for header, text in shared.items()}
+    real = real_header(codegen.__version__, "double", choices=True, has_batch=True, fma=fma)
+    return {"jg_real.h": real} | {f"{header}.h": text for header, text in shared.items()}

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from codegen.emit.environment import render
+from codegen.parallel import parallel
 from codegen.report.charts import bar_chart
 from codegen.report.sheets import (
     Document,
@@ -36,7 +38,8 @@ def flop_files(documents: Mapping[str, Document], banner: str) -> dict[str, byte
     """
     table_2, table_7 = documents["table2"], documents["table7"]
     joints = list(dict.fromkeys(row["joint"] for row in table_7["rows"]))
-    charts = {joint: bar_chart(table_7, joint) for joint in joints}
+    drawn = parallel(partial(bar_chart, table_7), joints, lambda _: None)
+    charts = dict(zip(joints, drawn, strict=True))
     page = render(
         "report/flops.html.j2",
         banner=banner,

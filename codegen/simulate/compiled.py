@@ -112,8 +112,8 @@ def ida_source(subject: Subject, residual: Program | Looped, jacobian: Program |
         banner=banner(codegen.__version__),
         name=subject.stem,
         functions=[any_definition(*declared(p), p, subject, "static void")[0] for p in (residual, jacobian)],
-        residual=_call(residual),
-        jacobian=_call(jacobian),
+        residual=call(residual),
+        jacobian=call(jacobian),
         size=pattern.ncol,
         nonzeros=pattern.nonzeros,
         blocks=len(found.starts) - 1,
@@ -139,7 +139,8 @@ def declared(program: Program | Looped) -> tuple[str, tuple[Parameter, ...]]:
     return f"evaluate_{program.outputs[0].name}", (*inputs, *outputs)
 
 
-def _call(program: Program | Looped) -> str:
+def call(program: Program | Looped) -> str:
+    """A call of that function, with names of parameters as arguments."""
     symbol, parameters = declared(program)
     return f"{symbol}({', '.join(parameter.name for parameter in parameters)});"
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from codegen.spec.chain_forces import EffectorForce, JointForce, Spring, Stop, WorldForce
+from codegen.spec.chain_forces import Condition, EffectorForce, JointForce, Spring, Stop, WorldForce
 from codegen.spec.chain_motions import Independent
 from codegen.spec.scene import Matrix, Vector
 
@@ -217,8 +217,19 @@ class Chain:
     def acts_at_effectors(self) -> bool:
         """Whether forces act at effectors at all times, or springs do."""
         own = any(any((*effector.force, *effector.moment)) for effector in self.effectors)
-        lasting = any(force.when is None for force in self.effector_forces)
-        return own or lasting or bool(self.world_forces or self.springs)
+        return own or bool(self.springs) or any(when is None for when in self._at_effectors)
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """When the forces that switch act: those on coordinates, those at effectors, those in axes of the world."""
+        found = (*(force.when for force in self.joint_forces), *self._at_effectors)
+        return tuple(when for when in found if when is not None)
+
+    @property
+    def _at_effectors(self) -> list[Condition | None]:
+        """When the forces at effectors act."""
+        own = [force.when for force in self.effector_forces]
+        return own + [force.when for force in self.world_forces]
 
     def index(self, name: str) -> int:
         """Place of a link's coordinate in q.

@@ -71,11 +71,13 @@ class WorldForce:
         effector: its name.
         force: [3] N, axes of frame 0; of the world where the base moves.
         moment: [3] N m about the effector's origin, likewise.
+        when: None for always.
     """
 
     effector: str
     force: Vector
     moment: Vector
+    when: Condition | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -90,11 +90,13 @@ class WantedIndices:
         quantities: of `QUANTITIES`; empty for `DEFAULT_QUANTITIES`.
         variant: of `VARIANTS`.
         attitude: of `ATTITUDES`.
+        fma: whether products and sums are fused.
     """
 
     quantities: tuple[str, ...] = ()
     variant: str = "robust"
     attitude: str = "matrix"
+    fma: bool = False
 
     @property
     def offered(self) -> tuple[str, ...]:

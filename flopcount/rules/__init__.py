@@ -28,6 +28,7 @@ from flopcount.rules.tables import (
     parts,
     printed,
     tally,
+    verdict,
     verdicts,
 )
 
@@ -49,5 +50,6 @@ __all__ = [
     "parts",
     "printed",
     "tally",
+    "verdict",
     "verdicts",
 ]

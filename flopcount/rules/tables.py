@@ -143,17 +143,20 @@ def cells() -> Iterator[Cell]:
 
 def verdicts() -> tuple[Verdict, ...]:
     """Judge every number of Tables 2 and 7."""
-    return tuple(
-        Verdict(cell, printed(cell), tally(cell.name, cell.derivative, cell.form), _explaining(cell))
-        for cell in cells()
-    )
+    return tuple(verdict(cell) for cell in cells())
+
+
+def verdict(cell: Cell) -> Verdict:
+    """Judge one number."""
+    return Verdict(cell, printed(cell), tally(cell.name, cell.derivative, cell.form), _explaining(cell))
 
 
 def _explaining(cell: Cell) -> str | None:
     for switch in SWITCHES.values():
-        assumed = tally(cell.name, cell.derivative, cell.form, switches=(switch.name,))
-        if cell in switch.explains and assumed == printed(cell):
-            return switch.name
+        if cell in switch.explains:
+            assumed = tally(cell.name, cell.derivative, cell.form, switches=(switch.name,))
+            if assumed == printed(cell):
+                return switch.name
     return None
 
 

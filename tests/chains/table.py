@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from codegen.chains.equations import Closure, Terms
+from codegen.chains.partition import Partition
+from codegen.chains.switches import Switch
 from codegen.spec.chain import BASE, Chain, Frame, Row
+from codegen.spec.chain_forces import WorldForce
 
 Array = NDArray[np.float64]
 
@@ -108,6 +113,9 @@ class TableEquations:
             [np.zeros((0, len(q))), *(part for pair in zip(closure.dp, closure.W, strict=True) for part in pair)]
         )
 
+    def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> None:
+        """Nothing is compiled."""
+
     def terms(self, q: Array, qd: Array) -> Terms:
         n, table = len(q), Table(self.chain, q, qd)
         gamma = [np.zeros(0)]
@@ -127,17 +135,22 @@ class TableEquations:
             f_G += m * Dm[:3].T @ g
         return Terms(np.concatenate(gamma), M, f_C, f_G)
 
-    def applied(self, q: Array, qd: Array) -> tuple[Array, Array]:
+    def applied(self, q: Array, qd: Array, on: Array) -> tuple[Array, Array]:
         """Constants, springs and dampers of coordinates, and constants at effectors."""
-        assert not (self.chain.springs or self.chain.stops or self.chain.world_forces)
+        assert not (self.chain.springs or self.chain.stops)
         tau, numbers = np.zeros(len(q)), {e.name: k for k, e in enumerate(self.chain.effectors)}
-        for force in (one for one in self.chain.joint_forces if one.when is None):
-            k = self.chain.index(force.joint)
-            tau[k] += float(force.constant) - float(force.damping) * qd[k]
-            tau[k] -= float(force.stiffness) * (q[k] - float(force.rest))
+        table, switches = Table(self.chain, q, qd), iter(on)
+        for force in self.chain.joint_forces:
+            k, share = self.chain.index(force.joint), 1.0 if force.when is None else next(switches)
+            tau[k] += share * (float(force.constant) - float(force.damping) * qd[k])
+            tau[k] -= share * float(force.stiffness) * (q[k] - float(force.rest))
         wrenches = np.array([[*e.force, *e.moment] for e in self.chain.effectors], dtype=np.float64).reshape(-1, 6)
-        for force in (one for one in self.chain.effector_forces if one.when is None):
-            wrenches[numbers[force.effector]] += np.array([*force.force, *force.moment], dtype=np.float64)
+        for wrench in (*self.chain.effector_forces, *self.chain.world_forces):
+            k, share = numbers[wrench.effector], 1.0 if wrench.when is None else next(switches)
+            frame = table.fixed(self.chain.effectors[k].frame)[0][:3, :3]
+            back = frame.T if isinstance(wrench, WorldForce) else np.eye(3)
+            for part, values in enumerate((wrench.force, wrench.moment)):
+                wrenches[k, 3 * part : 3 * part + 3] += share * back @ np.array(values, dtype=np.float64)
         return tau, wrenches.ravel()
 
     def effectors(self, q: Array) -> Array:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction as F
 
 import numpy as np
 import pytest
 
+from codegen.chains.mechanism import Mechanism
 from codegen.spec.chain import BASE, Chain, Effector, Frame, Row
 from codegen.spec.chain_forces import Condition, EffectorForce, JointForce
 from codegen.spec.chain_motions import Independent
 
 from .mechanisms import ZERO, link, row
-from .runs import by_table, forward_run
+from .runs import by_table, forward_run, generated
 
 TIMES = np.linspace(0.0, 4.0, 9)
 ZONE = Condition("mass", F("0.5"), F("1.5"), 1)
@@ -66,11 +68,12 @@ def test_forces_that_switch_without_end_stop_the_run() -> None:
     assert run.states[-1].t == 0.5 or run.states[-1].t == 1.0
 
 
-def test_a_switched_wrench_at_an_effector_acts_along_its_own_axes() -> None:
+@pytest.mark.parametrize("made", [by_table, generated])
+def test_a_switched_wrench_at_an_effector_acts_along_its_own_axes(made: Callable[[Chain], Mechanism]) -> None:
     """The tool's x is the slide's z."""
     chain = sliding()
     tool = Effector("tool", Frame("mass", Row(psi=F(0), theta=F(0))), ZERO, ZERO)
     wrench = EffectorForce("tool", (F(5), F(7), F("-0.3")), ZERO, ZONE)
     changed = Chain(chain.name, ZERO, chain.links, (), (tool,), chain.independents, (), (wrench,))
-    run = forward_run(by_table(changed), TIMES, 1e-10)
+    run = forward_run(made(changed), TIMES, 1e-10)
     assert run.states[-1].qd[0] == pytest.approx(np.sqrt(1 - 2 * 0.3), abs=1e-9)

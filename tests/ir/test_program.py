@@ -85,11 +85,11 @@ def test_a_change_of_the_program_shows_in_the_text(program: Program, data: st.Da
     if instruction.operands and not others:
         changed = Instruction(Op.ADD, instruction.operands[:2])
     elif instruction.operands:
-        changed = replace(instruction, op=data.draw(st.sampled_from(others)))
+        changed = instruction._replace(op=data.draw(st.sampled_from(others)))
     elif instruction.constant is not None:
-        changed = replace(instruction, constant=Constant(instruction.constant.rational + 1, 1))
+        changed = instruction._replace(constant=Constant(instruction.constant.rational + 1, 1))
     else:
-        changed = replace(instruction, source=("a", 17))
+        changed = instruction._replace(source=("a", 17))
     instructions = (*program.instructions[:position], changed, *program.instructions[position + 1 :])
     assert dump(replace(program, instructions=instructions)) != dump(program)
 

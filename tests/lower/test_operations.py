@@ -12,7 +12,7 @@ from functools import cache
 import pytest
 
 from codegen import models
-from codegen.comparison import operations_per_step
+from codegen.counted import operations_per_step
 from codegen.spec.request import Variant
 from flopcount.count import count
 

@@ -35,9 +35,10 @@ _EXPRESSIONS = st.recursive(
     first=st.lists(_EXPRESSIONS, min_size=2, max_size=2),
     second=_EXPRESSIONS,
     point=st.lists(st.fractions(-2, 2, max_denominator=5), min_size=3, max_size=3),
+    is_paired=st.booleans(),
 )
-def test_a_staged_program_has_the_exact_value_of_its_expressions(first, second, point):
-    stages = Stages()
+def test_a_staged_program_has_the_exact_value_of_its_expressions(first, second, point, is_paired):
+    stages = Stages(is_paired)
     x = stages.argument("x", 3)
     named = stages.stage("a", sympy.Matrix(first), "a")
     value = second.subs(dict(zip(_X, [*named, x[2]], strict=True)), simultaneous=True)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from codegen import comparison
+from codegen.counted import operations_per_step
 from codegen.models import model
 from codegen.report.charts import bar_chart, bars_of
 from codegen.report.sheets import glance, per_step
@@ -116,7 +117,7 @@ def test_prepared_geometry_leaves_fifteen_operations_to_the_translational_joint(
     programs = [
         model(Variant("translational", "parametric", "regular", "substituted")).program([d]) for d in DERIVATIVES
     ]
-    assert sum(comparison.operations_per_step(program) for program in programs) == 15
+    assert sum(operations_per_step(program) for program in programs) == 15
     rotation, with_tilde = 15 + 15 + 9, 27
     assert sum(count(program).total for program in programs) == rotation + with_tilde + 15, "C_i C_j^T, C_i C_j^T s_j~"
 

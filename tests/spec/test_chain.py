@@ -45,7 +45,6 @@ MISTAKES = {
     "an unknown key": ("a = 1.5", "b = 1.5", "there is no key"),
     "a screw without pitch": ('type = "prismatic"\nalpha', 'type = "screw"\nalpha', "give the advance in m/rad"),
     "a pitch of no screw": ('type = "prismatic"\nalpha', 'type = "prismatic"\npitch = 1\nalpha', "has no pitch"),
-    "a switched force in world axes": ('effector = "tool"', 'effector = "tool"\naxes = "world"', "force that switches"),
     "a spring to nowhere": ("[[independent]]", f'{SPRING}"tol"]\n[[independent]]', 'did you mean "tool"'),
     "a spring within one link": ("[[independent]]", f'{SPRING}"tool"]\n[[independent]]', "both ends are on"),
     "stops upside down": ("[[independent]]", f"{STOP}upper = -1\n[[independent]]", "is not below upper"),

@@ -1,4 +1,4 @@
-"""Six platforms: published dimensions, and grids of poses around their homes."""
+"""Six platforms, of published dimensions that were read or of what they are by definition, and grids of poses."""
 
 from __future__ import annotations
 
@@ -55,21 +55,31 @@ def _pairs(apart: float, first: float = 0.0) -> list[float]:
     return [first + 120 * k + side * apart / 2 for k in range(3) for side in (-1, 1)]
 
 
-def _cubic(side: float = 1.0) -> Geometry:
-    """Legs along edges of a cube that stands on a corner (Geng and Haynes 1994): three pairs at right angles."""
+def _cubic(side: float = 0.110, first: float = 0.075, height: float = 0.040) -> Geometry:
+    """Legs along the six middle edges of a cube that stands on a corner (Geng and Haynes 1994): at right angles.
+
+    Dimensions of initializeCubicConfiguration.m of T. Dehaeze's stewart-simscape: side of the cube, height of the base
+    joints over the corner, and of the platform joints over these.
+    """
     corners = {name: np.array([int(c) for c in name], dtype=float) for name in map("{:03b}".format, range(8))}
     edges = [("001", "011"), ("010", "011"), ("010", "110"), ("100", "110"), ("100", "101"), ("001", "101")]
-    down = Rotation.align_vectors([[0, 0, 1.0]], [[1, 1, 1.0]])[0].as_matrix()
-    base, joints = (side * down @ np.array([corners[edge[k]] for edge in edges]).T for k in (0, 1))
-    height = joints[2].mean()
-    return Geometry(base, joints - np.array([[0], [0], [height]]), height, 0.1 * side)
+    upright = Rotation.align_vectors([[0, 0, 1.0]], [[1, 1, 1.0]])[0].as_matrix()
+    low, high = (side * upright @ np.array([corners[edge[k]] for edge in edges]).T for k in (0, 1))
+    base, joints = (low + (z - low[2]) / (high - low)[2] * (high - low) for z in (first, first + height))
+    up = np.array([[0], [0], [1]])
+    return Geometry(base - first * up, joints - (first + height) * up, height, 0.1 * height)
 
 
-# The INRIA "left hand" after Merlet, Parallel Robots. From memory: no copy of the table was at hand to compare with.
-_LEFT_HAND = (
-    [[-0.097, 0.097, 0.1276, 0.03, -0.03, -0.1276], [0.091, 0.091, 0.039, -0.13, -0.13, 0.039], [0.0] * 6],
-    [[-0.03, 0.03, 0.07822, 0.04822, -0.04822, -0.07822], [0.073, 0.073, -0.01052, -0.06248, -0.06248, -0.01052],
-     [0.0] * 6],
+# Stewart platform of the industry examples of Wolfram SystemModeler, its axes z, x, y taken as x, y, z.
+_WOLFRAM = (
+    [[0.0388228567653781, 0.14488887394336, 0.106066017177982, -0.106066017177982, -0.14488887394336,
+      -0.0388228567653781],
+     [0.14488887394336, -0.0388228567653781, -0.106066017177982, -0.106066017177982, -0.0388228567653781,
+      0.14488887394336], [0.0] * 6],
+    [[0.0707106781186548, 0.0965925826289068, 0.0258819045102521, -0.0258819045102521, -0.0965925826289068,
+      -0.0707106781186548],
+     [0.0707106781186548, 0.0258819045102521, -0.0965925826289068, -0.0965925826289068, 0.0258819045102521,
+      0.0707106781186548], [0.0] * 6],
 )  # fmt: skip
 
 # The default hexapod of LinuxCNC, src/emc/kinematics/genhexkins.h: base a triangle. A tenth of its units.
@@ -89,9 +99,9 @@ _DIETMAIER = (
 SEMI_REGULAR = Geometry(_circle(1.0, _pairs(30)), _circle(0.6, _pairs(80)), 0.9, 0.15)
 
 GEOMETRIES = {
-    "6-6, INRIA left hand": Geometry(np.array(_LEFT_HAND[0]), np.array(_LEFT_HAND[1]), 0.5, 0.02),
+    "6-6, Wolfram": Geometry(np.array(_WOLFRAM[0]), np.array(_WOLFRAM[1]), 0.15, 0.015),
     "3-6, LinuxCNC": Geometry(np.array(_LINUXCNC[0]), np.array(_LINUXCNC[1]), 2.5, 0.3),
-    # Lee, Duffy and Hunt 1998: base side twice the platform side, height equal to it.
+    # Lee, Duffy and Hunt 1998: base side twice the platform side, height equal to it. |det J| is greatest there.
     "3-3, octahedral optimum": Geometry(
         _circle(2 / np.sqrt(3), [-60, 60, 60, 180, 180, 300]),
         _circle(1 / np.sqrt(3), [0, 0, 120, 120, 240, 240]),

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from .found import EPS, TYPES, found
+from flopcount.count import count
+
+from .found import EPS, TYPES, cached_program, found
 from .geometries import GEOMETRIES, SEMI_REGULAR, Geometry
 from .truth import Truth, error, truth
 
@@ -48,6 +51,17 @@ def test_robust_indices_and_values_are_right_to_8_eps_kappa(name: str, real: str
     assert (wrong <= bounds).all(), (wrong / bounds).max()
 
 
+def test_fused_products_and_sums_keep_the_bounds() -> None:
+    geometry = GEOMETRIES["3-3, octahedral optimum"]
+    poses = list(geometry.poses())
+    expected = truths(geometry, poses, "double")
+    plain = geometry.platform()
+    fused = replace(plain, wanted=replace(plain.wanted, fma=True))
+    wrong = errors(found(fused, INDICES, poses), expected, INDICES)
+    assert count(cached_program(fused, INDICES)).fma > 400
+    assert (wrong <= [8 * EPS["double"] * t.kappa for t in expected]).all()
+
+
 @pytest.mark.parametrize("name", GEOMETRIES)
 def test_the_four_volumes_alone_are_right_to_8_eps_kappa(name: str) -> None:
     geometry = GEOMETRIES[name]
@@ -55,6 +69,16 @@ def test_the_four_volumes_alone_are_right_to_8_eps_kappa(name: str) -> None:
     expected = truths(geometry, poses, "double")
     wrong = errors(found(geometry.platform("values"), ("D",), poses), expected, ("D",))
     assert (wrong <= [8 * EPS["double"] * t.kappa for t in expected]).all()
+
+
+def test_the_four_volumes_keep_their_digits_for_a_reference_point_far_away_and_near_a_singular_pose() -> None:
+    shift = np.array([[100.0], [-50.0], [20.0]])
+    far = Geometry(SEMI_REGULAR.base, SEMI_REGULAR.joints - shift, SEMI_REGULAR.height, SEMI_REGULAR.step)
+    away = [(o + R @ shift[:, 0], R) for o, R in SEMI_REGULAR.poses()]
+    for geometry, poses in ((far, away), (SEMI_REGULAR, approach(SEMI_REGULAR, [10.0**-k for k in range(1, 11)]))):
+        expected = truths(geometry, poses, "double")
+        wrong = errors(found(geometry.platform("values"), ("D",), poses), expected, ("D",))
+        assert (wrong <= [8 * EPS["double"] * t.kappa for t in expected]).all()
 
 
 def approach(geometry: Geometry, distances: Any) -> list[tuple[Any, Any]]:

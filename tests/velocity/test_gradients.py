@@ -74,7 +74,7 @@ def gradient(geometry: Geometry, o: Any, R: Any, names: tuple[str, ...] = ("dD",
     return dense
 
 
-@pytest.mark.parametrize("geometry", [GENERIC, GEOMETRIES["6-6, INRIA left hand"]], ids=["general", "6-6"])
+@pytest.mark.parametrize("geometry", [GENERIC, GEOMETRIES["6-6, Wolfram"]], ids=["general", "6-6"])
 def test_all_gradients_are_right_where_values_are_different(geometry: Geometry) -> None:
     o = np.array([0.1, 0.05, 1.0]) * geometry.height
     R = Rotation.from_euler("ZYX", [0.2, 0.1, -0.15]).as_matrix()

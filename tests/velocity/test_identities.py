@@ -180,3 +180,9 @@ AIMS = {"fast": 1465, "balanced": 1630, "robust": 2460, "values": 637}
 def test_a_platform_whose_joints_lie_in_planes_costs_no_more_than_its_aim(variant: str) -> None:
     names = tuple(name for name in ("D", "C") if name in VARIANTS[variant])
     assert count(program(SEMI_REGULAR.platform(variant), names)).total <= AIMS[variant]
+
+
+def test_the_volumes_of_any_platform_cost_no_more_than_their_aim() -> None:
+    generator = np.random.default_rng(0)
+    general = Geometry(generator.normal(size=(3, 6)), generator.normal(size=(3, 6)), 1.0, 0.1)
+    assert count(program(general.platform("values"), ("D",))).total <= AIMS["values"]

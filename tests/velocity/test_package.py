@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -150,3 +151,11 @@ def test_options_that_do_not_go_together_are_refused() -> None:
         with_options(platform, "values", "double")
     with pytest.raises(SpecificationError, match=r"--variant.*did you mean"):
         with_options(platform, "robusst", "double")
+
+
+def test_fused_products_and_sums_are_written_out_and_told() -> None:
+    plain = read_platform(HEXAPOD + '\n[output]\nquantities = ["D"]\n', "p.toml")
+    files = generate_platform(with_options(plain, None, "double", True))
+    assert json.loads(files["manifest.json"])["fma"] is True
+    assert "-mfma" in files["README.md"].decode()
+    assert "jg_fma(" in files["hexapod.c"].decode() and "jg_fma_batch(" in files["hexapod_batch4.c"].decode()

@@ -12,7 +12,7 @@ from codegen.ir.lower.alternatives import GENERAL, Alternative, cross_cost
 from codegen.ir.lower.collect import common_coefficient
 from codegen.ir.lower.layout import Layout
 from codegen.ir.lower.polynomial import ONE, Polynomial, total
-from codegen.ir.lower.quantities import Axis, Dyadic, Vector
+from codegen.ir.lower.quantities import Axis, Dyadic, Vector, primitive_vector
 
 _KNOWN = 24
 """How many blocks between the same frames are looked through."""
@@ -48,7 +48,7 @@ def _skewed(layout: Layout, dyadic: Dyadic, known: Dyadic) -> Iterator[Dyadic]:
             vector = Vector({})
             for (a, b), c in rest.pairs:
                 if a < b:
-                    left, right = (layout.space.vector(layout.space.primitives[p]) for p in (b, a))
+                    left, right = (primitive_vector(p) for p in (b, a))
                     vector += layout.space.cross(left, right).times(c)
             yield base + Dyadic({}, dyadic.identity, dyadic.tilde + vector)
 
@@ -67,8 +67,8 @@ def groupings(dyadic: Dyadic) -> list[Outers]:
     for (a, b), c in dyadic.pairs:
         by_left.setdefault(a, {})[b] = c
         by_right.setdefault(b, {})[a] = c
-    left = tuple((Vector({a: ONE}), Vector(terms)) for a, terms in by_left.items())
-    right = tuple((Vector(terms), Vector({b: ONE})) for b, terms in by_right.items())
+    left = tuple((primitive_vector(a), Vector(terms)) for a, terms in by_left.items())
+    right = tuple((Vector(terms), primitive_vector(b)) for b, terms in by_right.items())
     found = [left, right]
     for start, side in ((left, 1), (right, 0)):
         joined = _merged(start, side)

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from codegen.ir.lower.polynomial import ONE, Polynomial
-from codegen.ir.lower.quantities import Cross, Vector
+from codegen.ir.lower.quantities import Cross, Vector, primitive_vector
 from codegen.ir.lower.space import Space
 
 Product = tuple[Vector, Vector]
@@ -53,7 +53,7 @@ def _collected(pairs: dict[tuple[int, int], Polynomial], anticommutative: bool) 
             coefficient = pairs.pop(pair)
             other = pair[1] if pair[0] == shared else pair[0]
             partners[other] = coefficient if pair[0] == shared or not anticommutative else -coefficient
-        products.append((Vector({shared: ONE}), Vector(partners)))
+        products.append((primitive_vector(shared), Vector(partners)))
     return _joined(products)
 
 

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 
 from codegen.ir.lower.alternatives import Classes, Key, Node, Prices
 from codegen.ir.lower.entry_classes import EntryClasses
@@ -19,6 +21,39 @@ Signed = tuple[int, int]
 
 Turned = tuple[int, int, bool]
 """Sign and number of a node, and whether its transpose is meant."""
+
+
+class Placed(dict[str, Signed]):
+    """Frame -> node of one vector there, numbered when it is first asked for."""
+
+    __slots__ = ("_number", "_positive", "_sign")
+
+    def __init__(self, vector: Vector, number: Callable[[Key], int]) -> None:
+        super().__init__()
+        self._sign = vector.sign or 1
+        self._positive = vector if self._sign > 0 else -vector
+        self._number = number
+
+    def __missing__(self, frame: str) -> Signed:
+        found = self[frame] = self._sign, self._number(("vector", self._positive, frame))
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """The rotation between two frames, as it is applied to vectors.
+
+    Attributes:
+        by: ``columns`` (axes of the one seen in the other) or ``rows``.
+        axes: nodes of these.
+        classes: of the axes.
+        family: of the alternatives.
+    """
+
+    by: str
+    axes: tuple[int, ...]
+    classes: tuple[Classes, ...]
+    family: str
 
 
 class Layout:
@@ -53,24 +88,39 @@ class Layout:
         self.traces: dict[Polynomial, list[Signed]] = {}
         self.parts: dict[Vector, list[list[tuple[Polynomial, Vector]]]] = {}
         self._numbers: dict[Key, int] = {}
-        self._vectors: dict[str, dict[Vector, Signed]] = {frame: {} for frame in tree.frames}
+        self._placed: dict[Vector, Placed] = {}
+        self._turns: dict[tuple[str, str, str], Turn] = {}
         self._axes_between: dict[tuple[str, str, str], tuple[int, ...]] = {}
         self._classes_between: dict[tuple[str, str, str], tuple[Classes, ...]] = {}
         self._entries = EntryClasses(space, tree)
+
+    @cached_property
+    def dot_families(self) -> tuple[tuple[str, str], ...]:
+        """Each frame, and the family of the scalar products in it."""
+        return tuple((frame, f"dot {frame}") for frame in self.tree.frames)
 
     # --- nodes
 
     def vector(self, vector: Vector, frame: str) -> Signed:
         """A vector in a frame."""
-        known = self._vectors[frame]
-        found = known.get(vector)
+        return self.at(vector)[frame]
+
+    def at(self, vector: Vector) -> Placed:
+        """A vector in any frame."""
+        found = self._placed.get(vector)
         if found is None:
-            sign = vector.sign or 1
-            positive = vector if sign > 0 else -vector
+            found = self._placed[vector] = Placed(vector, self._number)
             if len(vector.terms) > 1:
-                self.sums.setdefault(positive)
-            found = known[vector] = sign, self._number(("vector", positive, frame))
+                self.sums.setdefault(vector if vector.sign >= 0 else -vector)
         return found
+
+    def turn(self, start: str, end: str, by: str) -> Turn:
+        """The rotation from ``start`` to ``end`` by its columns or its rows."""
+        key = start, end, by
+        if key not in self._turns:
+            axes, classes = self.axes_between(*key), self.axis_classes(*key)
+            self._turns[key] = Turn(by, axes, classes, f"{by} {start} {end}")
+        return self._turns[key]
 
     def axes_between(self, start: str, end: str, by: str) -> tuple[int, ...]:
         """Nodes of the columns, or of the rows, of the rotation from ``start`` to ``end``."""

@@ -5,10 +5,9 @@ A polynomial is immutable and hashable. What an atom stands for is known to `cod
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import cache, cached_property, reduce
+from functools import cache, reduce
 
 Coefficient = int | Fraction
 """Integers stay integers: their arithmetic is fast."""
@@ -25,7 +24,7 @@ class Polynomial:
         sign: of the first coefficient; 0 for zero.
     """
 
-    __slots__ = ("__dict__", "_hash", "sign", "terms")
+    __slots__ = ("_content", "_hash", "_negative", "sign", "terms")
 
     def __init__(self, terms: Mapping[Monomial, Coefficient]) -> None:
         left = [(m, c) for m, c in terms.items() if c]
@@ -34,6 +33,8 @@ class Polynomial:
         self.terms: tuple[tuple[Monomial, Coefficient], ...] = tuple(left)
         self.sign = 0 if not left else 1 if left[0][1] > 0 else -1
         self._hash = hash(self.terms)
+        self._negative: Polynomial | None = None
+        self._content: Monomial | None = None
 
     def __hash__(self) -> int:
         return self._hash
@@ -55,11 +56,10 @@ class Polynomial:
         return Polynomial(total)
 
     def __neg__(self) -> Polynomial:
+        if self._negative is None:
+            self._negative = Polynomial({monomial: -coefficient for monomial, coefficient in self.terms})
+            self._negative._negative = self
         return self._negative
-
-    @cached_property
-    def _negative(self) -> Polynomial:
-        return Polynomial({monomial: -coefficient for monomial, coefficient in self.terms})
 
     def __sub__(self, other: Polynomial) -> Polynomial:
         return self + -other
@@ -83,24 +83,35 @@ class Polynomial:
             return 0
         return self.terms[0][1] if len(self.terms) == 1 and not self.terms[0][0] else None
 
-    @cached_property
+    @property
     def content(self) -> Monomial:
         """The atoms that every monomial has."""
-        if len(self.terms) == 1:
-            return self.terms[0][0]
-        if not self.terms or not all(monomial for monomial, _ in self.terms):
-            return ()
-        common = reduce(lambda a, b: a & b, (Counter(monomial) for monomial, _ in self.terms))
-        return tuple(sorted(common.elements()))
+        if self._content is None:
+            self._content = reduce(_shared, (monomial for monomial, _ in self.terms)) if self.terms else ()
+        return self._content
 
     def without(self, factor: Monomial) -> Polynomial:
         """Divide by a monomial that every term has."""
+        if not factor:
+            return self
         reduced = {}
         for monomial, coefficient in self.terms:
-            atoms = Counter(monomial)
-            atoms.subtract(factor)
-            reduced[tuple(sorted(atoms.elements()))] = coefficient
+            atoms = list(monomial)
+            for index in factor:
+                atoms.remove(index)
+            reduced[tuple(atoms)] = coefficient
         return Polynomial(reduced)
+
+
+def _shared(left: Monomial, right: Monomial) -> Monomial:
+    """The atoms that two monomials have in common, as often as both have them."""
+    others = list(right)
+    shared = []
+    for index in left:
+        if index in others:
+            others.remove(index)
+            shared.append(index)
+    return tuple(shared)
 
 
 def number(value: Coefficient) -> Polynomial:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache
 from operator import itemgetter
 from typing import Any
 
@@ -53,7 +53,7 @@ class Vector:
         sign: of the first coefficient; 0 for the zero vector.
     """
 
-    __slots__ = ("__dict__", "_hash", "sign", "terms")
+    __slots__ = ("_hash", "_negative", "sign", "terms")
 
     def __init__(self, terms: Mapping[int, Polynomial]) -> None:
         left = [(p, c) for p, c in terms.items() if c.terms]
@@ -62,6 +62,7 @@ class Vector:
         self.terms: tuple[tuple[int, Polynomial], ...] = tuple(left)
         self.sign = left[0][1].sign if left else 0
         self._hash = hash(self.terms)
+        self._negative: Vector | None = None
 
     def __hash__(self) -> int:
         return self._hash
@@ -79,11 +80,10 @@ class Vector:
         return Vector(result)
 
     def __neg__(self) -> Vector:
+        if self._negative is None:
+            self._negative = Vector({primitive: -coefficient for primitive, coefficient in self.terms})
+            self._negative._negative = self
         return self._negative
-
-    @cached_property
-    def _negative(self) -> Vector:
-        return Vector({primitive: -coefficient for primitive, coefficient in self.terms})
 
     def __sub__(self, other: Vector) -> Vector:
         return self + -other
@@ -96,6 +96,12 @@ class Vector:
     def single(self) -> int | None:
         """The primitive, where the vector is one with coefficient 1."""
         return self.terms[0][0] if len(self.terms) == 1 and self.terms[0][1] == ONE else None
+
+
+@cache
+def primitive_vector(primitive: int) -> Vector:
+    """A primitive by its number, as a vector."""
+    return Vector({primitive: ONE})
 
 
 class Dyadic:

@@ -11,7 +11,7 @@ from codegen.ir.lower.alternatives import Alternative, Prices, dot_cost
 from codegen.ir.lower.collect import scalar_products
 from codegen.ir.lower.layout import Layout, Signed
 from codegen.ir.lower.polynomial import ONE, Coefficient, Polynomial, atom, number
-from codegen.ir.lower.quantities import Vector
+from codegen.ir.lower.quantities import Vector, primitive_vector
 
 _KNOWN = 20
 """How many products are looked through for one that is a factor of another."""
@@ -74,7 +74,7 @@ def _of_atom(layout: Layout, index: int) -> Iterator[Alternative]:
             "function", tuple(node for _, node in children), cost, (function, tuple(s for s, _ in children))
         )
     elif description.kind == "dot":
-        left, right = (layout.space.vector(layout.space.primitives[p]) for p in description.key)
+        left, right = (primitive_vector(p) for p in description.key)
         yield from dots(layout, left, right, 1)
         raw = layout.known(("scalar", layout.space.raw_dot(left, right)))
         if raw is not None:
@@ -87,7 +87,7 @@ def _of_atom(layout: Layout, index: int) -> Iterator[Alternative]:
 
 def _triple(layout: Layout, a: int, b: int, c: int) -> Iterator[Alternative]:
     for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-        first, second, third = (layout.space.vector(layout.space.primitives[x]) for x in (p, q, r))
+        first, second, third = (primitive_vector(x) for x in (p, q, r))
         yield from dots(layout, layout.space.cross(first, second), third, 1)
 
 
@@ -103,8 +103,11 @@ def _raw(layout: Layout, left: Vector, right: Vector) -> Iterator[Alternative]:
 
 def dots(layout: Layout, left: Vector, right: Vector, sign: int) -> Iterator[Alternative]:
     """Scalar products in every frame."""
-    for frame in layout.tree.frames:
-        yield _dot(layout, layout.vector(left, frame), layout.vector(right, frame), sign)
+    left_at, right_at, nodes, prices = layout.at(left), layout.at(right), layout.nodes, layout.prices
+    for frame, family in layout.dot_families:
+        (left_sign, a), (right_sign, b) = left_at[frame], right_at[frame]
+        cost = dot_cost(nodes[a].classes, nodes[b].classes, prices)
+        yield Alternative("dot", (a, b), cost, sign * left_sign * right_sign, family)
 
 
 def _dot(layout: Layout, left: Signed, right: Signed, sign: int) -> Alternative:

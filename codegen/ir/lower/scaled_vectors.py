@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from codegen.ir.lower.alternatives import Alternative, Key
 from codegen.ir.lower.layout import Layout
 from codegen.ir.lower.polynomial import ONE, Polynomial
-from codegen.ir.lower.quantities import Vector
+from codegen.ir.lower.quantities import Vector, primitive_vector
 from codegen.ir.lower.vector_forms import Parts, summed
 
 
@@ -35,8 +35,8 @@ def with_scaled(layout: Layout, key: Key) -> Iterator[Alternative]:
     _, vector, frame = key
     parts: Parts = []
     for primitive, coefficient in vector.terms:
-        whole = Vector({primitive: coefficient})
-        is_scaled = whole in layout.scaled or -whole in layout.scaled
-        parts.append((ONE, whole) if is_scaled else (coefficient, Vector({primitive: ONE})))
+        scaled = Vector({primitive: coefficient})
+        is_scaled = scaled in layout.scaled or -scaled in layout.scaled
+        parts.append((ONE, scaled) if is_scaled else (coefficient, primitive_vector(primitive)))
     if any(part == Vector({p: c}) and c != ONE for (_, part), (p, c) in zip(parts, vector.terms, strict=True)):
         yield summed(layout, parts, frame, "vector")

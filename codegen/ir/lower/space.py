@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from codegen.ir.lower.polynomial import ONE, ZERO, Polynomial, atom, total
-from codegen.ir.lower.quantities import Atom, Axis, Cross, Dyadic, Given, Named, Primitive, Vector
+from codegen.ir.lower.quantities import Atom, Axis, Cross, Dyadic, Given, Named, Primitive, Vector, primitive_vector
 
 Relation = Callable[[Axis | Given, Axis | Given], Polynomial | None]
 """Scalar product of two axes or given vectors where the frames know it."""
@@ -34,7 +34,6 @@ class Space:
         self.product_hints: dict[Polynomial, list[tuple[Polynomial, Polynomial]]] = {}
         self._relation = relation
         self._numbers: dict[Primitive, int] = {}
-        self._vectors: dict[Primitive, Vector] = {}
         self._atom_numbers: dict[Atom, int] = {}
         self._dots: dict[tuple[Vector, Vector], Polynomial] = {}
 
@@ -47,9 +46,7 @@ class Space:
 
     def vector(self, description: Primitive) -> Vector:
         """A primitive as a vector."""
-        if description not in self._vectors:
-            self._vectors[description] = Vector({self.primitive(description): ONE})
-        return self._vectors[description]
+        return primitive_vector(self.primitive(description))
 
     def scalar(self, kind: str, *key: Any) -> Polynomial:
         """An atom as a scalar."""
@@ -104,19 +101,19 @@ class Space:
         """The image of a vector."""
         result = vector.times(dyadic.identity)
         for (a, b), c in dyadic.pairs:
-            result += Vector({a: c}).times(self.dot(Vector({b: ONE}), vector))
+            result += Vector({a: c}).times(self.dot(primitive_vector(b), vector))
         return result + self.cross(dyadic.tilde, vector) if dyadic.tilde else result
 
     def compose(self, left: Dyadic, right: Dyadic) -> Dyadic:
         """Product of two maps; ``a~ b~ = b a^T - (a . b) I``."""
         result = right.times(left.identity)
         for (a, b), c in left.pairs:
-            row = self.apply(right.transposed, Vector({b: ONE}))
+            row = self.apply(right.transposed, primitive_vector(b))
             result += self.outer(Vector({a: c}), row)
         if left.tilde:
             result += Dyadic({}, ZERO, left.tilde).times(right.identity)
             for (a, b), c in right.pairs:
-                result += self.outer(self.cross(left.tilde, Vector({a: c})), Vector({b: ONE}))
+                result += self.outer(self.cross(left.tilde, Vector({a: c})), primitive_vector(b))
             if right.tilde:
                 result += self.outer(right.tilde, left.tilde)
                 result += Dyadic({}, -self.dot(left.tilde, right.tilde))
@@ -157,7 +154,7 @@ class Space:
             whole = self.primitives[x]
             if isinstance(whole, Named):
                 parts = self.named[whole.name].terms
-                return total(c * self.dot(self._cross(part, y), Vector({z: ONE})) for part, c in parts)
+                return total(c * self.dot(self._cross(part, y), primitive_vector(z)) for part, c in parts)
         for x, y, z in ((a, b, r), (b, r, a), (r, a, b)):
             simple = self._axis_product(x, y)
             if simple is not None:

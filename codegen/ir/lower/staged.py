@@ -34,9 +34,14 @@ _FUNCTIONS: dict[Any, Op] = {
 
 
 class Stages:
-    """A symbolic model under construction: arguments, then stages, then outputs."""
+    """A symbolic model under construction: arguments, then stages, then outputs.
 
-    def __init__(self) -> None:
+    Args:
+        is_paired: whether the terms of a sum are added in pairs, and these in pairs, so that few wait for others.
+    """
+
+    def __init__(self, is_paired: bool = False) -> None:
+        self._is_paired = is_paired
         self._builder = Builder()
         self._builder.constant(0)
         self._values: dict[Any, int] = {sympy.pi: self._builder.constant(Constant(Fraction(1), 1))}
@@ -124,6 +129,8 @@ class Stages:
 
     def _sum(self, terms: Sequence[Any]) -> int:
         """Terms with a minus sign are subtracted, and come after one without."""
+        if self._is_paired:
+            return self._pairs(terms)
         ordered = sorted(terms, key=lambda term: bool(term.could_extract_minus_sign()))
         total = self._value(ordered[0])
         for term in ordered[1:]:
@@ -131,6 +138,22 @@ class Stages:
             operand = self._value(-term if negative else term)
             total = self._builder.emit(Op.SUBTRACT if negative else Op.ADD, total, operand)
         return total
+
+    def _pairs(self, terms: Sequence[Any]) -> int:
+        signed = [(bool(term.could_extract_minus_sign()), term) for term in terms]
+        values = [(is_negative, self._value(-term if is_negative else term)) for is_negative, term in signed]
+        while len(values) > 1:
+            found = [self._pair(*values[k : k + 2]) for k in range(0, len(values) - 1, 2)]
+            values = found + values[2 * len(found) :]
+        ((is_negative, total),) = values
+        return self._builder.emit(Op.NEGATE, total) if is_negative else total
+
+    def _pair(self, first: tuple[bool, int], second: tuple[bool, int]) -> tuple[bool, int]:
+        """The sum of two values with signs: whether its sign is minus, and its value."""
+        if first[0] == second[0]:
+            return first[0], self._builder.emit(Op.ADD, first[1], second[1])
+        positive, negative = (second, first) if first[0] else (first, second)
+        return False, self._builder.emit(Op.SUBTRACT, positive[1], negative[1])
 
     def _product(self, expression: Any) -> int:
         if expression.could_extract_minus_sign():

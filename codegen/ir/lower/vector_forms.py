@@ -11,7 +11,7 @@ from codegen.ir.lower.collect import cross_products
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.layout import Layout, Signed
 from codegen.ir.lower.polynomial import ONE, Polynomial
-from codegen.ir.lower.quantities import Axis, Cross, Given, Named, Vector
+from codegen.ir.lower.quantities import Axis, Cross, Given, Named, Vector, primitive_vector
 
 _KNOWN = 60
 """How many sums are looked through for one that is part of another."""
@@ -98,8 +98,7 @@ def crosses(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]
     if primitive is not None:
         description = layout.space.primitives[primitive]
         if isinstance(description, Cross):
-            sides = (layout.space.vector(layout.space.primitives[p]) for p in (description.left, description.right))
-            left, right = sides
+            left, right = primitive_vector(description.left), primitive_vector(description.right)
             yield cross(layout, layout.vector(left, frame), layout.vector(right, frame))
     else:
         products = cross_products(layout.space, vector)
@@ -122,15 +121,13 @@ def cross(layout: Layout, left: Signed, right: Signed, sign: int = 1) -> Alterna
 def turned(layout: Layout, vector: Vector, start: str, end: str, description: object) -> Iterator[Alternative]:
     """``R v`` with R by its columns (axes of ``start`` seen in ``end``) or by its rows."""
     is_axis_of_start = isinstance(description, Axis) and description.frame == start
-    inner = layout.vector(vector, start)
-    for by in ("columns", "rows"):
-        if by == "columns" and is_axis_of_start:
-            continue
-        axes = layout.axes_between(start, end, by)
-        if inner[1] in axes:
-            continue
-        cost = turn_cost(layout.axis_classes(start, end, by), by, layout.classes(inner[1]), layout.prices)
-        yield Alternative("turned", (inner[1], *axes), cost, (by, inner[0]), f"{by} {start} {end}")
+    sign, inner = layout.vector(vector, start)
+    classes = layout.classes(inner)
+    for by in ("rows",) if is_axis_of_start else ("columns", "rows"):
+        turn = layout.turn(start, end, by)
+        if inner not in turn.axes:
+            cost = turn_cost(turn.classes, by, classes, layout.prices)
+            yield Alternative("turned", (inner, *turn.axes), cost, (by, sign), turn.family)
 
 
 def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alternative]:
@@ -143,7 +140,7 @@ def sums(layout: Layout, vector: Vector, frame: str, kind: str) -> Iterator[Alte
 
 def _parts(layout: Layout, vector: Vector) -> list[Parts]:
     """The sums of parts, whatever the frame."""
-    single: Parts = [(coefficient, Vector({p: ONE})) for p, coefficient in vector.terms]
+    single: Parts = [(coefficient, primitive_vector(p)) for p, coefficient in vector.terms]
     found = [
         single,
         _by_body(layout, vector),

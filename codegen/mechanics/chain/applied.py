@@ -1,13 +1,14 @@
 """What acts on a chain at all times beside gravity: along its coordinates, and at its end effectors.
 
 ``tau_A`` are springs, dampers, constants and soft stops of coordinates; ``f_A`` the wrenches of the effectors,
-constants and springs between them, force then moment about the effector's origin, its axes.
+constants and springs between them, force then moment about the effector's origin, its axes. Forces that switch act
+besides where it is told which of them do.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, TypeVar
 
 import sympy
 
@@ -17,8 +18,10 @@ from codegen.mechanics.chain.vectors import ZERO, Rows, Vector, added, dot, nega
 from codegen.mechanics.coordinate_load import CoordinateLoad
 from codegen.mechanics.placed import rational
 from codegen.mechanics.tension import closing, density, square, tension
-from codegen.spec.chain_forces import Spring
+from codegen.spec.chain_forces import EffectorForce, JointForce, Spring, WorldForce
 from codegen.spec.scene import Coordinate
+
+Force = TypeVar("Force", JointForce, EffectorForce, WorldForce)
 
 
 class Applied:
@@ -29,11 +32,13 @@ class Applied:
         q: coordinates.
         qd: joint velocities.
         base: rotation from the axes of the base to those of the world.
+        on: of each force that switches, in the order of `codegen.spec.chain.Chain.conditions`, 1 while it acts, else 0;
+            None to leave these forces out.
     """
 
-    def __init__(self, geometry: Geometry, q: Any, qd: Any, base: Rows) -> None:
+    def __init__(self, geometry: Geometry, q: Any, qd: Any, base: Rows, on: Any = None) -> None:
         self._geometry, self._q, self._qd, self._base = geometry, q, qd, base
-        self._chain, self._stages = geometry.tree.chain, geometry.stages
+        self._chain, self._stages, self._on = geometry.tree.chain, geometry.stages, on
         names = (effector.name for effector in self._chain.effectors)
         self._ends = dict(zip(names, geometry.tree.effectors, strict=True))
 
@@ -42,16 +47,24 @@ class Applied:
     def on_joints(self) -> list[Any]:
         """Give tau_A [n]."""
         found = [sympy.S.Zero] * len(self._chain.links)
-        for number, (joint, load) in enumerate(self._loads(), 1):
+        for number, (joint, load, share) in enumerate(self._loads(), 1):
             k = self._chain.index(joint)
-            found[k] += self._along(load, k, number)
+            found[k] += share * self._along(load, k, number)
         return found
 
-    def _loads(self) -> Iterator[tuple[str, Coordinate]]:
-        for force in self._chain.joint_forces:
+    def _loads(self) -> Iterator[tuple[str, Coordinate, Any]]:
+        for force, share in self._acting(self._chain.joint_forces, 0):
+            yield force.joint, Coordinate(force.constant, force.stiffness, force.damping, force.rest), share
+        yield from ((stop.joint, Coordinate(limit=stop.limit), sympy.S.One) for stop in self._chain.stops)
+
+    def _acting(self, forces: Iterable[Force], first: int) -> Iterator[tuple[Force, Any]]:
+        """Forces, and what share of each acts: 1, or its switch; the first of theirs has the number that is given."""
+        for force in forces:
             if force.when is None:
-                yield force.joint, Coordinate(force.constant, force.stiffness, force.damping, force.rest)
-        yield from ((stop.joint, Coordinate(limit=stop.limit)) for stop in self._chain.stops)
+                yield force, sympy.S.One
+            elif self._on is not None:
+                yield force, self._on[first]
+                first += 1
 
     def _along(self, coordinate: Coordinate, k: int, number: int) -> Any:
         """The load with this number, on a coordinate."""
@@ -77,15 +90,18 @@ class Applied:
     def _own(self, name: str) -> tuple[Any, ...]:
         """The constant wrenches at an effector, its axes."""
         chain = self._chain
-        given = [effector for effector in chain.effectors if effector.name == name]
-        lasting = [force for force in chain.effector_forces if force.effector == name and force.when is None]
-        turned = [force for force in chain.world_forces if force.effector == name]
+        first = [sum(force.when is not None for force in kind) for kind in (chain.joint_forces, chain.effector_forces)]
+        acting = [*self._acting(chain.effector_forces, first[0])]
+        turned = [*self._acting(chain.world_forces, sum(first))]
         parts = []
         for key in ("force", "moment"):
-            own = [_exact(getattr(force, key)) for force in (*given, *lasting)]
-            world = added(ZERO, *(_exact(getattr(force, key)) for force in turned))
+            given = [_exact(getattr(effector, key)) for effector in chain.effectors if effector.name == name]
+            own, world = (
+                [scaled(share, _exact(getattr(force, key))) for force, share in forces if force.effector == name]
+                for forces in (acting, turned)
+            )
             axes = self._geometry.axes(self._ends[name].number)
-            parts.append(added(*own, times(axes, times(transposed(self._base), world))))
+            parts.append(added(*given, *own, times(axes, times(transposed(self._base), added(ZERO, *world)))))
         return (*parts[0], *parts[1])
 
     def _pull(self, spring: Spring, number: int) -> Vector:

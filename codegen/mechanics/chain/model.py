@@ -46,7 +46,8 @@ def chain_program(chain: Chain, names: Iterable[str], progressive: bool = True) 
 
     Args:
         chain: the chain.
-        names: of `codegen.spec.chain.CHAIN_QUANTITIES`, in the order of the outputs.
+        names: of `codegen.spec.chain.CHAIN_QUANTITIES`, in the order of the outputs; or ``tau_S`` and ``f_S``, which
+            are tau_A and f_A with those of the forces that switch that ``on`` says, 1 or 0 for each.
         progressive: how M is summed, see `codegen.mechanics.chain.composite`.
     """
     model = Model(chain, progressive)
@@ -82,6 +83,8 @@ class Model:
         argument = self.stages.argument
         self._q, self._qd, self._qdd = argument("q", size), argument("qd", size), argument("qdd", size)
         self._f_R = argument("f_R", 6 * len(chain.cuts)) if chain.cuts else sympy.zeros(0, 1)
+        switched = len(chain.conditions)
+        self._on = argument("on", switched) if switched else sympy.zeros(0, 1)
         self._f_E = argument("f_E", 6 * len(chain.effectors)) if chain.effectors else sympy.zeros(0, 1)
         self._base = self._moving_base() if chain.base == "moving" else _still()
         self._world = Geometry(self._tree, self.stages, self._q)
@@ -204,9 +207,21 @@ class Model:
     def _f_A(self) -> sympy.Matrix:
         return sympy.Matrix(self._applied.at_effectors())
 
+    def _tau_S(self) -> sympy.Matrix:
+        """Like tau_A, with the forces that switch."""
+        return sympy.Matrix(self._switched.on_joints())
+
+    def _f_S(self) -> sympy.Matrix:
+        """Like f_A, with the forces that switch."""
+        return sympy.Matrix(self._switched.at_effectors())
+
     @cached_property
     def _applied(self) -> Applied:
         return Applied(self._world, self._q, self._qd, self._base.R)
+
+    @cached_property
+    def _switched(self) -> Applied:
+        return Applied(self._world, self._q, self._qd, self._base.R, self._on)
 
     def _wrenches(self) -> sympy.Matrix:
         twist = self._base.twist

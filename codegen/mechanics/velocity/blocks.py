@@ -16,6 +16,9 @@ from codegen.mechanics.velocity.triangular import Reflections, Triangle, triangl
 
 FIRST, SECOND = (0, 1, 2), (3, 4, 5)
 
+_ROWS = [0, 2, 4, 1, 3, 5]
+"""Legs in the order of the rows of the factor: neighbours, which often meet in a corner, lie apart."""
+
 
 @dataclass(frozen=True)
 class Blocks:
@@ -38,7 +41,13 @@ class Blocks:
     right: sympy.Matrix
 
 
-def blocks(stages: Stages, legs: Legs, limits: tuple[sympy.Rational, sympy.Rational], with_inverse: bool) -> Blocks:
+def blocks(
+    stages: Stages,
+    legs: Legs,
+    limits: tuple[sympy.Rational, sympy.Rational],
+    with_inverse: bool = False,
+    are_values_judged: bool = False,
+) -> Blocks:
     """Factor the Jacobian of a platform in both orders.
 
     Args:
@@ -46,15 +55,16 @@ def blocks(stages: Stages, legs: Legs, limits: tuple[sympy.Rational, sympy.Ratio
         legs: with J1 and J2.
         limits: sizes of a remainder of J1 and of J2 that are rounding.
         with_inverse: whether the identity is reflected too, for the inverse of J.
+        are_values_judged: whether a diagonal that is rounding becomes 0.
     """
     of_J1, of_J2 = [limits[0]] * 3, [limits[1]] * 3
-    columns = [legs.J2[:, k] for k in range(3)] + [legs.J1[:, k] for k in range(3)]
-    columns += [sympy.eye(6)[:, k] for k in range(6 * with_inverse)]
-    first = triangular(stages, "R", columns, [*of_J2, *of_J1])
+    columns = [legs.J2[_ROWS, k] for k in range(3)] + [legs.J1[_ROWS, k] for k in range(3)]
+    columns += [sympy.eye(6)[_ROWS, k] for k in range(6 * with_inverse)]
+    first = triangular(stages, "R", columns, [*of_J2, *of_J1], are_values_judged)
     R11, R12, R22 = first.block(FIRST, FIRST), first.block(FIRST, SECOND), first.block(SECOND, SECOND)
     again = [sympy.Matrix.vstack(R12, R22)[:, k] for k in range(3)]
     again += [sympy.Matrix.vstack(R11, sympy.zeros(3, 3))[:, k] for k in range(3)]
-    second = triangular(stages, "S", again, [*of_J1, *of_J2])
+    second = triangular(stages, "S", again, [*of_J1, *of_J2], are_values_judged)
     return Blocks(
         _triangle(stages, "gamma", first, FIRST),
         _triangle(stages, "sigma", first, SECOND),
@@ -67,14 +77,13 @@ def blocks(stages: Stages, legs: Legs, limits: tuple[sympy.Rational, sympy.Ratio
 
 
 def triangular(
-    stages: Stages, name: str, columns: list[sympy.Matrix], limits: list[sympy.Rational], steps: int = 6
+    stages: Stages, name: str, columns: list[sympy.Matrix], limits: list[sympy.Rational], are_values_judged: bool
 ) -> Reflections:
-    """Bring the first columns to triangular form; the others are reflected with them."""
-    found = Reflections(stages, name, columns, limits)
-    for k in range(min(steps, 5)):
+    """Bring the first six columns to triangular form; the others are reflected with them."""
+    found = Reflections(stages, name, columns, limits, are_values_judged)
+    for k in range(5):
         found.eliminate(k, k, range(k, 6))
-    if steps == 6:
-        found.last(5, 5, 5)
+    found.last(5, 5, 5)
     return found
 
 

@@ -15,7 +15,7 @@ import sympy
 
 from codegen.ir.lower.staged import Stages
 from codegen.mechanics.velocity.blocks import Blocks
-from codegen.mechanics.velocity.eigenvalues import angle
+from codegen.mechanics.velocity.eigenvalues import deviator
 from codegen.mechanics.velocity.geometry import Legs
 from codegen.mechanics.velocity.spectra import gram, gram_of_inverse
 from codegen.mechanics.velocity.triangular import Triangle, solved
@@ -72,7 +72,7 @@ def _of_ratio(stages: Stages, name: str, J: sympy.Matrix, motion: sympy.Matrix, 
     parts = []
     for k, (A, words) in enumerate(zip(grams, ("greatest", "least"), strict=True)):
         place = f"{name}_{k + 1}"
-        u = largest_vector(stages, place, angle(stages, place, A))
+        u = largest_vector(stages, deviator(stages, place, A))
         x = stages.stage(f"x_of_{place}", motion * u, f"motion of the {words} value")
         r = stages.stage(f"r_of_{place}", J * x, "speeds of the legs")
         scale = stages.stage(f"over_{place}", sympy.Matrix([1 / r.dot(r)]), "1 over their square")[0]

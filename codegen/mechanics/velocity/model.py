@@ -54,7 +54,7 @@ def velocity_program(
         real: number type, which decides what is rounding.
         is_symbolic: whether the joints are arguments too.
     """
-    stages = Stages()
+    stages = Stages(is_paired=True)
     found = legs(stages, platform, is_symbolic)
     model = _Model(stages, platform, found, limits(platform, found.exponent, real))
     for name, value in model.quantities(names).items():
@@ -103,15 +103,12 @@ class _Model:
         if variant == "values":
             return volumes(self.stages, self.legs, self.limits)
         if variant == "smooth":
-            found = self._blocks(False)
+            found = blocks(self.stages, self.legs, self.limits, are_values_judged=True)
             return {name: frobenius(self.stages, getattr(found, name)) for name in BLOCKS}
         return gram_spectra(self.stages, self.legs, not_negative if variant == "fast" else textbook)
 
-    def _blocks(self, with_inverse: bool) -> Blocks:
-        return blocks(self.stages, self.legs, self.limits, with_inverse)
-
     def _factored(self, names: tuple[str, ...], spectrum: object, unit: sympy.Expr) -> dict[str, sympy.Matrix]:
-        found = self._blocks(bool({"Q1", "Q2", "limits"} & set(names)))
+        found = blocks(self.stages, self.legs, self.limits, bool({"Q1", "Q2", "limits"} & set(names)))
         result: dict[str, sympy.Matrix] = {}
         if {"Q1", "Q2", "limits"} & set(names):
             result |= inverse_jacobian(self.stages, found, unit)

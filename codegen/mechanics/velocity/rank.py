@@ -36,31 +36,25 @@ def judged(stages: Stages, spectra: dict[str, Spectrum]) -> Judged:
         spectra: of all four blocks, with values and what is lost.
     """
     lost = {name: spectrum.lost for name, spectrum in spectra.items()}
-
-    def greater(a: str, x: sympy.Expr, y: sympy.Expr) -> sympy.Expr:
-        return _stage(stages, a, Select(x, y, y, x), "the greater")
-
-    any_lost = greater(
-        "of_all", greater("of_v", lost["sigma"], lost["beta"]), greater("of_w", lost["alpha"], lost["gamma"])
-    )
-    infinity = _stage(stages, "infinity", 1 / (1 - any_lost), "infinite if some value is lost")
+    count = _stage(stages, "lost_of_all", sum(lost.values(), sympy.Integer(0)), "number of blocks that lost a value")
+    flags = dict(lost)
     for name, partner in PARTNERS.items():
-        blame = _stage(stages, f"blame_{name}", any_lost - lost[partner], f"1 if J is singular and {partner} is not")
-        lost[name] = greater(f"lost_{name}_too", lost[name], blame)
+        own = _stage(stages, f"own_{name}", lost[name] - lost[partner], f"1, 0 or -1: {name} against {partner}")
+        flags[name] = _stage(stages, f"lost_{name}_too", count + 4 * own, f"positive also if J is singular by {name}")
     number = _stage(stages, "bit_8", Select(-1, spectra["beta"].values[0], 0, 8), "8 if there is no number")
-    status = lost["beta"] + 2 * lost["gamma"] + 4 * any_lost + number
+    status = lost["beta"] + 2 * lost["gamma"] + Select(count, _HALF, 0, 4) + number
     return Judged(
-        {name: _without(stages, name, spectrum, lost[name], infinity) for name, spectrum in spectra.items()},
+        {name: _without(stages, name, spectrum, flags[name]) for name, spectrum in spectra.items()},
         sympy.Matrix([status]),
     )
 
 
-def _without(stages: Stages, name: str, spectrum: Spectrum, lost: sympy.Expr, infinity: sympy.Expr) -> Spectrum:
+def _without(stages: Stages, name: str, spectrum: Spectrum, lost: sympy.Expr) -> Spectrum:
     """A spectrum of which the least value is 0 where it is lost."""
     first, middle, last = spectrum.values
     last = _stage(stages, f"{name}_3", Select(lost, _HALF, last, 0), f"least of {name}")
     D = _stage(stages, f"volume_{name}", Select(lost, _HALF, spectrum.D, 0), f"D of {name}")
-    C = _stage(stages, f"C_{name}", Select(lost, _HALF, spectrum.C, infinity), "infinite if singular")
+    C = _stage(stages, f"C_{name}", spectrum.C / D, "greatest over least; infinite if singular")
     return Spectrum(D, (first, middle, last), C)
 
 

@@ -11,8 +11,6 @@ from codegen.ir.lower.staged import Select, Stages
 from codegen.mechanics.velocity.eigenvalues import all_three, largest
 from codegen.mechanics.velocity.triangular import TINY, Triangle
 
-_HALF = sympy.Rational(1, 2)
-
 
 @dataclass(frozen=True)
 class Spectrum:
@@ -21,7 +19,7 @@ class Spectrum:
     Attributes:
         D: product of the three.
         values: in descending order; none where only their product is known.
-        C: the condition number; wrong where the least value is lost.
+        C: the condition number, or before singular poses are judged D times it, which is not 0.
         lost: 1 where the least value cannot be told from 0, and 0 elsewhere.
     """
 
@@ -32,7 +30,10 @@ class Spectrum:
 
 
 def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectrum:
-    """The greatest value from ``T'T``, the least from its inverse, each where it is the greatest.
+    """The greatest value from ``T'T``, the product of the two greatest from the cofactors of T, the least from D.
+
+    Each is the greatest of its matrix, so that it has an error of a few eps of it; nothing is divided by a value that
+    may be small but for the least value and C.
 
     Args:
         stages: gets the steps.
@@ -42,13 +43,15 @@ def robust(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectru
     stage = _stager(stages, triangle.name)
     product = _product(stages, triangle)
     first = largest(stages, triangle.name, gram(stages, triangle))
-    last = largest(stages, f"inv_{triangle.name}", gram_of_inverse(stages, triangle))
-    is_rounding = stage("below", Select(1 / limit**2, last, 1, 0), "1 if the least value is rounding")
-    lost = stage("lost", Select(product, TINY, 1, is_rounding), "1 also for a dependent column")
-    C = stage("ratio", sympy.sqrt(first * last), "greatest value over least")
+    pair = largest(stages, f"pair_{triangle.name}", _gram_of_cofactors(stages, triangle))
+    bound = stage("bound", limit**2 * pair + limit**6, "D^2 where the least value is rounding, or all are")
+    lost = stage("lost", Select(product * product, bound, 1, 0), "1 if the least value is rounding")
+    C = stage("C_D", sympy.sqrt(first * pair + TINY), "greatest value over least, times D")
     greatest = stage("greatest", sympy.sqrt(first), "greatest value")
-    least = stage("least", Select(lost, _HALF, 1 / sympy.sqrt(last), 0), "least value, or 0")
-    return Spectrum(product, (greatest, _middle(stages, triangle, product, greatest, least), least), C, lost)
+    both = stage("both", sympy.sqrt(pair), "product of the two greatest")
+    quotient = stage("quotient", both / (greatest + TINY), "middle value")
+    middle = stage("middle", Select(quotient, limit, 0, quotient), "0 if it is rounding")
+    return Spectrum(product, (greatest, middle, stage("least", product / both, "least value")), C, lost)
 
 
 def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spectrum:
@@ -66,7 +69,8 @@ def balanced(stages: Stages, triangle: Triangle, limit: sympy.Rational) -> Spect
     middle = stage("middle", sympy.sqrt(square), "middle value")
     least = stage("least", Select(middle, TINY, 0, rest / middle), "least value")
     lost = stage("lost", Select(least, limit, 1, 0), "1 if the least value is rounding")
-    return Spectrum(product, (greatest, middle, least), stage("ratio", greatest / least, "greatest over least"), lost)
+    C = stage("C_D", first * middle + TINY, "greatest value over least, times D")
+    return Spectrum(product, (greatest, middle, least), C, lost)
 
 
 def frobenius(stages: Stages, triangle: Triangle) -> Spectrum:
@@ -75,11 +79,10 @@ def frobenius(stages: Stages, triangle: Triangle) -> Spectrum:
     product = _product(stages, triangle)
     squares = [
         stage(f"norm_{k}", sum(x * x for x in M), "square of a norm")
-        for k, M in enumerate((triangle.T, triangle.inverse))
+        for k, M in enumerate((triangle.T, _cofactors(stages, triangle)))
     ]
-    norms = [stage(f"root_{k}", sympy.sqrt(square), "Frobenius norm") for k, square in enumerate(squares)]
-    C = stage("C", norms[0] * norms[1] / 3, "condition number of Frobenius")
-    return Spectrum(product, (), stage("C_or_inf", Select(product, TINY, 1 / product, C), "infinite if singular"))
+    norms = stage("norms", sympy.sqrt(squares[0] * squares[1] + TINY), "norms of the block and of its cofactors")
+    return Spectrum(product, (), stage("C", norms / (3 * product), "condition number of Frobenius, or infinite"))
 
 
 Stager = Callable[[str, sympy.Expr, str], sympy.Expr]
@@ -98,19 +101,17 @@ def _product(stages: Stages, triangle: Triangle) -> sympy.Expr:
     return stages.stage(f"D_{triangle.name}", sympy.Matrix([product]), "product of the diagonal of R")[0]
 
 
-def _middle(
-    stages: Stages, triangle: Triangle, product: sympy.Expr, greatest: sympy.Expr, least: sympy.Expr
-) -> sympy.Expr:
-    """What is left of the product; where the least value is 0, of the second compound: ``sum of minors^2``."""
-    stage = _stager(stages, triangle.name)
-    T = triangle.T
-    pairs = ((0, 1), (0, 2), (1, 2))
-    values = [T[a, c] * T[b, d] - T[a, d] * T[b, c] for a, b in pairs for c, d in pairs]
-    minors = stages.stage(f"minors_of_{triangle.name}", sympy.Matrix(values), "2 x 2 minors of the block")
-    squares = stage("compound", sympy.sqrt(sum(m * m for m in minors)), "product of the two greatest, least 0")
-    ends = stage("ends", greatest * least, "greatest times least")
-    of_rest = stage("of_rest", squares / greatest, "middle value, if the least is 0")
-    return stage("middle", Select(ends, TINY, of_rest, product / ends), "middle value")
+def _cofactors(stages: Stages, triangle: Triangle) -> sympy.Matrix:
+    """The adjugate of T but for signs that change neither norms nor eigenvalues of ``K K'``."""
+    (a, b, c), (_, d, e), (_, _, f) = triangle.T.tolist()
+    K = sympy.Matrix([[d * f, b * f, b * e - c * d], [0, a * f, a * e], [0, 0, a * d]])
+    return stages.stage(f"K_{triangle.name}", K, "cofactors of the block, without signs")
+
+
+def _gram_of_cofactors(stages: Stages, triangle: Triangle) -> sympy.Matrix:
+    """``K K'``, upper triangle."""
+    K = _cofactors(stages, triangle)
+    return stages.stage(f"KK_{triangle.name}", _upper(K * K.T), "K K^T")
 
 
 def gram(stages: Stages, triangle: Triangle, name: str = "") -> sympy.Matrix:

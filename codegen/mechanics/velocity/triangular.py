@@ -56,15 +56,14 @@ class Reflections:
         head = stages.stage(f"v_{name}", _one(x[0] + signed), "first component of v; the others stay as they are")[0]
         weight = stages.stage(f"y_{name}", _one(signed * head), "|v|^2 / 2")[0]
         quotient = stages.stage(f"q_{name}", _one(1 / weight), "1 / weight")[0]
-        beta = stages.stage(f"beta_{name}", _one(Select(norm, limit, 0, quotient)), "the reflection is I - beta v v^T")[
-            0
-        ]
+        words = "the reflection is I - beta v v^T, the first row of it with the other sign"
+        beta = stages.stage(f"beta_{name}", _one(Select(norm, limit, 0, quotient)), words)[0]
         v = [head, *x[1:]]
         for k in (k for k in range(len(self.columns)) if k not in (*self._finished, column)):
             self._reflect(f"{name}_{k + 1}", k, rows, v, beta)
-        value = Select(norm, limit, 0, -signed) if self.are_values_judged else -signed
+        value = Select(norm, limit, 0, signed) if self.are_values_judged else signed
         diagonal = stages.stage(f"r_{name}", _one(value), f"diagonal {step + 1} of R")[0]
-        inverse = stages.stage(f"i_{name}", _one(-beta * head), "its inverse, or 0")[0]
+        inverse = stages.stage(f"i_{name}", _one(beta * head), "its inverse, or 0")[0]
         self.inverses.append(inverse)
         self._finish(column, rows, diagonal)
 
@@ -73,14 +72,17 @@ class Reflections:
         name, x = f"{self.name}_{step + 1}", self.columns[column][row]
         size = self.stages.stage(f"x_{name}", _one(sympy.Abs(x)), "size of what is left")[0]
         limit = self.limits[column]
-        diagonal = self.stages.stage(f"r_{name}", _one(Select(size, limit, 0, x)), f"diagonal {step + 1} of R")[0]
+        value = Select(size, limit, 0, x) if self.are_values_judged else x
+        diagonal = self.stages.stage(f"r_{name}", _one(value), f"diagonal {step + 1} of R")[0]
         inverse = self.stages.stage(f"i_{name}", _one(Select(size, limit, 0, 1 / x)), "its inverse, or 0")[0]
         self.inverses.append(inverse)
         self._finish(column, [row], diagonal)
 
     def _reflect(self, name: str, k: int, rows: list[int], v: list[sympy.Expr], beta: sympy.Expr) -> None:
         column = self.columns[k]
-        product = sum((a * column[row] for a, row in zip(v, rows, strict=True)), sympy.Integer(0))
+        rest = sum((a * column[row] for a, row in zip(v[1:], rows[1:], strict=True)), sympy.Integer(0))
+        rest = self.stages.stage(f"s_{name}", _one(rest), "v^T a but for the first components, which come later")[0]
+        product = v[0] * column[rows[0]] + rest
         if product == 0:
             return
         factor = self.stages.stage(f"f_{name}", _one(product), "v^T a")[0]
@@ -88,7 +90,9 @@ class Reflections:
         changed = list(column)
         for a, row in zip(v, rows, strict=True):
             changed[row] = column[row] - factor * a
-        self.columns[k] = self.stages.stage(f"a_{name}", sympy.Matrix(changed), "a - beta v v^T a")
+        changed[rows[0]] = -changed[rows[0]]
+        words = "a - beta v v^T a, the first row with the other sign"
+        self.columns[k] = self.stages.stage(f"a_{name}", sympy.Matrix(changed), words)
 
     def _finish(self, column: int, rows: Sequence[int], diagonal: sympy.Expr) -> None:
         entries = list(self.columns[column])

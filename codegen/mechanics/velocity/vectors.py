@@ -12,29 +12,29 @@ from collections.abc import Callable
 import sympy
 
 from codegen.ir.lower.staged import Select, Stages
-from codegen.mechanics.velocity.eigenvalues import Angle
+from codegen.mechanics.velocity.eigenvalues import Deviator, reach
 from codegen.mechanics.velocity.triangular import TINY
-
-_ROOT_3 = sympy.Rational("1.7320508075688772935")
 
 Stage = Callable[..., sympy.Matrix]
 
 
-def largest_vector(stages: Stages, name: str, found: Angle) -> sympy.Matrix:
+def largest_vector(stages: Stages, found: Deviator) -> sympy.Matrix:
     """The unit eigenvector [3] of the largest eigenvalue.
 
     Args:
         stages: gets the steps.
-        name: of the matrix, for names of stages.
-        found: its angle, with the deviator.
+        found: the matrix without its trace.
     """
+    name = found.name
 
     def stage(what: str, words: str, *values: sympy.Expr) -> sympy.Matrix:
         return stages.stage(f"{what}_{name}", sympy.Matrix(list(values)), words)
 
-    B = found.deviator
-    least = -found.cosine - _ROOT_3 * found.sine
-    (mu,) = stage("mu", "the eigenvalue of B that is well apart", Select(found.triple, 0, least, 2 * found.cosine))
+    up, down = (reach(stages, found, side) for side in (1, -1))
+    (mu,) = stage("mu", "the eigenvalue of B that is well apart", Select(up, down, -down, up))
+    (y,) = stage("b_22", "entry of B", -found.half - found.last / 2)
+    u, v, w = found.off
+    B = sympy.Matrix([[-y - found.last, u, v], [u, y, w], [v, w, found.last]])
     n = _apart(stage, B, mu)
     a, b = _across(stage, n)
     Ba, Bb = (stage(f"B{k}", f"B {k}", *(B * v)) for k, v in (("a", a), ("b", b)))
@@ -48,7 +48,7 @@ def largest_vector(stages: Stages, name: str, found: Angle) -> sympy.Matrix:
         "turned", "unit vector; the first axis if both are equal", Select(length, TINY, 1, x * scale), y * scale
     )
     inside = stage("inside", "vector in the plane", *(x * a + y * b))
-    return stage("u", "largest eigenvector", *(Select(found.triple, 0, inside[k], n[k]) for k in range(3)))
+    return stage("u", "largest eigenvector", *(Select(up, down, inside[k], n[k]) for k in range(3)))
 
 
 def _apart(stage: Stage, B: sympy.Matrix, mu: sympy.Expr) -> sympy.Matrix:

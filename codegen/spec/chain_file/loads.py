@@ -66,9 +66,6 @@ def force_mistakes(entry: ForceEntry, links: Sequence[str], effectors: Sequence[
             yield Mistake(f"{entry.place}: {key}", f"is {shown(getattr(entry, key))}", "give 0 or more")
     if entry.when is not None:
         yield from _condition_mistakes(entry.when, links)
-        if entry.axes == "world":
-            what = "a force that switches is in the axes of its effector"
-            yield Mistake(f"{entry.place}: axes", what, "leave axes out, or when")
 
 
 def _joint_mistakes(joint: str | None, place: str, links: Sequence[str]) -> Iterator[Mistake]:
@@ -129,7 +126,9 @@ def make_forces(entry: ChainEntry) -> tuple[tuple[JointForce, ...], tuple[Effect
 def make_world_forces(entry: ChainEntry) -> tuple[WorldForce, ...]:
     """Make the forces at effectors in axes that do not turn with them."""
     return tuple(
-        WorldForce(f.effector, f.force, f.moment) for f in entry.force if f.effector is not None and f.axes == "world"
+        WorldForce(f.effector, f.force, f.moment, _condition(f.when))
+        for f in entry.force
+        if f.effector is not None and f.axes == "world"
     )
 
 

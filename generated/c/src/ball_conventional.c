@@ -4,10 +4,6 @@
  * joint ball, form conventional, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/ball.h"
 
 const int *jg_ball_conventional_phi_q_sparsity(void)
@@ -43,18 +39,18 @@ void jg_ball_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
     const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
-    phi[1] = d_ij_world_1;
     const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
     phi[2] = d_ij_world_2;
 }
 
@@ -68,13 +64,13 @@ void jg_ball_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real
     phi_q[2] = JG_REAL(-1.0);
     phi_q[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     phi_q[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
-    phi_q[12] = JG_REAL(1.0);
-    phi_q[13] = JG_REAL(1.0);
-    phi_q[14] = JG_REAL(1.0);
     phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
     phi_q[6] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
     phi_q[7] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
     phi_q[8] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
+    phi_q[12] = JG_REAL(1.0);
+    phi_q[13] = JG_REAL(1.0);
+    phi_q[14] = JG_REAL(1.0);
     phi_q[9] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
     phi_q[10] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     phi_q[11] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
@@ -108,8 +104,6 @@ void jg_ball_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, co
     const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     /* M_0_i_i = (s_i) lambda_0_1_2^T; rows in axes of body i, columns in axes of body i */
     const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1;
     const jg_real M_0_i_i_1 = s_i[0] * lambda_0_1_2_in_i_1;
@@ -122,18 +116,10 @@ void jg_ball_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, co
     const jg_real M_0_i_i_6 = s_i[2] * lambda_0_1_2_in_i_0;
     /* M_1_j_j = (s_j) lambda_0_1_2^T; rows in axes of body j, columns in axes of body j */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1;
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     phi_q_t_lambda_q[10] = M_1_j_j_1;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[16] = M_1_j_j_7;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[11] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[14] = M_1_j_j_5;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[12] = M_1_j_j_3;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[1] = -M_0_i_i_1;
     phi_q_t_lambda_q[7] = -M_0_i_i_7;
     phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
@@ -141,10 +127,20 @@ void jg_ball_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, co
     phi_q_t_lambda_q[5] = -M_0_i_i_5;
     phi_q_t_lambda_q[3] = -M_0_i_i_3;
     phi_q_t_lambda_q[4] = M_0_i_i_0 + M_0_i_i_8;
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2;
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0;
+    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2;
+    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0;
+    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[6] = -M_0_i_i_6;
     phi_q_t_lambda_q[8] = M_0_i_i_0 + M_0_i_i_4;
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[11] = M_1_j_j_2;
+    phi_q_t_lambda_q[12] = M_1_j_j_3;
+    phi_q_t_lambda_q[14] = M_1_j_j_5;
     phi_q_t_lambda_q[15] = M_1_j_j_6;
+    phi_q_t_lambda_q[16] = M_1_j_j_7;
     phi_q_t_lambda_q[9] = -(M_1_j_j_4 + M_1_j_j_8);
     phi_q_t_lambda_q[13] = -(M_1_j_j_0 + M_1_j_j_8);
     phi_q_t_lambda_q[17] = -(M_1_j_j_0 + M_1_j_j_4);
@@ -158,8 +154,8 @@ void jg_ball_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i,
     jg_scatter(jg_ball_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_ball_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_ball_conventional_gamma(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
@@ -191,10 +187,10 @@ void jg_ball_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *J
     const jg_real v_1_world_2 = v_1_in_i_0 * A_i[2] + v_1_in_i_1 * A_i[5] + v_1_in_i_2 * A_i[8];
     /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_2_world_0 = v_0_world_0 - v_1_world_0;
-    gamma[0] = v_2_world_0;
     const jg_real v_2_world_1 = v_0_world_1 - v_1_world_1;
-    gamma[1] = v_2_world_1;
     const jg_real v_2_world_2 = v_0_world_2 - v_1_world_2;
+    gamma[0] = v_2_world_0;
+    gamma[1] = v_2_world_1;
     gamma[2] = v_2_world_2;
 }
 
@@ -209,11 +205,11 @@ void jg_ball_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real 
     const jg_real *const omega_j = velocity + 9;
     /* v_0_world = v_j - v_i, world axes */
     const jg_real v_0_world_0 = v_j[0] - v_i[0];
-    const jg_real v_0_world_1 = v_j[1] - v_i[1];
-    const jg_real v_0_world_2 = v_j[2] - v_i[2];
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
     const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
+    const jg_real v_0_world_1 = v_j[1] - v_i[1];
     const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
+    const jg_real v_0_world_2 = v_j[2] - v_i[2];
     const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
@@ -235,10 +231,10 @@ void jg_ball_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real 
         + s_j_cross_omega_j_in_j_2 * A_j[8];
     /* v_1_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
     const jg_real v_1_world_0 = s_i_cross_omega_i_world_0 - s_j_cross_omega_j_world_0 + v_0_world_0;
-    phi_q_v[0] = v_1_world_0;
     const jg_real v_1_world_1 = s_i_cross_omega_i_world_1 - s_j_cross_omega_j_world_1 + v_0_world_1;
-    phi_q_v[1] = v_1_world_1;
     const jg_real v_1_world_2 = s_i_cross_omega_i_world_2 - s_j_cross_omega_j_world_2 + v_0_world_2;
+    phi_q_v[0] = v_1_world_0;
+    phi_q_v[1] = v_1_world_1;
     phi_q_v[2] = v_1_world_2;
 }
 
@@ -247,12 +243,6 @@ void jg_ball_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const j
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
-    phi_q_t_lambda[6] = lambda[0];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[7] = lambda[1];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[8] = lambda[2];
-    phi_q_t_lambda[2] = -lambda[2];
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
     const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
@@ -261,22 +251,27 @@ void jg_ball_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const j
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
+    phi_q_t_lambda[6] = lambda[0];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[7] = lambda[1];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[8] = lambda[2];
+    phi_q_t_lambda[2] = -lambda[2];
     phi_q_t_lambda[3] = s_i[2] * lambda_0_1_2_in_i_1 - s_i[1] * lambda_0_1_2_in_i_2;
     phi_q_t_lambda[4] = s_i[0] * lambda_0_1_2_in_i_2 - s_i[2] * lambda_0_1_2_in_i_0;
-    phi_q_t_lambda[5] = s_i[1] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
-    phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_in_j_1;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[5] = s_i[1] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_1;
+    phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_in_j_1;
     phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_in_j_2;
 }
 
-void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_ball_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
@@ -286,32 +281,32 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q[12] = JG_REAL(1.0);
-    phi_q[13] = JG_REAL(1.0);
-    phi_q[14] = JG_REAL(1.0);
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
     const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[12] = JG_REAL(1.0);
+    phi_q[13] = JG_REAL(1.0);
+    phi_q[14] = JG_REAL(1.0);
+    phi[0] = d_ij_world_0;
     phi[1] = d_ij_world_1;
+    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
     phi_q[5] = A_i[1] * s_i_world_0 - A_i[0] * s_i_world_1;
     phi_q[8] = A_i[4] * s_i_world_0 - A_i[3] * s_i_world_1;
-    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
     phi[2] = d_ij_world_2;
     phi_q[3] = A_i[2] * s_i_world_1 - A_i[1] * s_i_world_2;
     phi_q[4] = A_i[0] * s_i_world_2 - A_i[2] * s_i_world_0;
@@ -322,80 +317,75 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     phi_q[11] = A_i[7] * s_i_world_0 - A_i[6] * s_i_world_1;
     phi_q[15] = A_j[1] * s_j_world_2 - A_j[2] * s_j_world_1;
     phi_q[16] = A_j[2] * s_j_world_0 - A_j[0] * s_j_world_2;
-    /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
-    const jg_real lambda_0_1_2_in_i_1 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
     phi_q[17] = A_j[0] * s_j_world_1 - A_j[1] * s_j_world_0;
-    const jg_real lambda_0_1_2_in_i_2 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
     phi_q[18] = A_j[4] * s_j_world_2 - A_j[5] * s_j_world_1;
     phi_q[19] = A_j[5] * s_j_world_0 - A_j[3] * s_j_world_2;
     phi_q[20] = A_j[3] * s_j_world_1 - A_j[4] * s_j_world_0;
-    phi_q[21] = A_j[7] * s_j_world_2 - A_j[8] * s_j_world_1;
-    phi_q[22] = A_j[8] * s_j_world_0 - A_j[6] * s_j_world_2;
-    phi_q[23] = A_j[6] * s_j_world_1 - A_j[7] * s_j_world_0;
+    /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
+    const jg_real lambda_0_1_2_in_i_1 = A_i[3] * lambda[0] + A_i[4] * lambda[1] + A_i[5] * lambda[2];
+    const jg_real lambda_0_1_2_in_i_2 = A_i[6] * lambda[0] + A_i[7] * lambda[1] + A_i[8] * lambda[2];
     /* M_0_i_i = (s_i) lambda_0_1_2^T; rows in axes of body i, columns in axes of body i */
     const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1;
     const jg_real M_0_i_i_1 = s_i[0] * lambda_0_1_2_in_i_1;
     const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2;
     const jg_real M_0_i_i_2 = s_i[0] * lambda_0_1_2_in_i_2;
-    const jg_real lambda_0_1_2_in_i_0 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
     const jg_real M_0_i_i_5 = s_i[1] * lambda_0_1_2_in_i_2;
+    const jg_real lambda_0_1_2_in_i_0 = A_i[0] * lambda[0] + A_i[1] * lambda[1] + A_i[2] * lambda[2];
     const jg_real M_0_i_i_7 = s_i[2] * lambda_0_1_2_in_i_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
-    const jg_real lambda_0_1_2_in_j_2 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
+    const jg_real M_0_i_i_3 = s_i[1] * lambda_0_1_2_in_i_0;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0;
+    const jg_real M_0_i_i_6 = s_i[2] * lambda_0_1_2_in_i_0;
+    phi_q[21] = A_j[7] * s_j_world_2 - A_j[8] * s_j_world_1;
+    phi_q[22] = A_j[8] * s_j_world_0 - A_j[6] * s_j_world_2;
+    phi_q[23] = A_j[6] * s_j_world_1 - A_j[7] * s_j_world_0;
     phi_q_t_lambda_q[1] = -M_0_i_i_1;
     phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
     phi_q_t_lambda_q[2] = -M_0_i_i_2;
-    const jg_real M_0_i_i_3 = s_i[1] * lambda_0_1_2_in_i_0;
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0;
     phi_q_t_lambda_q[5] = -M_0_i_i_5;
-    const jg_real M_0_i_i_6 = s_i[2] * lambda_0_1_2_in_i_0;
     phi_q_t_lambda_q[7] = -M_0_i_i_7;
     /* M_1_j_j = (s_j) lambda_0_1_2^T; rows in axes of body j, columns in axes of body j */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2;
+    const jg_real lambda_0_1_2_in_j_2 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[10] = M_1_j_j_1;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[11] = M_1_j_j_2;
     const jg_real lambda_0_1_2_in_j_0 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[14] = M_1_j_j_5;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1;
+    /* omega_j_world = omega_j, world axes */
+    const jg_real omega_j_world_1 = A_j[1] * omega_j[0] + A_j[4] * omega_j[1] + A_j[7] * omega_j[2];
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2;
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[10] = M_1_j_j_1;
     phi_q_t_lambda_q[16] = M_1_j_j_7;
     phi_q_t_lambda_q[3] = -M_0_i_i_3;
     phi_q_t_lambda_q[4] = M_0_i_i_0 + M_0_i_i_8;
-    phi_q_t_lambda_q[8] = M_0_i_i_0 + M_0_i_i_4;
     phi_q_t_lambda_q[6] = -M_0_i_i_6;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[8] = M_0_i_i_0 + M_0_i_i_4;
+    phi_q_t_lambda_q[11] = M_1_j_j_2;
     phi_q_t_lambda_q[12] = M_1_j_j_3;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[15] = M_1_j_j_6;
-    /* omega_j_world = omega_j, world axes */
-    const jg_real omega_j_world_1 = A_j[1] * omega_j[0] + A_j[4] * omega_j[1] + A_j[7] * omega_j[2];
     const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + A_j[3] * omega_j[1] + A_j[6] * omega_j[2];
     const jg_real omega_j_world_2 = A_j[2] * omega_j[0] + A_j[5] * omega_j[1] + A_j[8] * omega_j[2];
-    phi_q_t_lambda_q[9] = -(M_1_j_j_4 + M_1_j_j_8);
     /* omega_i_world = omega_i, world axes */
     const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
-    phi_q_t_lambda_q[13] = -(M_1_j_j_0 + M_1_j_j_8);
-    phi_q_t_lambda_q[17] = -(M_1_j_j_0 + M_1_j_j_4);
+    const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
     /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
     const jg_real s_j_cross_omega_j_world_2 = s_j_world_0 * omega_j_world_1 - s_j_world_1 * omega_j_world_0;
-    const jg_real s_j_cross_omega_j_world_1 = s_j_world_2 * omega_j_world_0 - s_j_world_0 * omega_j_world_2;
-    const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
     const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
+    const jg_real s_j_cross_omega_j_world_1 = s_j_world_2 * omega_j_world_0 - s_j_world_0 * omega_j_world_2;
     const jg_real s_j_cross_omega_j_world_0 = s_j_world_1 * omega_j_world_2 - s_j_world_2 * omega_j_world_1;
-    /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
-    const jg_real v_1_world_0 = omega_j_world_1 * s_j_cross_omega_j_world_2 - omega_j_world_2 *
-        s_j_cross_omega_j_world_1;
     /* s_i_cross_omega_i_world = s_i x omega_i, world axes */
     const jg_real s_i_cross_omega_i_world_2 = s_i_world_0 * omega_i_world_1 - s_i_world_1 * omega_i_world_0;
     const jg_real s_i_cross_omega_i_world_1 = s_i_world_2 * omega_i_world_0 - s_i_world_0 * omega_i_world_2;
+    const jg_real s_i_cross_omega_i_world_0 = s_i_world_1 * omega_i_world_2 - s_i_world_2 * omega_i_world_1;
+    /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
+    const jg_real v_1_world_0 = omega_j_world_1 * s_j_cross_omega_j_world_2 - omega_j_world_2 *
+        s_j_cross_omega_j_world_1;
     const jg_real v_1_world_1 = omega_j_world_2 * s_j_cross_omega_j_world_0 - omega_j_world_0 *
         s_j_cross_omega_j_world_2;
-    const jg_real s_i_cross_omega_i_world_0 = s_i_world_1 * omega_i_world_2 - s_i_world_2 * omega_i_world_1;
     const jg_real v_1_world_2 = omega_j_world_0 * s_j_cross_omega_j_world_1 - omega_j_world_1 *
         s_j_cross_omega_j_world_0;
     /* v_2_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
@@ -407,10 +397,15 @@ void jg_ball_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
         s_i_cross_omega_i_world_0;
     /* v_3_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_3_world_0 = v_1_world_0 - v_2_world_0;
-    gamma[0] = v_3_world_0;
     const jg_real v_3_world_1 = v_1_world_1 - v_2_world_1;
-    gamma[1] = v_3_world_1;
     const jg_real v_3_world_2 = v_1_world_2 - v_2_world_2;
+    phi_q_t_lambda_q[14] = M_1_j_j_5;
+    phi_q_t_lambda_q[15] = M_1_j_j_6;
+    phi_q_t_lambda_q[9] = -(M_1_j_j_4 + M_1_j_j_8);
+    phi_q_t_lambda_q[13] = -(M_1_j_j_0 + M_1_j_j_8);
+    phi_q_t_lambda_q[17] = -(M_1_j_j_0 + M_1_j_j_4);
+    gamma[0] = v_3_world_0;
+    gamma[1] = v_3_world_1;
     gamma[2] = v_3_world_2;
 }
 

@@ -4,10 +4,6 @@
  * joint ball, form conventional, derivative exact, variation world, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/ball.h"
 
 const int *jg_ball_conventional_world_phi_q_sparsity(void)
@@ -42,18 +38,18 @@ void jg_ball_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
     const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
-    phi[1] = d_ij_world_1;
     const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
     phi[2] = d_ij_world_2;
 }
 
@@ -62,28 +58,28 @@ void jg_ball_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, const j
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
+    /* s_i_world = s_i, world axes */
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
+    const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[9] = JG_REAL(1.0);
     phi_q[10] = JG_REAL(1.0);
     phi_q[11] = JG_REAL(1.0);
-    /* s_i_world = s_i, world axes */
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     phi_q[3] = s_i_world_2;
-    const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     phi_q[7] = s_i_world_1;
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
-    phi_q[6] = s_i_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[14] = s_j_world_2;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    phi_q[13] = s_j_world_1;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    phi_q[17] = s_j_world_0;
+    phi_q[6] = s_i_world_0;
+    phi_q[14] = s_j_world_2;
     phi_q[5] = -s_i_world_2;
+    phi_q[13] = s_j_world_1;
     phi_q[4] = -s_i_world_1;
+    phi_q[17] = s_j_world_0;
     phi_q[8] = -s_i_world_0;
     phi_q[12] = -s_j_world_2;
     phi_q[16] = -s_j_world_1;
@@ -109,8 +105,6 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* M_0_world_world = (s_i) lambda_0_1_2^T; rows in world axes, columns in world axes */
     const jg_real M_0_world_world_4 = s_i_world_1 * lambda[1];
     const jg_real M_0_world_world_3 = s_i_world_1 * lambda[0];
@@ -123,18 +117,10 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A
     const jg_real M_0_world_world_2 = s_i_world_0 * lambda[2];
     /* M_1_world_world = (s_j) lambda_0_1_2^T; rows in world axes, columns in world axes */
     const jg_real M_1_world_world_4 = lambda[1] * s_j_world_1;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real M_1_world_world_3 = lambda[0] * s_j_world_1;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     phi_q_t_lambda_q[10] = M_1_world_world_3;
-    const jg_real M_1_world_world_5 = lambda[2] * s_j_world_1;
-    phi_q_t_lambda_q[16] = M_1_world_world_5;
-    const jg_real M_1_world_world_8 = lambda[2] * s_j_world_2;
-    const jg_real M_1_world_world_6 = lambda[0] * s_j_world_2;
-    phi_q_t_lambda_q[11] = M_1_world_world_6;
-    const jg_real M_1_world_world_7 = lambda[1] * s_j_world_2;
-    phi_q_t_lambda_q[14] = M_1_world_world_7;
-    const jg_real M_1_world_world_1 = lambda[1] * s_j_world_0;
-    phi_q_t_lambda_q[12] = M_1_world_world_1;
-    const jg_real M_1_world_world_0 = lambda[0] * s_j_world_0;
     phi_q_t_lambda_q[1] = -M_0_world_world_3;
     phi_q_t_lambda_q[7] = -M_0_world_world_5;
     phi_q_t_lambda_q[0] = M_0_world_world_4 + M_0_world_world_8;
@@ -142,10 +128,20 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A
     phi_q_t_lambda_q[5] = -M_0_world_world_7;
     phi_q_t_lambda_q[3] = -M_0_world_world_1;
     phi_q_t_lambda_q[4] = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real M_1_world_world_8 = lambda[2] * s_j_world_2;
+    const jg_real M_1_world_world_6 = lambda[0] * s_j_world_2;
+    const jg_real M_1_world_world_1 = lambda[1] * s_j_world_0;
+    const jg_real M_1_world_world_0 = lambda[0] * s_j_world_0;
+    const jg_real M_1_world_world_7 = lambda[1] * s_j_world_2;
+    const jg_real M_1_world_world_2 = lambda[2] * s_j_world_0;
+    const jg_real M_1_world_world_5 = lambda[2] * s_j_world_1;
     phi_q_t_lambda_q[6] = -M_0_world_world_2;
     phi_q_t_lambda_q[8] = M_0_world_world_0 + M_0_world_world_4;
-    const jg_real M_1_world_world_2 = lambda[2] * s_j_world_0;
+    phi_q_t_lambda_q[11] = M_1_world_world_6;
+    phi_q_t_lambda_q[12] = M_1_world_world_1;
+    phi_q_t_lambda_q[14] = M_1_world_world_7;
     phi_q_t_lambda_q[15] = M_1_world_world_2;
+    phi_q_t_lambda_q[16] = M_1_world_world_5;
     phi_q_t_lambda_q[9] = -(M_1_world_world_4 + M_1_world_world_8);
     phi_q_t_lambda_q[13] = -(M_1_world_world_0 + M_1_world_world_8);
     phi_q_t_lambda_q[17] = -(M_1_world_world_0 + M_1_world_world_4);
@@ -160,8 +156,8 @@ void jg_ball_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRIC
     jg_scatter(jg_ball_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_ball_conventional_world_gamma(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
@@ -186,12 +182,12 @@ void jg_ball_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_r
     /* v_0_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_0_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_i_dot_omega_i * s_i_world_0 - omega_j[0] *
         s_j_dot_omega_j + omega_i[0] * s_i_dot_omega_i;
-    gamma[0] = v_0_world_0;
     const jg_real v_0_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_i_dot_omega_i * s_i_world_1 - omega_j[1] *
         s_j_dot_omega_j + omega_i[1] * s_i_dot_omega_i;
-    gamma[1] = v_0_world_1;
     const jg_real v_0_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_i_dot_omega_i * s_i_world_2 - omega_j[2] *
         s_j_dot_omega_j + omega_i[2] * s_i_dot_omega_i;
+    gamma[0] = v_0_world_0;
+    gamma[1] = v_0_world_1;
     gamma[2] = v_0_world_2;
 }
 
@@ -226,24 +222,18 @@ void jg_ball_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg
     const jg_real s_j_cross_omega_j_world_2 = s_j_world_0 * omega_j[1] - s_j_world_1 * omega_j[0];
     /* v_1_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
     const jg_real v_1_world_0 = s_i_cross_omega_i_world_0 - s_j_cross_omega_j_world_0 + v_0_world_0;
-    phi_q_v[0] = v_1_world_0;
     const jg_real v_1_world_1 = s_i_cross_omega_i_world_1 - s_j_cross_omega_j_world_1 + v_0_world_1;
-    phi_q_v[1] = v_1_world_1;
     const jg_real v_1_world_2 = s_i_cross_omega_i_world_2 - s_j_cross_omega_j_world_2 + v_0_world_2;
+    phi_q_v[0] = v_1_world_0;
+    phi_q_v[1] = v_1_world_1;
     phi_q_v[2] = v_1_world_2;
 }
 
-void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const s_j = geometry + 12;
-    phi_q_t_lambda[6] = lambda[0];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[7] = lambda[1];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[8] = lambda[2];
-    phi_q_t_lambda[2] = -lambda[2];
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
@@ -252,15 +242,21 @@ void jg_ball_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, c
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    phi_q_t_lambda[6] = lambda[0];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[7] = lambda[1];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[8] = lambda[2];
+    phi_q_t_lambda[2] = -lambda[2];
     phi_q_t_lambda[3] = lambda[1] * s_i_world_2 - lambda[2] * s_i_world_1;
     phi_q_t_lambda[4] = lambda[2] * s_i_world_0 - lambda[0] * s_i_world_2;
-    phi_q_t_lambda[5] = lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0;
     /* s_j_cross_lambda_0_1_2_world = s_j x lambda_0_1_2, world axes */
     const jg_real s_j_cross_lambda_0_1_2_world_0 = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2;
-    phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_world_0;
     const jg_real s_j_cross_lambda_0_1_2_world_1 = lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0;
-    phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_world_1;
     const jg_real s_j_cross_lambda_0_1_2_world_2 = lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1;
+    phi_q_t_lambda[5] = lambda[0] * s_i_world_1 - lambda[1] * s_i_world_0;
+    phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_world_0;
+    phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_world_1;
     phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_world_2;
 }
 
@@ -277,85 +273,78 @@ void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* s_i_world = s_i, world axes */
+    const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    phi_q[6] = s_i_world_0;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[9] = JG_REAL(1.0);
     phi_q[10] = JG_REAL(1.0);
     phi_q[11] = JG_REAL(1.0);
-    /* s_i_world = s_i, world axes */
-    const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
-    phi_q[6] = s_i_world_0;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     phi_q[17] = s_j_world_0;
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    phi_q[7] = s_i_world_1;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    phi_q[13] = s_j_world_1;
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    phi_q[3] = s_i_world_2;
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    phi_q[8] = -s_i_world_0;
     /* M_0_world_world = (s_i) lambda_0_1_2^T; rows in world axes, columns in world axes */
     const jg_real M_0_world_world_1 = s_i_world_0 * lambda[1];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[14] = s_j_world_2;
-    phi_q[15] = -s_j_world_0;
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real M_0_world_world_0 = s_i_world_0 * lambda[0];
     const jg_real M_0_world_world_2 = s_i_world_0 * lambda[2];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    phi_q[4] = -s_i_world_1;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real M_0_world_world_4 = s_i_world_1 * lambda[1];
-    const jg_real M_0_world_world_3 = s_i_world_1 * lambda[0];
+    phi_q[7] = s_i_world_1;
+    phi_q[13] = s_j_world_1;
+    phi_q[8] = -s_i_world_0;
+    phi_q[3] = s_i_world_2;
+    phi_q[15] = -s_j_world_0;
+    phi_q[4] = -s_i_world_1;
+    phi_q[14] = s_j_world_2;
     phi_q[16] = -s_j_world_1;
-    const jg_real M_0_world_world_5 = s_i_world_1 * lambda[2];
-    /* M_1_world_world = (s_j) lambda_0_1_2^T; rows in world axes, columns in world axes */
-    const jg_real M_1_world_world_4 = s_j_world_1 * lambda[1];
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
-    phi_q[5] = -s_i_world_2;
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
+    const jg_real M_0_world_world_3 = s_i_world_1 * lambda[0];
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
     const jg_real M_0_world_world_8 = s_i_world_2 * lambda[2];
     const jg_real M_0_world_world_6 = s_i_world_2 * lambda[0];
-    phi_q[12] = -s_j_world_2;
-    phi_q_t_lambda_q[3] = -M_0_world_world_1;
-    const jg_real M_0_world_world_7 = s_i_world_2 * lambda[1];
-    phi_q_t_lambda_q[6] = -M_0_world_world_2;
     const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real M_0_world_world_7 = s_i_world_2 * lambda[1];
+    const jg_real M_0_world_world_5 = s_i_world_1 * lambda[2];
+    phi[0] = d_ij_world_0;
+    phi_q_t_lambda_q[3] = -M_0_world_world_1;
+    phi_q[5] = -s_i_world_2;
     phi[1] = d_ij_world_1;
-    const jg_real M_1_world_world_8 = s_j_world_2 * lambda[2];
+    phi_q[12] = -s_j_world_2;
+    phi_q_t_lambda_q[6] = -M_0_world_world_2;
     phi_q_t_lambda_q[8] = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[1] = -M_0_world_world_3;
-    const jg_real M_1_world_world_3 = s_j_world_1 * lambda[0];
-    phi_q_t_lambda_q[10] = M_1_world_world_3;
-    phi_q_t_lambda_q[7] = -M_0_world_world_5;
-    const jg_real M_1_world_world_6 = s_j_world_2 * lambda[0];
-    phi_q_t_lambda_q[11] = M_1_world_world_6;
+    /* M_1_world_world = (s_j) lambda_0_1_2^T; rows in world axes, columns in world axes */
+    const jg_real M_1_world_world_4 = s_j_world_1 * lambda[1];
     const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real M_1_world_world_8 = s_j_world_2 * lambda[2];
+    const jg_real M_1_world_world_3 = s_j_world_1 * lambda[0];
+    const jg_real M_1_world_world_6 = s_j_world_2 * lambda[0];
     phi[2] = d_ij_world_2;
-    const jg_real M_1_world_world_1 = s_j_world_0 * lambda[1];
-    phi_q_t_lambda_q[12] = M_1_world_world_1;
-    const jg_real M_1_world_world_0 = s_j_world_0 * lambda[0];
     phi_q_t_lambda_q[0] = M_0_world_world_4 + M_0_world_world_8;
     phi_q_t_lambda_q[2] = -M_0_world_world_6;
     phi_q_t_lambda_q[4] = M_0_world_world_0 + M_0_world_world_8;
-    const jg_real M_1_world_world_7 = s_j_world_2 * lambda[1];
-    phi_q_t_lambda_q[14] = M_1_world_world_7;
     phi_q_t_lambda_q[5] = -M_0_world_world_7;
+    phi_q_t_lambda_q[10] = M_1_world_world_3;
+    phi_q_t_lambda_q[11] = M_1_world_world_6;
+    phi_q_t_lambda_q[7] = -M_0_world_world_5;
+    const jg_real M_1_world_world_1 = s_j_world_0 * lambda[1];
+    const jg_real M_1_world_world_0 = s_j_world_0 * lambda[0];
+    const jg_real M_1_world_world_7 = s_j_world_2 * lambda[1];
     const jg_real M_1_world_world_2 = s_j_world_0 * lambda[2];
-    phi_q_t_lambda_q[15] = M_1_world_world_2;
     const jg_real M_1_world_world_5 = s_j_world_1 * lambda[2];
-    phi_q_t_lambda_q[16] = M_1_world_world_5;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    phi_q_t_lambda_q[9] = -(M_1_world_world_4 + M_1_world_world_8);
-    phi_q_t_lambda_q[13] = -(M_1_world_world_0 + M_1_world_world_8);
-    phi_q_t_lambda_q[17] = -(M_1_world_world_0 + M_1_world_world_4);
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
     /* s_i_dot_omega_i = s_i . omega_i */
@@ -363,12 +352,19 @@ void jg_ball_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_rea
     /* v_1_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_1_world_0 = s_j_world_0 * omega_j_dot_omega_j - s_i_world_0 * omega_i_dot_omega_i - omega_j[0] *
         s_j_dot_omega_j + omega_i[0] * s_i_dot_omega_i;
+    phi_q_t_lambda_q[12] = M_1_world_world_1;
+    phi_q_t_lambda_q[14] = M_1_world_world_7;
+    phi_q_t_lambda_q[15] = M_1_world_world_2;
+    phi_q_t_lambda_q[16] = M_1_world_world_5;
+    phi_q_t_lambda_q[9] = -(M_1_world_world_4 + M_1_world_world_8);
+    phi_q_t_lambda_q[13] = -(M_1_world_world_0 + M_1_world_world_8);
+    phi_q_t_lambda_q[17] = -(M_1_world_world_0 + M_1_world_world_4);
     gamma[0] = v_1_world_0;
     const jg_real v_1_world_1 = s_j_world_1 * omega_j_dot_omega_j - s_i_world_1 * omega_i_dot_omega_i - omega_j[1] *
         s_j_dot_omega_j + omega_i[1] * s_i_dot_omega_i;
-    gamma[1] = v_1_world_1;
     const jg_real v_1_world_2 = s_j_world_2 * omega_j_dot_omega_j - s_i_world_2 * omega_i_dot_omega_i - omega_j[2] *
         s_j_dot_omega_j + omega_i[2] * s_i_dot_omega_i;
+    gamma[1] = v_1_world_1;
     gamma[2] = v_1_world_2;
 }
 

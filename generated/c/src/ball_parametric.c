@@ -4,10 +4,6 @@
  * joint ball, form parametric, rows regular, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/ball.h"
 
 const int *jg_ball_parametric_phi_q_sparsity(void)
@@ -32,9 +28,8 @@ const int *jg_ball_parametric_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_ball_parametric_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -67,11 +62,8 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     /* H_21 =  */
     const jg_real H_21 = sine_2 * cosine_1;
     /* H_00 =  */
@@ -101,91 +93,90 @@ void jg_ball_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    phi[5] = f_star_dot_g_j;
+    const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
-    phi[3] = g_star_dot_h_j;
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[3] = g_star_dot_h_j;
+    phi[5] = f_star_dot_g_j;
     phi[4] = h_star_dot_f_j;
 }
 
-void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_ball_parametric_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    phi_q[22] = A_ij_4;
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    phi_q[26] = A_ij_8;
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    phi_q[23] = A_ij_5;
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    phi_q[25] = A_ij_7;
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[22] = A_ij_4;
+    phi_q[26] = A_ij_8;
+    phi_q[23] = A_ij_5;
+    phi_q[25] = A_ij_7;
     phi_q[24] = A_ij_6;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    phi_q[21] = A_ij_3;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    phi_q[18] = A_ij_0;
-    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[3] = e_ij_in_i_2;
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    phi_q[13] = e_ij_in_i_1;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    phi_q[20] = A_ij_2;
-    phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    phi_q[21] = A_ij_3;
+    phi_q[18] = A_ij_0;
+    phi_q[3] = e_ij_in_i_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     phi_q[9] = e_ij_in_i_0;
     phi_q[8] = -e_ij_in_i_2;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[4] = -e_ij_in_i_1;
-    phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    phi_q[19] = A_ij_1;
+    phi_q[20] = A_ij_2;
+    phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     phi_q[14] = -e_ij_in_i_0;
+    phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
     /* H_10 =  */
@@ -205,66 +196,69 @@ void jg_ball_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = C_i[0] * H_01 + C_i[3] * H_11 + C_i[6] * H_21;
     const jg_real g_star_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
-    const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_0 = A_ij_0 * f_star_in_i_0 + A_ij_1 * f_star_in_i_1 + A_ij_2 * f_star_in_i_2;
     const jg_real f_star_in_j_1 = A_ij_3 * f_star_in_i_0 + A_ij_4 * f_star_in_i_1 + A_ij_5 * f_star_in_i_2;
     const jg_real f_star_in_j_2 = A_ij_6 * f_star_in_i_0 + A_ij_7 * f_star_in_i_1 + A_ij_8 * f_star_in_i_2;
+    const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = A_ij_0 * g_star_in_i_0 + A_ij_1 * g_star_in_i_1 + A_ij_2 * g_star_in_i_2;
     const jg_real g_star_in_j_1 = A_ij_3 * g_star_in_i_0 + A_ij_4 * g_star_in_i_1 + A_ij_5 * g_star_in_i_2;
-    /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_0 = f_star_in_i_1 * g_star_in_i_2 - f_star_in_i_2 * g_star_in_i_1;
-    const jg_real g_star_in_j_2 = A_ij_6 * g_star_in_i_0 + A_ij_7 * g_star_in_i_1 + A_ij_8 * g_star_in_i_2;
-    const jg_real h_star_in_i_1 = f_star_in_i_2 * g_star_in_i_0 - f_star_in_i_0 * g_star_in_i_2;
-    const jg_real h_star_in_i_2 = f_star_in_i_0 * g_star_in_i_1 - f_star_in_i_1 * g_star_in_i_0;
     /* f_star_in_joint_j = f_star, axes of joint j */
     const jg_real f_star_in_joint_j_0 = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
+    const jg_real g_star_in_j_2 = A_ij_6 * g_star_in_i_0 + A_ij_7 * g_star_in_i_1 + A_ij_8 * g_star_in_i_2;
     const jg_real f_star_in_joint_j_1 = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    /* g_j_cross_f_star_in_j = g_j x f_star, axes of body j */
-    const jg_real g_j_cross_f_star_in_j_0 = f_star_in_j_2 * C_j[4] - f_star_in_j_1 * C_j[5];
-    phi_q[32] = g_j_cross_f_star_in_j_0;
+    /* h_star_in_i = h_star, axes of body i */
+    const jg_real h_star_in_i_0 = f_star_in_i_1 * g_star_in_i_2 - f_star_in_i_2 * g_star_in_i_1;
     const jg_real f_star_in_joint_j_2 = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
-    const jg_real g_j_cross_f_star_in_j_1 = f_star_in_j_0 * C_j[5] - f_star_in_j_2 * C_j[3];
-    phi_q[38] = g_j_cross_f_star_in_j_1;
-    const jg_real g_j_cross_f_star_in_j_2 = f_star_in_j_1 * C_j[3] - f_star_in_j_0 * C_j[4];
-    phi_q[44] = g_j_cross_f_star_in_j_2;
-    phi_q[48] = f_star_in_joint_j_2 * sine_2;
-    /* h_j_cross_g_star_in_j = h_j x g_star, axes of body j */
-    const jg_real h_j_cross_g_star_in_j_0 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
-    phi_q[30] = h_j_cross_g_star_in_j_0;
-    phi_q[49] = f_star_in_joint_j_0 * cosine_2;
-    const jg_real h_j_cross_g_star_in_j_1 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
-    phi_q[36] = h_j_cross_g_star_in_j_1;
+    const jg_real h_star_in_i_1 = f_star_in_i_2 * g_star_in_i_0 - f_star_in_i_0 * g_star_in_i_2;
+    const jg_real h_star_in_i_2 = f_star_in_i_0 * g_star_in_i_1 - f_star_in_i_1 * g_star_in_i_0;
     /* g_star_in_joint_j = g_star, axes of joint j */
     const jg_real g_star_in_joint_j_1 = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     const jg_real g_star_in_joint_j_0 = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
+    /* h_j_cross_g_star_in_j = h_j x g_star, axes of body j */
+    const jg_real h_j_cross_g_star_in_j_0 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
+    /* g_j_cross_f_star_in_j = g_j x f_star, axes of body j */
+    const jg_real g_j_cross_f_star_in_j_0 = f_star_in_j_2 * C_j[4] - f_star_in_j_1 * C_j[5];
     const jg_real g_star_in_joint_j_2 = C_j[6] * g_star_in_j_0 + C_j[7] * g_star_in_j_1 + C_j[8] * g_star_in_j_2;
+    const jg_real h_j_cross_g_star_in_j_1 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
+    const jg_real g_j_cross_f_star_in_j_1 = f_star_in_j_0 * C_j[5] - f_star_in_j_2 * C_j[3];
     const jg_real h_j_cross_g_star_in_j_2 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
+    phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    phi_q[30] = h_j_cross_g_star_in_j_0;
+    phi_q[32] = g_j_cross_f_star_in_j_0;
+    phi_q[36] = h_j_cross_g_star_in_j_1;
+    phi_q[38] = g_j_cross_f_star_in_j_1;
     phi_q[42] = h_j_cross_g_star_in_j_2;
-    phi_q[52] = -g_star_in_joint_j_0;
+    const jg_real g_j_cross_f_star_in_j_2 = f_star_in_j_1 * C_j[3] - f_star_in_j_0 * C_j[4];
     /* h_star_in_joint_j = h_star, axes of joint j */
     const jg_real h_star_in_joint_j_2 = f_star_in_joint_j_0 * g_star_in_joint_j_1 - f_star_in_joint_j_1 *
         g_star_in_joint_j_0;
-    phi_q[51] = h_star_in_joint_j_2;
-    phi_q[6] = f_star_in_joint_j_0 * g_star_in_i_0 - f_star_in_i_0 * g_star_in_joint_j_0;
     const jg_real h_star_in_joint_j_1 = f_star_in_joint_j_2 * g_star_in_joint_j_0 - f_star_in_joint_j_0 *
         g_star_in_joint_j_2;
+    phi_q[44] = g_j_cross_f_star_in_j_2;
+    phi_q[51] = h_star_in_joint_j_2;
+    phi_q[6] = f_star_in_joint_j_0 * g_star_in_i_0 - f_star_in_i_0 * g_star_in_joint_j_0;
     phi_q[11] = f_star_in_joint_j_0 * g_star_in_i_1 - f_star_in_i_1 * g_star_in_joint_j_0;
     phi_q[16] = f_star_in_joint_j_0 * g_star_in_i_2 - f_star_in_i_2 * g_star_in_joint_j_0;
-    phi_q[46] = f_star_in_joint_j_0 * H_21 + sine_1 * g_star_in_joint_j_0;
+    phi_q[48] = f_star_in_joint_j_2 * sine_2;
+    phi_q[49] = f_star_in_joint_j_0 * cosine_2;
+    phi_q[52] = -g_star_in_joint_j_0;
+    /* f_j_cross_h_star_in_j = f_j x h_star, axes of body j */
+    const jg_real f_j_cross_h_star_in_j_0 = C_j[6] * h_star_in_joint_j_1 - C_j[3] * h_star_in_joint_j_2;
     phi_q[5] = f_star_in_i_0 * h_star_in_joint_j_2 - f_star_in_joint_j_2 * h_star_in_i_0;
     phi_q[10] = f_star_in_i_1 * h_star_in_joint_j_2 - f_star_in_joint_j_2 * h_star_in_i_1;
     phi_q[15] = f_star_in_i_2 * h_star_in_joint_j_2 - f_star_in_joint_j_2 * h_star_in_i_2;
+    phi_q[46] = f_star_in_joint_j_0 * H_21 + sine_1 * g_star_in_joint_j_0;
     phi_q[7] = g_star_in_joint_j_1 * h_star_in_i_0 - g_star_in_i_0 * h_star_in_joint_j_1;
     phi_q[12] = g_star_in_joint_j_1 * h_star_in_i_1 - g_star_in_i_1 * h_star_in_joint_j_1;
     phi_q[17] = g_star_in_joint_j_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_joint_j_1;
-    /* f_j_cross_h_star_in_j = f_j x h_star, axes of body j */
-    const jg_real f_j_cross_h_star_in_j_0 = C_j[6] * h_star_in_joint_j_1 - C_j[3] * h_star_in_joint_j_2;
     phi_q[31] = f_j_cross_h_star_in_j_0;
     const jg_real f_j_cross_h_star_in_j_1 = C_j[7] * h_star_in_joint_j_1 - C_j[4] * h_star_in_joint_j_2;
-    phi_q[37] = f_j_cross_h_star_in_j_1;
     const jg_real f_j_cross_h_star_in_j_2 = C_j[8] * h_star_in_joint_j_1 - C_j[5] * h_star_in_joint_j_2;
+    phi_q[37] = f_j_cross_h_star_in_j_1;
     phi_q[43] = f_j_cross_h_star_in_j_2;
     phi_q[47] = g_star_in_joint_j_1 * v_0_in_star_0 - H_21 * h_star_in_joint_j_1;
     phi_q[45] = -(f_star_in_joint_j_2 * v_0_in_star_0 + sine_1 * h_star_in_joint_j_2);
@@ -280,417 +274,409 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
     jg_scatter(jg_ball_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    jg_real sine_1;
+    jg_real cosine_1;
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
+    jg_real sine_2;
+    jg_real cosine_2;
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* v_3_in_j = lambda_3 h_j, axes of body j */
+    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    /* v_1_in_j = lambda_4 f_j, axes of body j */
+    const jg_real v_1_in_j_1 = C_j[1] * lambda[4];
+    const jg_real v_1_in_j_2 = C_j[2] * lambda[4];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_2 = C_j[3] * A_ji_6 + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real g_j_in_i_1 = C_j[3] * A_ji_3 + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_1 = A_ji_3 * s_j[0] + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    /* v_1_in_i = lambda_4 f_j, axes of body i */
+    const jg_real v_1_in_i_2 = f_j_in_i_2 * lambda[4];
+    const jg_real v_1_in_i_1 = f_j_in_i_1 * lambda[4];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real s_j_in_i_2 = A_ji_6 * s_j[0] + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
+    const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real t33 = lambda[1] * A_ji_6 - lambda[2] * A_ji_3;
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jg_real sine_1;
-    jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
-    jg_real sine_2;
-    jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_3_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
-    /* v_1_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_1_in_j_1 = lambda[4] * C_j[1];
-    const jg_real v_1_in_j_2 = lambda[4] * C_j[2];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    phi_q_t_lambda_q[9] = t33;
+    phi_q_t_lambda_q[42] = t33;
+    const jg_real t34 = lambda[1] * A_ji_7 - lambda[2] * A_ji_4;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    const jg_real t36 = lambda[1] * A_ji_8 - lambda[2] * A_ji_5;
     const jg_real v_3_in_j_2 = lambda[3] * C_j[8];
     const jg_real v_3_in_j_0 = lambda[3] * C_j[6];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real v_1_in_j_0 = lambda[4] * C_j[0];
-    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real t26 = lambda[1] * A_ji_6 - lambda[2] * A_ji_3;
-    phi_q_t_lambda_q[9] = t26;
-    phi_q_t_lambda_q[42] = t26;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
-    const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + s_j[1] * A_ji_7 + s_j[2] * A_ji_8;
-    const jg_real t33 = lambda[1] * A_ji_7 - lambda[2] * A_ji_4;
-    phi_q_t_lambda_q[10] = t33;
-    phi_q_t_lambda_q[45] = t33;
-    const jg_real t34 = lambda[1] * A_ji_8 - lambda[2] * A_ji_5;
-    phi_q_t_lambda_q[11] = t34;
-    phi_q_t_lambda_q[48] = t34;
-    /* v_1_in_i = lambda_4 f_j, axes of body i */
-    const jg_real v_1_in_i_2 = lambda[4] * f_j_in_i_2;
-    const jg_real v_1_in_i_1 = lambda[4] * f_j_in_i_1;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_1 = g_j_in_i_0 * f_j_in_i_2 - f_j_in_i_0 * g_j_in_i_2;
+    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - g_j_in_i_0 * f_j_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    const jg_real v_1_in_j_0 = C_j[0] * lambda[4];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    phi_q_t_lambda_q[76] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_0;
-    const jg_real v_1_in_i_0 = lambda[4] * f_j_in_i_0;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     /* v_3_in_i = lambda_3 h_j, axes of body i */
-    const jg_real v_3_in_i_0 = h_j_in_i_0 * lambda[3];
-    const jg_real t51 = lambda[2] * A_ji_0 - lambda[0] * A_ji_6;
-    phi_q_t_lambda_q[21] = t51;
-    phi_q_t_lambda_q[43] = t51;
-    const jg_real t52 = lambda[2] * A_ji_1 - lambda[0] * A_ji_7;
-    phi_q_t_lambda_q[22] = t52;
-    phi_q_t_lambda_q[46] = t52;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    const jg_real t54 = lambda[2] * A_ji_2 - lambda[0] * A_ji_8;
-    phi_q_t_lambda_q[23] = t54;
-    phi_q_t_lambda_q[49] = t54;
     const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
-    const jg_real v_3_in_i_2 = h_j_in_i_2 * lambda[3];
+    const jg_real v_3_in_i_2 = lambda[3] * h_j_in_i_2;
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
+    const jg_real v_1_in_i_0 = f_j_in_i_0 * lambda[4];
+    const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
+    const jg_real h_j_in_i_0 = g_j_in_i_2 * f_j_in_i_1 - f_j_in_i_2 * g_j_in_i_1;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real t53 = lambda[2] * A_ji_0 - lambda[0] * A_ji_6;
+    phi_q_t_lambda_q[10] = t34;
+    phi_q_t_lambda_q[45] = t34;
+    phi_q_t_lambda_q[11] = t36;
+    phi_q_t_lambda_q[48] = t36;
+    phi_q_t_lambda_q[76] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[21] = t53;
+    phi_q_t_lambda_q[43] = t53;
+    const jg_real v_3_in_i_0 = lambda[3] * h_j_in_i_0;
+    const jg_real t55 = lambda[2] * A_ji_1 - lambda[0] * A_ji_7;
+    const jg_real t56 = lambda[2] * A_ji_2 - lambda[0] * A_ji_8;
+    const jg_real t57 = lambda[0] * A_ji_3 - lambda[1] * A_ji_0;
+    phi_q_t_lambda_q[22] = t55;
+    phi_q_t_lambda_q[46] = t55;
+    phi_q_t_lambda_q[23] = t56;
+    phi_q_t_lambda_q[49] = t56;
     phi_q_t_lambda_q[55] = -lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[65] = -lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[77] = -lambda_0_1_2_in_j_0;
-    const jg_real t57 = lambda[0] * A_ji_3 - lambda[1] * A_ji_0;
     phi_q_t_lambda_q[33] = t57;
     phi_q_t_lambda_q[44] = t57;
     const jg_real t58 = lambda[0] * A_ji_4 - lambda[1] * A_ji_1;
-    phi_q_t_lambda_q[34] = t58;
-    phi_q_t_lambda_q[47] = t58;
     const jg_real t59 = lambda[0] * A_ji_5 - lambda[1] * A_ji_2;
-    phi_q_t_lambda_q[35] = t59;
-    phi_q_t_lambda_q[50] = t59;
     const jg_real t60 = cosine_0 * sine_1;
-    const jg_real t61 = sine_0 * sine_1;
+    const jg_real t61 = sine_0 * cosine_1;
+    const jg_real t62 = cosine_0 * cosine_1;
+    const jg_real t63 = sine_1 * sine_0;
     /* H_21 =  */
-    const jg_real H_21 = sine_2 * cosine_1;
+    const jg_real H_21 = sine_1 * cosine_2;
     /* H_22 =  */
-    const jg_real H_22 = cosine_2 * cosine_1;
-    const jg_real t64 = cosine_2 * lambda[3];
-    /* v_20_in_joint_j = sin(alpha_2) lambda_4 f_j - cos(alpha_2) lambda_3 h_j, axes of joint j */
-    const jg_real v_20_in_joint_j = lambda[4] * sine_2;
-    const jg_real t66 = sine_1 * lambda[3];
-    const jg_real t67 = lambda[4] * sine_1;
+    const jg_real H_22 = cosine_1 * cosine_2;
     /* v_9_in_joint_j = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of joint j */
-    const jg_real v_9_in_joint_j_2 = sine_2 * lambda[3];
-    const jg_real v_9_in_joint_j_0 = lambda[4] * cosine_2;
-    const jg_real t70 = sine_2 * lambda[5];
-    const jg_real t71 = cosine_2 * lambda[5];
-    const jg_real t72 = lambda[5] * H_21;
-    const jg_real t73 = H_22 * lambda[5];
-    const jg_real t74 = sine_2 * sine_2;
+    const jg_real v_9_in_joint_j_2 = lambda[3] * sine_1;
+    const jg_real v_9_in_joint_j_0 = cosine_1 * lambda[4];
+    const jg_real t68 = sine_1 * sine_1;
     /* H_01 =  */
-    const jg_real H_01 = sine_2 * t60 - sine_0 * cosine_2;
+    const jg_real H_01 = sine_2 * t60 - t61;
+    const jg_real t70 = t60 - sine_2 * t61;
     /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_2 + cosine_2 * t60;
+    const jg_real H_02 = t63 + sine_2 * t62;
     /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_2 + sine_2 * t61;
-    const jg_real t78 = sine_2 * cosine_0 - cosine_2 * t61;
+    const jg_real H_11 = t62 + sine_2 * t63;
     /* v_18_in_star = (cos(alpha_2) cos(alpha_2) + sin(alpha_2) sin(alpha_2)) f_star, axes of body star */
-    const jg_real v_18_in_star = t74 + cosine_2 * cosine_2;
-    /* v_19_in_star = (cos(alpha_2) cos(alpha_2) lambda_5 + sin(alpha_2) sin(alpha_2) lambda_5) f_star, axes of ...
-        */
-    const jg_real v_19_in_star = lambda[5] * v_18_in_star;
-    /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
+    const jg_real v_18_in_star = t68 + cosine_1 * cosine_1;
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t78 * C_i[3] + H_22 * C_i[6];
-    const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
-    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t78 * C_i[5] + H_22 * C_i[8];
-    const jg_real g_star_in_i_0 = C_i[0] * H_01 + C_i[3] * H_11 + C_i[6] * H_21;
-    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t78 * C_i[4] + H_22 * C_i[7];
+    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t70 * C_i[3] + H_22 * C_i[6];
+    /* g_star_in_i = g_star, axes of body i */
+    const jg_real g_star_in_i_1 = H_01 * C_i[1] + H_11 * C_i[4] + H_21 * C_i[7];
+    const jg_real g_star_in_i_2 = H_01 * C_i[2] + H_11 * C_i[5] + H_21 * C_i[8];
+    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t70 * C_i[5] + H_22 * C_i[8];
+    const jg_real g_star_in_i_0 = H_01 * C_i[0] + H_11 * C_i[3] + H_21 * C_i[6];
+    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t70 + C_i[7] * H_22;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_1 = h_star_in_i_0 * g_star_in_i_2 - h_star_in_i_2 * g_star_in_i_0;
-    const jg_real f_star_in_i_2 = h_star_in_i_1 * g_star_in_i_0 - h_star_in_i_0 * g_star_in_i_1;
-    const jg_real f_star_in_i_0 = h_star_in_i_2 * g_star_in_i_1 - h_star_in_i_1 * g_star_in_i_2;
+    const jg_real f_star_in_i_2 = g_star_in_i_0 * h_star_in_i_1 - g_star_in_i_1 * h_star_in_i_0;
+    const jg_real f_star_in_i_0 = g_star_in_i_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_i_1;
     /* v_2_in_i = lambda_5 f_star, axes of body i */
-    const jg_real v_2_in_i_1 = lambda[5] * f_star_in_i_1;
+    const jg_real v_2_in_i_1 = f_star_in_i_1 * lambda[5];
     const jg_real v_2_in_i_2 = lambda[5] * f_star_in_i_2;
     const jg_real v_2_in_i_0 = lambda[5] * f_star_in_i_0;
     /* A_star_j = turns j axes to star axes */
     const jg_real A_star_j_8 = A_ji_2 * h_star_in_i_0 + A_ji_5 * h_star_in_i_1 + A_ji_8 * h_star_in_i_2;
     const jg_real A_star_j_2 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
-    const jg_real A_star_j_1 = A_ji_0 * g_star_in_i_0 + A_ji_3 * g_star_in_i_1 + A_ji_6 * g_star_in_i_2;
-    const jg_real A_star_j_7 = A_ji_2 * g_star_in_i_0 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
     const jg_real A_star_j_0 = A_ji_0 * f_star_in_i_0 + A_ji_3 * f_star_in_i_1 + A_ji_6 * f_star_in_i_2;
     const jg_real A_star_j_6 = A_ji_2 * f_star_in_i_0 + A_ji_5 * f_star_in_i_1 + A_ji_8 * f_star_in_i_2;
+    const jg_real A_star_j_1 = A_ji_0 * g_star_in_i_0 + A_ji_3 * g_star_in_i_1 + A_ji_6 * g_star_in_i_2;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_0_i_i_4 = lambda[1] * e_ij_in_i_1 + v_1_in_i_1 * h_star_in_i_1 + g_j_in_i_1 * v_2_in_i_1 +
-        g_star_in_i_1 * v_3_in_i_1;
-    const jg_real M_0_i_i_8 = lambda[2] * e_ij_in_i_2 + v_1_in_i_2 * h_star_in_i_2 + g_j_in_i_2 * v_2_in_i_2 +
+    const jg_real M_0_i_i_4 = v_1_in_i_1 * h_star_in_i_1 + lambda[1] * e_ij_in_i_1 + v_2_in_i_1 * g_j_in_i_1 +
+        v_3_in_i_1 * g_star_in_i_1;
+    const jg_real M_0_i_i_8 = h_star_in_i_2 * v_1_in_i_2 + lambda[2] * e_ij_in_i_2 + g_j_in_i_2 * v_2_in_i_2 +
         g_star_in_i_2 * v_3_in_i_2;
-    const jg_real M_0_i_i_3 = lambda[0] * e_ij_in_i_1 + v_1_in_i_1 * h_star_in_i_0 + g_j_in_i_1 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_1;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real M_0_i_i_6 = lambda[0] * e_ij_in_i_2 + v_1_in_i_2 * h_star_in_i_0 + g_j_in_i_2 * v_2_in_i_0 +
+    const jg_real A_star_j_7 = A_ji_2 * g_star_in_i_0 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
+    const jg_real M_0_i_i_3 = h_star_in_i_0 * v_1_in_i_1 + lambda[0] * e_ij_in_i_1 + g_j_in_i_1 * v_2_in_i_0 +
+        v_3_in_i_1 * g_star_in_i_0;
+    const jg_real M_0_i_i_6 = h_star_in_i_0 * v_1_in_i_2 + lambda[0] * e_ij_in_i_2 + g_j_in_i_2 * v_2_in_i_0 +
         g_star_in_i_0 * v_3_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
-    const jg_real A_star_j_3 = A_star_j_2 * A_star_j_7 - A_star_j_1 * A_star_j_8;
     /* v_2_in_j = lambda_5 f_star, axes of body j */
     const jg_real v_2_in_j_2 = lambda[5] * A_star_j_6;
     const jg_real v_2_in_j_0 = lambda[5] * A_star_j_0;
-    const jg_real A_star_j_4 = A_star_j_0 * A_star_j_8 - A_star_j_2 * A_star_j_6;
-    const jg_real A_star_j_5 = A_star_j_1 * A_star_j_6 - A_star_j_0 * A_star_j_7;
-    const jg_real v_2_in_j_1 = lambda[5] * A_star_j_3;
+    const jg_real A_star_j_4 = A_star_j_0 * A_star_j_8 - A_star_j_6 * A_star_j_2;
+    phi_q_t_lambda_q[77] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[34] = t58;
+    phi_q_t_lambda_q[47] = t58;
+    phi_q_t_lambda_q[35] = t59;
+    phi_q_t_lambda_q[50] = t59;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    const jg_real A_star_j_5 = A_star_j_6 * A_star_j_1 - A_star_j_0 * A_star_j_7;
+    const jg_real A_star_j_3 = A_star_j_2 * A_star_j_7 - A_star_j_8 * A_star_j_1;
+    const jg_real v_2_in_j_1 = lambda[5] * A_star_j_3;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_1_in_j_2 * A_star_j_8 + C_j[5] * v_2_in_j_2 +
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + A_star_j_8 * v_1_in_j_2 + C_j[5] * v_2_in_j_2 +
         A_star_j_7 * v_3_in_j_2;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + v_1_in_j_1 * A_star_j_2 + C_j[4] * v_2_in_j_0 +
-        A_star_j_1 * v_3_in_j_1;
-    phi_q_t_lambda_q[67] = M_1_j_j_3;
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + v_1_in_j_2 * A_star_j_2 + C_j[5] * v_2_in_j_0 +
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + A_star_j_2 * v_1_in_j_1 + C_j[4] * v_2_in_j_0 +
+        v_3_in_j_1 * A_star_j_1;
+    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + A_star_j_2 * v_1_in_j_2 + C_j[5] * v_2_in_j_0 +
         A_star_j_1 * v_3_in_j_2;
-    phi_q_t_lambda_q[78] = M_1_j_j_6;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + v_1_in_j_0 * A_star_j_2 + C_j[3] * v_2_in_j_0 +
+    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + A_star_j_2 * v_1_in_j_0 + C_j[3] * v_2_in_j_0 +
         A_star_j_1 * v_3_in_j_0;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_1_in_j_0 * A_star_j_8 + C_j[3] * v_2_in_j_2 +
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + A_star_j_8 * v_1_in_j_0 + C_j[3] * v_2_in_j_2 +
         A_star_j_7 * v_3_in_j_0;
-    phi_q_t_lambda_q[58] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + v_1_in_j_1 * A_star_j_8 + C_j[4] * v_2_in_j_2 +
-        A_star_j_7 * v_3_in_j_1;
-    phi_q_t_lambda_q[69] = M_1_j_j_5;
+    const jg_real t107 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + A_star_j_8 * v_1_in_j_1 + C_j[4] * v_2_in_j_2 +
+        v_3_in_j_1 * A_star_j_7;
+    const jg_real M_1_j_j_4 = A_star_j_5 * v_1_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[4] * v_2_in_j_1 +
+        A_star_j_4 * v_3_in_j_1;
+    const jg_real M_1_j_j_7 = A_star_j_5 * v_1_in_j_2 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_2_in_j_1 +
+        A_star_j_4 * v_3_in_j_2;
+    const jg_real M_1_j_j_1 = A_star_j_5 * v_1_in_j_0 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_2_in_j_1 +
+        A_star_j_4 * v_3_in_j_0;
+    const jg_real t112 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t113 = M_1_j_j_4 + M_1_j_j_0;
     /* f_j_in_star = f_j, axes of body star */
     const jg_real f_j_in_star_0 = C_j[0] * A_star_j_0 + C_j[1] * A_star_j_3 + C_j[2] * A_star_j_6;
     /* g_j_in_star = g_j, axes of body star */
-    const jg_real g_j_in_star_0 = C_j[3] * A_star_j_0 + C_j[4] * A_star_j_3 + C_j[5] * A_star_j_6;
-    const jg_real t117 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real g_j_in_star_1 = C_j[3] * A_star_j_1 + C_j[4] * A_star_j_4 + C_j[5] * A_star_j_7;
-    const jg_real f_j_in_star_1 = C_j[0] * A_star_j_1 + C_j[1] * A_star_j_4 + C_j[2] * A_star_j_7;
-    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + v_1_in_j_1 * A_star_j_5 + C_j[4] * v_2_in_j_1 +
-        A_star_j_4 * v_3_in_j_1;
-    /* v_11_in_star = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of body star */
-    const jg_real v_11_in_star_1 = g_j_in_star_0 * t71;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + v_1_in_j_2 * A_star_j_5 + C_j[5] * v_2_in_j_1 +
-        A_star_j_4 * v_3_in_j_2;
-    phi_q_t_lambda_q[79] = M_1_j_j_7;
-    const jg_real f_j_in_star_2 = C_j[0] * A_star_j_2 + C_j[1] * A_star_j_5 + C_j[2] * A_star_j_8;
-    const jg_real g_j_in_star_2 = C_j[3] * A_star_j_2 + C_j[4] * A_star_j_5 + C_j[5] * A_star_j_8;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + v_1_in_j_0 * A_star_j_5 + C_j[3] * v_2_in_j_1 +
-        A_star_j_4 * v_3_in_j_0;
-    phi_q_t_lambda_q[57] = M_1_j_j_1;
+    const jg_real g_j_in_star_1 = C_j[4] * A_star_j_4 + C_j[3] * A_star_j_1 + C_j[5] * A_star_j_7;
+    const jg_real f_j_in_star_1 = C_j[1] * A_star_j_4 + C_j[0] * A_star_j_1 + C_j[2] * A_star_j_7;
     /* v_13_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
     const jg_real v_13_in_star_2 = lambda[4] * f_j_in_star_0;
-    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + v_1_in_i_0 * h_star_in_i_1 + g_j_in_i_0 * v_2_in_i_1 +
-        g_star_in_i_1 * v_3_in_i_0;
-    phi_q_t_lambda_q[18] = M_0_i_i_1;
-    const jg_real t128 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t129 = M_1_j_j_0 + M_1_j_j_4;
-    const jg_real t130 = f_j_in_star_2 * t67;
+    const jg_real g_j_in_star_0 = C_j[3] * A_star_j_0 + C_j[4] * A_star_j_3 + C_j[5] * A_star_j_6;
+    const jg_real t119 = lambda[5] * g_j_in_star_1;
+    const jg_real t120 = A_ji_2 * t113 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    phi_q_t_lambda_q[67] = M_1_j_j_3;
+    phi_q_t_lambda_q[78] = M_1_j_j_6;
+    phi_q_t_lambda_q[58] = M_1_j_j_2;
+    phi_q_t_lambda_q[69] = M_1_j_j_5;
+    phi_q_t_lambda_q[79] = M_1_j_j_7;
+    phi_q_t_lambda_q[57] = M_1_j_j_1;
+    phi_q_t_lambda_q[14] = t120;
+    phi_q_t_lambda_q[73] = t120;
+    const jg_real t121 = lambda[4] * f_j_in_star_1;
+    const jg_real f_j_in_star_2 = C_j[1] * A_star_j_5 + C_j[0] * A_star_j_2 + C_j[2] * A_star_j_8;
+    const jg_real t123 = lambda[5] * g_j_in_star_0;
+    const jg_real g_j_in_star_2 = C_j[4] * A_star_j_5 + C_j[3] * A_star_j_2 + C_j[5] * A_star_j_8;
+    const jg_real t125 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t107 + A_ji_2 * M_1_j_j_7);
+    const jg_real t126 = lambda[4] * f_j_in_star_2;
     /* h_j_in_star = h_j, axes of body star */
     const jg_real h_j_in_star_2 = f_j_in_star_0 * g_j_in_star_1 - f_j_in_star_1 * g_j_in_star_0;
-    const jg_real t132 = lambda[4] * f_j_in_star_2;
-    const jg_real h_j_in_star_0 = f_j_in_star_1 * g_j_in_star_2 - f_j_in_star_2 * g_j_in_star_1;
-    const jg_real h_j_in_star_1 = f_j_in_star_2 * g_j_in_star_0 - f_j_in_star_0 * g_j_in_star_2;
+    const jg_real t128 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t112 + A_ji_2 * M_1_j_j_6);
+    const jg_real t129 = lambda[5] * g_j_in_star_2;
+    const jg_real t130 = lambda[3] * h_j_in_star_2;
+    const jg_real t131 = sine_2 * t126;
+    /* v_11_in_star = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of body star */
+    const jg_real v_11_in_star_1 = cosine_1 * t123;
+    const jg_real h_j_in_star_0 = f_j_in_star_1 * g_j_in_star_2 - g_j_in_star_1 * f_j_in_star_2;
+    const jg_real h_j_in_star_1 = g_j_in_star_0 * f_j_in_star_2 - f_j_in_star_0 * g_j_in_star_2;
+    const jg_real t135 = cosine_1 * t130;
+    /* v_9_in_star = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of body star */
+    const jg_real v_9_in_star_2 = h_j_in_star_2 * v_9_in_joint_j_2 + f_j_in_star_2 * v_9_in_joint_j_0;
+    const jg_real v_13_in_star_1 = lambda[3] * h_j_in_star_0;
+    const jg_real t138 = lambda[3] * h_j_in_star_1;
     /* v_6_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
         */
-    const jg_real v_6_in_star = t130 + g_j_in_star_2 * t73;
-    const jg_real t136 = t64 * h_j_in_star_2;
-    const jg_real t137 = A_ji_2 * t129 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t137;
-    phi_q_t_lambda_q[73] = t137;
-    const jg_real v_11_in_star_0 = g_j_in_star_2 * t70 - g_j_in_star_1 * t71;
-    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + v_1_in_i_0 * h_star_in_i_0 + g_j_in_i_0 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_0;
-    const jg_real v_13_in_star_1 = lambda[3] * h_j_in_star_0;
-    const jg_real t141 = h_j_in_star_1 * t66;
-    const jg_real t142 = lambda[3] * h_j_in_star_1;
+    const jg_real v_6_in_star = t131 + H_22 * t129;
+    const jg_real v_11_in_star_0 = sine_1 * t129 - cosine_1 * t119;
     /* v_4_in_star = cos(alpha_2) lambda_3 f_star x h_j - sin(alpha_2) lambda_4 f_star x f_j, axes of body star */
-    const jg_real v_4_in_star_1 = f_j_in_star_2 * v_20_in_joint_j - t136;
-    /* v_9_in_star = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of body star */
-    const jg_real v_9_in_star_2 = f_j_in_star_2 * v_9_in_joint_j_0 + h_j_in_star_2 * v_9_in_joint_j_2;
-    const jg_real t145 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t117 + A_ji_2 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t145;
-    phi_q_t_lambda_q[62] = t145;
-    /* v_7_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
-        */
-    const jg_real v_7_in_star_1 = h_j_in_star_0 * t66 + g_j_in_star_0 * t72;
-    const jg_real v_4_in_star_2 = t64 * h_j_in_star_1 - f_j_in_star_1 * v_20_in_joint_j;
-    const jg_real v_9_in_star_1 = f_j_in_star_1 * v_9_in_joint_j_0 + h_j_in_star_1 * v_9_in_joint_j_2;
-    const jg_real t149 = t142 + t132;
+    const jg_real v_4_in_star_1 = sine_1 * t126 - t135;
+    const jg_real t142 = v_9_in_star_2 + v_11_in_star_1;
+    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + h_star_in_i_1 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_1 +
+        g_star_in_i_1 * v_3_in_i_0;
+    const jg_real t144 = sine_2 * t138;
+    const jg_real v_9_in_star_1 = h_j_in_star_1 * v_9_in_joint_j_2 + f_j_in_star_1 * v_9_in_joint_j_0;
+    const jg_real t146 = t126 + t138;
     /* v_5_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star ...
         */
-    const jg_real v_5_in_star_1 = cosine_1 * v_4_in_star_1;
-    const jg_real t151 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t128 + A_ji_2 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t151;
-    phi_q_t_lambda_q[51] = t151;
-    const jg_real t152 = v_9_in_star_2 + v_11_in_star_1;
-    phi_q_t_lambda_q[19] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real t153 = t141 + g_j_in_star_1 * t72 + v_6_in_star;
-    const jg_real v_5_in_star_2 = cosine_1 * v_4_in_star_2;
+    const jg_real v_5_in_star_1 = cosine_2 * v_4_in_star_1;
+    /* v_7_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
+        */
+    const jg_real v_7_in_star_1 = sine_2 * v_13_in_star_1 + H_21 * t123;
+    const jg_real v_4_in_star_2 = cosine_1 * t138 - sine_1 * t121;
     /* v_12_in_star = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
-    const jg_real v_12_in_star_2 = v_9_in_star_1 + g_j_in_star_0 * t70;
+    const jg_real v_12_in_star_2 = v_9_in_star_1 + sine_1 * t123;
+    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + h_star_in_i_0 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_0 +
+        g_star_in_i_0 * v_3_in_i_0;
     /* v_8_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
     const jg_real v_8_in_star_1 = v_5_in_star_1 + v_7_in_star_1;
-    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + v_1_in_i_2 * h_star_in_i_1 + g_j_in_i_2 * v_2_in_i_1 +
+    const jg_real t153 = t144 + H_21 * t119 + v_6_in_star;
+    const jg_real v_5_in_star_2 = cosine_2 * v_4_in_star_2;
+    const jg_real M_0_i_i_7 = h_star_in_i_1 * v_1_in_i_2 + lambda[1] * e_ij_in_i_2 + g_j_in_i_2 * v_2_in_i_1 +
         g_star_in_i_1 * v_3_in_i_2;
-    phi_q_t_lambda_q[20] = M_0_i_i_7;
-    const jg_real t158 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t128 + A_ji_5 * M_1_j_j_6);
-    phi_q_t_lambda_q[24] = t158;
-    phi_q_t_lambda_q[52] = t158;
-    const jg_real v_8_in_star_2 = f_j_in_star_0 * t67 + g_j_in_star_0 * t73 + v_5_in_star_2;
-    const jg_real t160 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t117 + A_ji_5 * M_1_j_j_7);
-    phi_q_t_lambda_q[25] = t160;
-    phi_q_t_lambda_q[63] = t160;
-    const jg_real t161 = A_ji_5 * t129 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[26] = t161;
-    phi_q_t_lambda_q[74] = t161;
-    /* v_13_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t149 + h_star_in_i_0 *
-        v_13_in_star_2;
-    phi_q_t_lambda_q[17] = v_13_in_i_0;
-    phi_q_t_lambda_q[102] = v_13_in_i_0;
+    const jg_real v_8_in_star_2 = sine_2 * v_13_in_star_2 + H_22 * t123 + v_5_in_star_2;
     /* v_12_in_i = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
-    const jg_real v_12_in_i_0 = h_star_in_i_0 * v_12_in_star_2 - (f_star_in_i_0 * v_11_in_star_0 + g_star_in_i_0 *
-        t152);
+    const jg_real v_12_in_i_0 = h_star_in_i_0 * v_12_in_star_2 - (g_star_in_i_0 * t142 + f_star_in_i_0 *
+        v_11_in_star_0);
+    phi_q_t_lambda_q[13] = t125;
+    phi_q_t_lambda_q[62] = t125;
+    phi_q_t_lambda_q[12] = t128;
+    phi_q_t_lambda_q[51] = t128;
+    phi_q_t_lambda_q[18] = M_0_i_i_1;
+    phi_q_t_lambda_q[20] = M_0_i_i_7;
     phi_q_t_lambda_q[16] = v_12_in_i_0;
     phi_q_t_lambda_q[93] = v_12_in_i_0;
-    const jg_real v_12_in_i_1 = h_star_in_i_1 * v_12_in_star_2 - (f_star_in_i_1 * v_11_in_star_0 + g_star_in_i_1 *
-        t152);
-    phi_q_t_lambda_q[28] = v_12_in_i_1;
-    phi_q_t_lambda_q[94] = v_12_in_i_1;
-    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t149 + h_star_in_i_1 *
+    const jg_real t158 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t112 + A_ji_5 * M_1_j_j_6);
+    /* v_13_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
+    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t146 + h_star_in_i_0 *
         v_13_in_star_2;
-    phi_q_t_lambda_q[29] = v_13_in_i_1;
-    phi_q_t_lambda_q[103] = v_13_in_i_1;
-    phi_q_t_lambda_q[32] = -(M_0_i_i_0 + M_0_i_i_4);
+    const jg_real t160 = A_ji_5 * t113 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    const jg_real t161 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t107 + A_ji_5 * M_1_j_j_7);
+    phi_q_t_lambda_q[24] = t158;
+    phi_q_t_lambda_q[52] = t158;
+    phi_q_t_lambda_q[17] = v_13_in_i_0;
+    phi_q_t_lambda_q[102] = v_13_in_i_0;
+    phi_q_t_lambda_q[19] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[26] = t160;
+    phi_q_t_lambda_q[74] = t160;
+    phi_q_t_lambda_q[25] = t161;
+    phi_q_t_lambda_q[63] = t161;
     /* v_8_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
     const jg_real v_8_in_i_0 = g_star_in_i_0 * v_8_in_star_1 - f_star_in_i_0 * t153 + h_star_in_i_0 * v_8_in_star_2;
     const jg_real v_8_in_i_1 = g_star_in_i_1 * v_8_in_star_1 - f_star_in_i_1 * t153 + h_star_in_i_1 * v_8_in_star_2;
-    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + v_1_in_i_0 * h_star_in_i_2 + g_j_in_i_0 * v_2_in_i_2 +
+    const jg_real t164 = -v_8_in_i_0;
+    const jg_real v_12_in_i_1 = h_star_in_i_1 * v_12_in_star_2 - (g_star_in_i_1 * t142 + f_star_in_i_1 *
+        v_11_in_star_0);
+    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t146 + h_star_in_i_1 *
+        v_13_in_star_2;
+    const jg_real t167 = -v_8_in_i_1;
+    phi_q_t_lambda_q[15] = t164;
+    phi_q_t_lambda_q[84] = t164;
+    phi_q_t_lambda_q[28] = v_12_in_i_1;
+    phi_q_t_lambda_q[94] = v_12_in_i_1;
+    phi_q_t_lambda_q[29] = v_13_in_i_1;
+    phi_q_t_lambda_q[103] = v_13_in_i_1;
+    phi_q_t_lambda_q[27] = t167;
+    phi_q_t_lambda_q[85] = t167;
+    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + h_star_in_i_2 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_2 +
         g_star_in_i_2 * v_3_in_i_0;
+    const jg_real M_0_i_i_5 = h_star_in_i_2 * v_1_in_i_1 + lambda[2] * e_ij_in_i_1 + g_j_in_i_1 * v_2_in_i_2 +
+        v_3_in_i_1 * g_star_in_i_2;
+    const jg_real t170 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t112 + A_ji_8 * M_1_j_j_6);
+    const jg_real t171 = A_ji_8 * t113 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    phi_q_t_lambda_q[32] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[30] = M_0_i_i_2;
-    const jg_real t169 = -v_8_in_i_0;
-    phi_q_t_lambda_q[15] = t169;
-    phi_q_t_lambda_q[84] = t169;
-    const jg_real t170 = -v_8_in_i_1;
-    phi_q_t_lambda_q[27] = t170;
-    phi_q_t_lambda_q[85] = t170;
-    phi_q_t_lambda_q[56] = -t128;
-    const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + v_1_in_i_1 * h_star_in_i_2 + g_j_in_i_1 * v_2_in_i_2 +
-        g_star_in_i_2 * v_3_in_i_1;
+    phi_q_t_lambda_q[56] = -t112;
     phi_q_t_lambda_q[31] = M_0_i_i_5;
-    const jg_real t172 = A_ji_8 * t129 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
-    phi_q_t_lambda_q[38] = t172;
-    phi_q_t_lambda_q[75] = t172;
-    phi_q_t_lambda_q[68] = -t117;
-    const jg_real t173 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t128 + A_ji_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[36] = t173;
-    phi_q_t_lambda_q[53] = t173;
+    phi_q_t_lambda_q[36] = t170;
+    phi_q_t_lambda_q[53] = t170;
+    phi_q_t_lambda_q[38] = t171;
+    phi_q_t_lambda_q[75] = t171;
     const jg_real v_8_in_i_2 = g_star_in_i_2 * v_8_in_star_1 - f_star_in_i_2 * t153 + h_star_in_i_2 * v_8_in_star_2;
-    const jg_real v_12_in_i_2 = h_star_in_i_2 * v_12_in_star_2 - (f_star_in_i_2 * v_11_in_star_0 + g_star_in_i_2 *
-        t152);
+    const jg_real t173 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t107 + A_ji_8 * M_1_j_j_7);
+    const jg_real v_12_in_i_2 = h_star_in_i_2 * v_12_in_star_2 - (g_star_in_i_2 * t142 + f_star_in_i_2 *
+        v_11_in_star_0);
+    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t146 + h_star_in_i_2 *
+        v_13_in_star_2;
+    const jg_real t176 = -v_8_in_i_2;
+    phi_q_t_lambda_q[37] = t173;
+    phi_q_t_lambda_q[64] = t173;
     phi_q_t_lambda_q[40] = v_12_in_i_2;
     phi_q_t_lambda_q[95] = v_12_in_i_2;
-    const jg_real t176 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t117 + A_ji_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[37] = t176;
-    phi_q_t_lambda_q[64] = t176;
-    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t149 + h_star_in_i_2 *
-        v_13_in_star_2;
+    phi_q_t_lambda_q[68] = -t107;
     phi_q_t_lambda_q[41] = v_13_in_i_2;
     phi_q_t_lambda_q[104] = v_13_in_i_2;
-    phi_q_t_lambda_q[80] = -t129;
-    const jg_real t178 = -v_8_in_i_2;
-    phi_q_t_lambda_q[39] = t178;
-    phi_q_t_lambda_q[86] = t178;
+    phi_q_t_lambda_q[39] = t176;
+    phi_q_t_lambda_q[86] = t176;
     /* v_8_in_j = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
     const jg_real v_8_in_j_0 = A_star_j_1 * v_8_in_star_1 - A_star_j_0 * t153 + A_star_j_2 * v_8_in_star_2;
-    phi_q_t_lambda_q[59] = v_8_in_j_0;
-    phi_q_t_lambda_q[87] = v_8_in_j_0;
     /* v_13_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_13_in_j_0 = A_star_j_1 * v_13_in_star_1 - A_star_j_0 * t149 + A_star_j_2 * v_13_in_star_2;
-    const jg_real t181 = lambda[5] * g_j_in_star_0;
-    const jg_real t182 = lambda[3] * h_j_in_star_2;
-    const jg_real v_8_in_j_1 = A_star_j_4 * v_8_in_star_1 - A_star_j_3 * t153 + A_star_j_5 * v_8_in_star_2;
-    phi_q_t_lambda_q[70] = v_8_in_j_1;
-    phi_q_t_lambda_q[88] = v_8_in_j_1;
+    const jg_real v_13_in_j_0 = A_star_j_1 * v_13_in_star_1 - A_star_j_0 * t146 + A_star_j_2 * v_13_in_star_2;
     /* v_12_in_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
     const jg_real v_12_in_j_0 = A_ji_0 * v_12_in_i_0 + A_ji_3 * v_12_in_i_1 + A_ji_6 * v_12_in_i_2;
-    const jg_real t185 = lambda[4] * f_j_in_star_1;
+    const jg_real v_8_in_j_1 = A_star_j_4 * v_8_in_star_1 - A_star_j_3 * t153 + A_star_j_5 * v_8_in_star_2;
+    const jg_real t181 = -v_13_in_j_0;
     const jg_real v_12_in_j_1 = A_ji_1 * v_12_in_i_0 + A_ji_4 * v_12_in_i_1 + A_ji_7 * v_12_in_i_2;
-    const jg_real t187 = -v_13_in_j_0;
-    phi_q_t_lambda_q[61] = t187;
-    phi_q_t_lambda_q[105] = t187;
-    const jg_real v_13_in_j_1 = A_star_j_4 * v_13_in_star_1 - A_star_j_3 * t149 + A_star_j_5 * v_13_in_star_2;
+    const jg_real t183 = -v_12_in_j_0;
+    phi_q_t_lambda_q[59] = v_8_in_j_0;
+    phi_q_t_lambda_q[87] = v_8_in_j_0;
+    phi_q_t_lambda_q[80] = -t113;
+    phi_q_t_lambda_q[70] = v_8_in_j_1;
+    phi_q_t_lambda_q[88] = v_8_in_j_1;
+    phi_q_t_lambda_q[61] = t181;
+    phi_q_t_lambda_q[105] = t181;
+    phi_q_t_lambda_q[60] = t183;
+    phi_q_t_lambda_q[96] = t183;
+    const jg_real v_13_in_j_1 = A_star_j_4 * v_13_in_star_1 - A_star_j_3 * t146 + A_star_j_5 * v_13_in_star_2;
     const jg_real v_8_in_j_2 = A_star_j_7 * v_8_in_star_1 - A_star_j_6 * t153 + A_star_j_8 * v_8_in_star_2;
+    const jg_real t186 = -v_12_in_j_1;
+    const jg_real v_12_in_j_2 = A_ji_2 * v_12_in_i_0 + A_ji_5 * v_12_in_i_1 + A_ji_8 * v_12_in_i_2;
+    const jg_real t188 = -v_13_in_j_1;
+    const jg_real v_13_in_j_2 = A_star_j_7 * v_13_in_star_1 - A_star_j_6 * t146 + A_star_j_8 * v_13_in_star_2;
+    const jg_real t190 = -v_12_in_j_2;
     phi_q_t_lambda_q[81] = v_8_in_j_2;
     phi_q_t_lambda_q[89] = v_8_in_j_2;
-    const jg_real t190 = -v_12_in_j_0;
-    phi_q_t_lambda_q[60] = t190;
-    phi_q_t_lambda_q[96] = t190;
-    const jg_real v_12_in_j_2 = A_ji_2 * v_12_in_i_0 + A_ji_5 * v_12_in_i_1 + A_ji_8 * v_12_in_i_2;
-    const jg_real t192 = -v_12_in_j_1;
-    phi_q_t_lambda_q[71] = t192;
-    phi_q_t_lambda_q[97] = t192;
-    const jg_real t193 = -v_13_in_j_1;
-    phi_q_t_lambda_q[72] = t193;
-    phi_q_t_lambda_q[106] = t193;
-    const jg_real v_13_in_j_2 = A_star_j_7 * v_13_in_star_1 - A_star_j_6 * t149 + A_star_j_8 * v_13_in_star_2;
-    const jg_real t195 = -v_12_in_j_2;
-    phi_q_t_lambda_q[82] = t195;
-    phi_q_t_lambda_q[98] = t195;
+    phi_q_t_lambda_q[71] = t186;
+    phi_q_t_lambda_q[97] = t186;
+    phi_q_t_lambda_q[72] = t188;
+    phi_q_t_lambda_q[106] = t188;
+    phi_q_t_lambda_q[82] = t190;
+    phi_q_t_lambda_q[98] = t190;
+    const jg_real t191 = -v_13_in_j_2;
     /* v_16_in_star = cos(alpha_2) sin(alpha_2) lambda_4 f_j + sin(alpha_2) sin(alpha_2) lambda_3 h_j, axes of ...
         */
-    const jg_real v_16_in_star_1 = sine_2 * v_9_in_star_1;
+    const jg_real v_16_in_star_1 = sine_1 * v_9_in_star_1;
     /* v_17_in_star = cos(alpha_2) cos(alpha_2) lambda_4 f_j + cos(alpha_2) sin(alpha_2) lambda_3 h_j, axes of ...
         */
-    const jg_real v_17_in_star_2 = cosine_2 * v_9_in_star_2;
-    const jg_real t198 = -v_13_in_j_2;
-    phi_q_t_lambda_q[83] = t198;
-    phi_q_t_lambda_q[107] = t198;
-    const jg_real v_9_in_star_0 = f_j_in_star_0 * v_9_in_joint_j_0 + h_j_in_star_0 * v_9_in_joint_j_2;
-    phi_q_t_lambda_q[110] = -t149;
-    const jg_real t200 = (sine_2 * g_j_in_star_2 - cosine_2 * g_j_in_star_1) * (sine_1 * lambda[5]);
-    const jg_real t201 = t64 * h_j_in_star_0 - f_j_in_star_0 * v_20_in_joint_j;
-    phi_q_t_lambda_q[101] = t201;
-    phi_q_t_lambda_q[109] = t201;
+    const jg_real v_17_in_star_2 = cosine_1 * v_9_in_star_2;
+    const jg_real v_9_in_star_0 = h_j_in_star_0 * v_9_in_joint_j_2 + f_j_in_star_0 * v_9_in_joint_j_0;
+    const jg_real t195 = (sine_1 * g_j_in_star_2 - cosine_1 * g_j_in_star_1) * (sine_2 * lambda[5]);
     /* v_14_in_star = cos(alpha_1) cos(alpha_2) lambda_4 f_j + cos(alpha_1) sin(alpha_2) lambda_3 h_j, axes of ...
         */
-    const jg_real v_14_in_star = cosine_1 * v_9_in_star_0;
-    phi_q_t_lambda_q[91] = t200 + v_9_in_joint_j_2 * (H_22 * h_j_in_star_1 - H_21 * h_j_in_star_2) +
+    const jg_real v_14_in_star = cosine_2 * v_9_in_star_0;
+    const jg_real t197 = cosine_1 * v_13_in_star_1 - sine_1 * v_13_in_star_2;
+    const jg_real t198 = t144 + v_14_in_star + t131;
+    phi_q_t_lambda_q[83] = t191;
+    phi_q_t_lambda_q[107] = t191;
+    phi_q_t_lambda_q[110] = -t146;
+    phi_q_t_lambda_q[101] = t197;
+    phi_q_t_lambda_q[109] = t197;
+    phi_q_t_lambda_q[91] = v_9_in_joint_j_2 * (H_22 * h_j_in_star_1 - H_21 * h_j_in_star_2) + t195 +
         v_9_in_joint_j_0 * (H_22 * f_j_in_star_1 - H_21 * f_j_in_star_2);
-    phi_q_t_lambda_q[100] = -(v_16_in_star_1 + v_17_in_star_2 + g_j_in_star_0 * v_19_in_star);
-    const jg_real t203 = t141 + v_14_in_star + t130;
-    phi_q_t_lambda_q[92] = t203;
-    phi_q_t_lambda_q[108] = t203;
-    phi_q_t_lambda_q[99] = cosine_1 * (cosine_2 * (t136 + sine_2 * (t142 - t132)) + t185 * (JG_REAL(1.0) - t74) -
-        t182) + t200;
-    phi_q_t_lambda_q[90] = -(cosine_1 * (cosine_1 * (cosine_2 * (cosine_2 * (t142 + t181) - sine_2 * (t182 + t185))
-        + (t132 + t181) * t74) + sine_1 * (cosine_2 * (v_13_in_star_2 + lambda[5] * g_j_in_star_2) + sine_2 *
-        (v_13_in_star_1 + lambda[5] * g_j_in_star_1))) + sine_1 * sine_1 * t149);
+    phi_q_t_lambda_q[100] = -(v_16_in_star_1 + v_17_in_star_2 + t123 * v_18_in_star);
+    phi_q_t_lambda_q[92] = t198;
+    phi_q_t_lambda_q[108] = t198;
+    phi_q_t_lambda_q[90] = -(cosine_2 * (cosine_2 * (cosine_1 * (cosine_1 * (t123 + t138) - sine_1 * (t130 + t121))
+        + (t126 + t123) * t68) + sine_2 * (sine_1 * (v_13_in_star_1 + t119) + cosine_1 * (t129 + v_13_in_star_2))) +
+        sine_2 * sine_2 * t146);
+    phi_q_t_lambda_q[99] = t195 + cosine_2 * (cosine_1 * (t135 + sine_1 * (t138 - t126)) + t121 * (JG_REAL(1.0) -
+        t68) - t130);
 }
 
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -702,9 +688,8 @@ void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, c
     jg_scatter(jg_ball_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -729,78 +714,78 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* omega_j_dot_g_j = omega_j . g_j */
     const jg_real omega_j_dot_g_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    /* v_3_world = r_j - r_i, world axes */
-    const jg_real v_3_world_0 = r_j[0] - r_i[0];
-    const jg_real v_3_world_1 = r_j[1] - r_i[1];
-    const jg_real v_3_world_2 = r_j[2] - r_i[2];
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_2 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     const jg_real A_joint_i_j_1 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
     const jg_real A_joint_i_j_0 = A_ji_0 * C_i[0] + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
     /* omega_i_in_j = omega_i, axes of body j */
-    const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
+    const jg_real omega_i_in_j_0 = A_ji_0 * omega_i[0] + A_ji_3 * omega_i[1] + A_ji_6 * omega_i[2];
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     const jg_real A_joint_i_j_7 = A_ji_2 * C_i[3] + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
-    const jg_real A_joint_i_j_8 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
+    const jg_real A_joint_i_j_8 = C_i[6] * A_ji_2 + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
     const jg_real A_joint_i_j_6 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
-    const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
-    /* v_3_in_j = r_j - r_i, axes of body j */
-    const jg_real v_3_in_j_0 = A_j[0] * v_3_world_0 + A_j[1] * v_3_world_1 + A_j[2] * v_3_world_2;
-    const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = v_j[0] * A_ji_6 + v_j[1] * A_ji_7 + v_j[2] * A_ji_8;
-    const jg_real t34 = JG_REAL(2.0) * alphadot[2];
-    /* v_4_in_j = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body j */
-    const jg_real v_4_in_j_0 = omega_i_dot_omega_i * v_3_in_j_0;
-    /* v_5_in_j = 2 omega_i - omega_j, axes of body j */
-    const jg_real v_5_in_j_0 = JG_REAL(2.0) * omega_i_in_j_0 - omega_j[0];
-    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_0 = v_3_in_j_0 + s_j[0];
+    /* v_3_world = r_j - r_i, world axes */
+    const jg_real v_3_world_0 = r_j[0] - r_i[0];
+    const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + A_ji_4 * omega_i[1] + A_ji_7 * omega_i[2];
+    const jg_real omega_i_in_j_2 = A_ji_2 * omega_i[0] + A_ji_5 * omega_i[1] + A_ji_8 * omega_i[2];
     const jg_real A_joint_i_j_3 = A_joint_i_j_2 * A_joint_i_j_7 - A_joint_i_j_1 * A_joint_i_j_8;
-    const jg_real v_3_in_j_1 = A_j[3] * v_3_world_0 + A_j[4] * v_3_world_1 + A_j[5] * v_3_world_2;
-    const jg_real A_joint_i_j_4 = A_joint_i_j_0 * A_joint_i_j_8 - A_joint_i_j_2 * A_joint_i_j_6;
-    const jg_real v_3_in_j_2 = A_j[6] * v_3_world_0 + A_j[7] * v_3_world_1 + A_j[8] * v_3_world_2;
-    const jg_real A_joint_i_j_5 = A_joint_i_j_1 * A_joint_i_j_6 - A_joint_i_j_0 * A_joint_i_j_7;
-    /* v_0_in_i = v_j - v_i, axes of body i */
-    const jg_real v_0_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_j_in_i_1 = v_j[0] * A_ji_3 + v_j[1] * A_ji_4 + v_j[2] * A_ji_5;
-    const jg_real v_5_in_j_1 = JG_REAL(2.0) * omega_i_in_j_1 - omega_j[1];
-    const jg_real v_5_in_j_2 = JG_REAL(2.0) * omega_i_in_j_2 - omega_j[2];
-    const jg_real t47 = alphadot[2] * alphadot[2];
-    const jg_real e_ij_in_j_1 = v_3_in_j_1 + s_j[1];
-    const jg_real v_4_in_j_1 = omega_i_dot_omega_i * v_3_in_j_1;
-    const jg_real e_ij_in_j_2 = v_3_in_j_2 + s_j[2];
-    const jg_real v_4_in_j_2 = omega_i_dot_omega_i * v_3_in_j_2;
+    /* v_5_in_j = 2 omega_i - omega_j, axes of body j */
+    const jg_real v_5_in_j_0 = omega_i_in_j_0 * JG_REAL(2.0) - omega_j[0];
+    const jg_real A_joint_i_j_4 = A_joint_i_j_8 * A_joint_i_j_0 - A_joint_i_j_2 * A_joint_i_j_6;
+    const jg_real A_joint_i_j_5 = A_joint_i_j_1 * A_joint_i_j_6 - A_joint_i_j_7 * A_joint_i_j_0;
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    const jg_real v_3_world_1 = r_j[1] - r_i[1];
+    const jg_real v_3_world_2 = r_j[2] - r_i[2];
+    const jg_real v_5_in_j_1 = omega_i_in_j_1 * JG_REAL(2.0) - omega_j[1];
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 * C_j[2];
+    const jg_real omega_i_dot_f_j = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + C_j[2] * omega_i_in_j_2;
+    const jg_real v_5_in_j_2 = omega_i_in_j_2 * JG_REAL(2.0) - omega_j[2];
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 * C_j[5];
-    const jg_real v_0_in_i_1 = v_j_in_i_1 - v_i[1];
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 * C_j[8];
-    const jg_real v_j_in_i_0 = v_j[0] * A_ji_0 + v_j[1] * A_ji_1 + v_j[2] * A_ji_2;
+    const jg_real t41 = JG_REAL(2.0) * alphadot[2];
+    const jg_real t42 = alphadot[2] * alphadot[2];
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
+    /* v_3_in_j = r_j - r_i, axes of body j */
+    const jg_real v_3_in_j_0 = A_j[0] * v_3_world_0 + A_j[1] * v_3_world_1 + A_j[2] * v_3_world_2;
+    const jg_real v_3_in_j_1 = A_j[3] * v_3_world_0 + A_j[4] * v_3_world_1 + A_j[5] * v_3_world_2;
+    const jg_real t46 = s_j[0] * v_5_in_j_0 + v_5_in_j_1 * s_j[1] + v_5_in_j_2 * s_j[2];
+    const jg_real v_3_in_j_2 = A_j[6] * v_3_world_0 + A_j[7] * v_3_world_1 + A_j[8] * v_3_world_2;
+    /* v_0_in_i = v_j - v_i, axes of body i */
+    const jg_real v_0_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
+    /* v_4_in_j = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body j */
+    const jg_real v_4_in_j_0 = omega_i_dot_omega_i * v_3_in_j_0;
+    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
+    const jg_real e_ij_in_j_0 = s_j[0] + v_3_in_j_0;
+    const jg_real e_ij_in_j_1 = s_j[1] + v_3_in_j_1;
+    const jg_real v_4_in_j_1 = omega_i_dot_omega_i * v_3_in_j_1;
+    const jg_real e_ij_in_j_2 = s_j[2] + v_3_in_j_2;
+    const jg_real v_4_in_j_2 = omega_i_dot_omega_i * v_3_in_j_2;
+    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
+    const jg_real v_0_in_i_1 = v_j_in_i_1 - v_i[1];
     const jg_real v_0_in_i_0 = v_j_in_i_0 - v_i[0];
     /* v_1_in_i = omega_i x v_j - omega_i x v_i, axes of body i */
     const jg_real v_1_in_i_0 = omega_i[1] * v_0_in_i_2 - omega_i[2] * v_0_in_i_1;
-    const jg_real t59 = s_j[0] * v_5_in_j_0 + s_j[1] * v_5_in_j_1 + s_j[2] * v_5_in_j_2;
     const jg_real t60 = omega_i_in_j_0 * e_ij_in_j_0 + omega_i_in_j_1 * e_ij_in_j_1 + omega_i_in_j_2 * e_ij_in_j_2;
-    /* v_2_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_2_in_i_0 = JG_REAL(2.0) * v_1_in_i_0;
     const jg_real v_1_in_i_1 = omega_i[2] * v_0_in_i_0 - omega_i[0] * v_0_in_i_2;
     const jg_real v_1_in_i_2 = omega_i[0] * v_0_in_i_1 - omega_i[1] * v_0_in_i_0;
+    /* v_2_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_2_in_i_0 = JG_REAL(2.0) * v_1_in_i_0;
     /* v_7_in_j = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body j */
     const jg_real v_7_in_j_0 = omega_i_in_j_0 * t60;
     const jg_real v_7_in_j_1 = omega_i_in_j_1 * t60;
@@ -814,125 +799,125 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
     const jg_real t72 = cosine_1 * alphadot[0];
-    const jg_real t73 = JG_REAL(2.0) * sine_2;
-    const jg_real t74 = JG_REAL(2.0) * cosine_2;
-    const jg_real t75 = cosine_2 * alphadot[1];
-    const jg_real t76 = sine_1 * alphadot[0] - t34;
+    const jg_real t73 = sine_2 * JG_REAL(2.0);
     /* H_02 =  */
     const jg_real H_02 = cosine_0 * sine_1 * cosine_2 + sine_0 * sine_2;
-    const jg_real t78 = cosine_0 * sine_2 - sine_0 * sine_1 * cosine_2;
+    const jg_real t75 = sine_2 * alphadot[1];
+    const jg_real t76 = cosine_0 * sine_2 - sine_0 * sine_1 * cosine_2;
+    const jg_real t77 = cosine_2 * alphadot[1];
     /* f_star_in_j = f_star, axes of body j */
-    const jg_real f_star_in_j_1 = H_00 * A_joint_i_j_3 + H_10 * A_joint_i_j_4 - sine_1 * A_joint_i_j_5;
-    const jg_real f_star_in_j_0 = H_00 * A_joint_i_j_0 + H_10 * A_joint_i_j_1 - sine_1 * A_joint_i_j_2;
-    const jg_real f_star_in_j_2 = H_00 * A_joint_i_j_6 + H_10 * A_joint_i_j_7 - sine_1 * A_joint_i_j_8;
+    const jg_real f_star_in_j_1 = A_joint_i_j_3 * H_00 + A_joint_i_j_4 * H_10 - A_joint_i_j_5 * sine_1;
+    const jg_real f_star_in_j_0 = H_00 * A_joint_i_j_0 + A_joint_i_j_1 * H_10 - A_joint_i_j_2 * sine_1;
+    const jg_real f_star_in_j_2 = H_00 * A_joint_i_j_6 + A_joint_i_j_7 * H_10 - A_joint_i_j_8 * sine_1;
+    const jg_real t81 = sine_1 * alphadot[0] - t41;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_0 = A_joint_i_j_0 * H_02 - A_joint_i_j_1 * t78 + A_joint_i_j_2 * H_22;
-    const jg_real h_star_in_j_1 = A_joint_i_j_3 * H_02 - A_joint_i_j_4 * t78 + A_joint_i_j_5 * H_22;
-    const jg_real h_star_in_j_2 = A_joint_i_j_6 * H_02 - A_joint_i_j_7 * t78 + A_joint_i_j_8 * H_22;
+    const jg_real h_star_in_j_0 = A_joint_i_j_0 * H_02 - A_joint_i_j_1 * t76 + A_joint_i_j_2 * H_22;
+    const jg_real h_star_in_j_1 = A_joint_i_j_3 * H_02 - A_joint_i_j_4 * t76 + A_joint_i_j_5 * H_22;
+    const jg_real h_star_in_j_2 = A_joint_i_j_6 * H_02 - A_joint_i_j_7 * t76 + A_joint_i_j_8 * H_22;
     /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = C_j[0] * f_star_in_j_0 + C_j[1] * f_star_in_j_1 + C_j[2] * f_star_in_j_2;
+    const jg_real f_star_dot_f_j = f_star_in_j_1 * C_j[1] + f_star_in_j_0 * C_j[0] + C_j[2] * f_star_in_j_2;
     /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = C_j[3] * f_star_in_j_0 + C_j[4] * f_star_in_j_1 + C_j[5] * f_star_in_j_2;
+    const jg_real f_star_dot_g_j = f_star_in_j_1 * C_j[4] + f_star_in_j_0 * C_j[3] + f_star_in_j_2 * C_j[5];
     /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
+    const jg_real f_star_dot_h_j = f_star_in_j_1 * C_j[7] + f_star_in_j_0 * C_j[6] + f_star_in_j_2 * C_j[8];
     /* omega_j_dot_f_star = omega_j . f_star */
-    const jg_real omega_j_dot_f_star = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
+    const jg_real omega_j_dot_f_star = f_star_in_j_1 * omega_j[1] + f_star_in_j_0 * omega_j[0] + f_star_in_j_2 *
         omega_j[2];
     /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
-    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
-    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
-    /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = C_j[0] * h_star_in_j_0 + C_j[1] * h_star_in_j_1 + C_j[2] * h_star_in_j_2;
+    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - h_star_in_j_1 * f_star_in_j_0;
+    const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - f_star_in_j_1 * h_star_in_j_2;
+    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - h_star_in_j_0 * f_star_in_j_2;
     /* omega_i_dot_f_star = omega_i . f_star */
     const jg_real omega_i_dot_f_star = omega_i_dot_f_j * f_star_dot_f_j + omega_i_dot_g_j * f_star_dot_g_j +
         omega_i_dot_h_j * f_star_dot_h_j;
+    /* h_star_dot_f_j = h_star . f_j */
+    const jg_real h_star_dot_f_j = h_star_in_j_1 * C_j[1] + h_star_in_j_0 * C_j[0] + C_j[2] * h_star_in_j_2;
     /* h_star_dot_g_j = h_star . g_j */
-    const jg_real h_star_dot_g_j = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
+    const jg_real h_star_dot_g_j = h_star_in_j_1 * C_j[4] + h_star_in_j_0 * C_j[3] + h_star_in_j_2 * C_j[5];
     /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = C_j[6] * h_star_in_j_0 + C_j[7] * h_star_in_j_1 + C_j[8] * h_star_in_j_2;
+    const jg_real h_star_dot_h_j = h_star_in_j_1 * C_j[7] + h_star_in_j_0 * C_j[6] + h_star_in_j_2 * C_j[8];
+    const jg_real t96 = cosine_2 * h_star_dot_f_j;
     /* g_star_dot_f_j = g_star . f_j */
-    const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
+    const jg_real g_star_dot_f_j = g_star_in_j_0 * C_j[0] + g_star_in_j_1 * C_j[1] + g_star_in_j_2 * C_j[2];
     /* g_star_dot_g_j = g_star . g_j */
-    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
+    const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
     /* g_star_dot_h_j = g_star . h_j */
-    const jg_real g_star_dot_h_j = C_j[6] * g_star_in_j_0 + C_j[7] * g_star_in_j_1 + C_j[8] * g_star_in_j_2;
-    const jg_real t99 = sine_2 * h_star_dot_h_j;
-    const jg_real t100 = cosine_2 * h_star_dot_h_j;
+    const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
+    const jg_real t100 = sine_2 * h_star_dot_h_j;
+    const jg_real t101 = cosine_2 * h_star_dot_h_j;
     /* omega_i_dot_h_star = omega_i . h_star */
     const jg_real omega_i_dot_h_star = omega_i_dot_f_j * h_star_dot_f_j + omega_i_dot_g_j * h_star_dot_g_j +
         omega_i_dot_h_j * h_star_dot_h_j;
     /* omega_j_dot_h_star = omega_j . h_star */
-    const jg_real omega_j_dot_h_star = h_star_dot_f_j * omega_j_dot_f_j + h_star_dot_g_j * omega_j_dot_g_j +
-        h_star_dot_h_j * omega_j_dot_h_j;
-    const jg_real t103 = sine_2 * g_star_dot_f_j;
+    const jg_real omega_j_dot_h_star = omega_j_dot_f_j * h_star_dot_f_j + omega_j_dot_g_j * h_star_dot_g_j +
+        omega_j_dot_h_j * h_star_dot_h_j;
     /* omega_i_dot_g_star = omega_i . g_star */
-    const jg_real omega_i_dot_g_star = omega_i_dot_f_j * g_star_dot_f_j + omega_i_dot_g_j * g_star_dot_g_j +
-        omega_i_dot_h_j * g_star_dot_h_j;
+    const jg_real omega_i_dot_g_star = g_star_dot_f_j * omega_i_dot_f_j + g_star_dot_g_j * omega_i_dot_g_j +
+        g_star_dot_h_j * omega_i_dot_h_j;
+    const jg_real t105 = sine_2 * g_star_dot_f_j;
     /* omega_j_dot_g_star = omega_j . g_star */
     const jg_real omega_j_dot_g_star = g_star_dot_f_j * omega_j_dot_f_j + g_star_dot_g_j * omega_j_dot_g_j +
         g_star_dot_h_j * omega_j_dot_h_j;
-    const jg_real t106 = g_star_dot_h_j * omega_i_dot_h_star - h_star_dot_h_j * omega_i_dot_g_star;
-    const jg_real t107 = g_star_dot_h_j * omega_j_dot_h_star - h_star_dot_h_j * omega_j_dot_g_star;
-    const jg_real t108 = h_star_dot_g_j * omega_j_dot_f_star - f_star_dot_g_j * omega_j_dot_h_star;
-    const jg_real t109 = h_star_dot_f_j * omega_i_dot_f_star - f_star_dot_f_j * omega_i_dot_h_star - (h_star_dot_f_j
-        * omega_j_dot_f_star - f_star_dot_f_j * omega_j_dot_h_star);
-    const jg_real t110 = f_star_dot_g_j * omega_i_dot_g_star - g_star_dot_g_j * omega_i_dot_f_star;
-    const jg_real t111 = f_star_dot_g_j * omega_j_dot_g_star - g_star_dot_g_j * omega_j_dot_f_star;
+    const jg_real t107 = g_star_dot_h_j * omega_i_dot_h_star - omega_i_dot_g_star * h_star_dot_h_j;
+    const jg_real t108 = g_star_dot_h_j * omega_j_dot_h_star - omega_j_dot_g_star * h_star_dot_h_j;
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i_dot_f_star * omega_j_dot_f_star + omega_i_dot_g_star *
-        omega_j_dot_g_star + omega_i_dot_h_star * omega_j_dot_h_star;
-    const jg_real t113 = f_star_dot_h_j * omega_i_dot_g_star - g_star_dot_h_j * omega_i_dot_f_star - (f_star_dot_h_j
-        * omega_j_dot_g_star - g_star_dot_h_j * omega_j_dot_f_star);
-    const jg_real t114 = h_star_dot_g_j * omega_i_dot_f_star - f_star_dot_g_j * omega_i_dot_h_star;
-    const jg_real t115 = JG_REAL(2.0) * omega_i_dot_omega_j;
-    const jg_real t116 = JG_REAL(2.0) * (g_star_dot_f_j * omega_i_dot_h_star - h_star_dot_f_j * omega_i_dot_g_star -
-        (g_star_dot_f_j * omega_j_dot_h_star - h_star_dot_f_j * omega_j_dot_g_star));
-    const jg_real t117 = omega_i_dot_omega_i - t115 + omega_j_dot_omega_j;
+    const jg_real omega_i_dot_omega_j = omega_i_dot_g_star * omega_j_dot_g_star + omega_i_dot_f_star *
+        omega_j_dot_f_star + omega_i_dot_h_star * omega_j_dot_h_star;
+    const jg_real t110 = omega_i_dot_g_star * f_star_dot_h_j - g_star_dot_h_j * omega_i_dot_f_star -
+        (omega_j_dot_g_star * f_star_dot_h_j - g_star_dot_h_j * omega_j_dot_f_star);
+    const jg_real t111 = omega_i_dot_omega_j * JG_REAL(2.0);
+    const jg_real t112 = JG_REAL(2.0) * (g_star_dot_f_j * omega_i_dot_h_star - omega_i_dot_g_star * h_star_dot_f_j -
+        (g_star_dot_f_j * omega_j_dot_h_star - omega_j_dot_g_star * h_star_dot_f_j));
+    const jg_real t113 = omega_i_dot_f_star * h_star_dot_f_j - f_star_dot_f_j * omega_i_dot_h_star -
+        (omega_j_dot_f_star * h_star_dot_f_j - f_star_dot_f_j * omega_j_dot_h_star);
+    const jg_real t114 = omega_i_dot_g_star * f_star_dot_g_j - g_star_dot_g_j * omega_i_dot_f_star;
+    const jg_real t115 = omega_i_dot_omega_i - t111 + omega_j_dot_omega_j;
+    const jg_real t116 = omega_j_dot_g_star * f_star_dot_g_j - g_star_dot_g_j * omega_j_dot_f_star;
     /* v_6_in_j = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_6_in_j_0 = t117 * s_j[0] + omega_j[0] * t59;
-    const jg_real v_6_in_j_1 = t117 * s_j[1] + omega_j[1] * t59;
-    const jg_real v_6_in_j_2 = t117 * s_j[2] + omega_j[2] * t59;
+    const jg_real v_6_in_j_0 = t115 * s_j[0] + omega_j[0] * t46;
+    const jg_real v_6_in_j_1 = t115 * s_j[1] + omega_j[1] * t46;
+    const jg_real v_6_in_j_2 = t115 * s_j[2] + omega_j[2] * t46;
+    const jg_real t120 = omega_j_dot_f_star * h_star_dot_g_j - f_star_dot_g_j * omega_j_dot_h_star;
     /* v_8_in_j = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_8_in_j_0 = v_4_in_j_0 + v_6_in_j_0 - v_7_in_j_0;
-    const jg_real v_8_in_j_1 = v_4_in_j_1 + v_6_in_j_1 - v_7_in_j_1;
-    const jg_real v_8_in_j_2 = v_4_in_j_2 + v_6_in_j_2 - v_7_in_j_2;
+    const jg_real v_8_in_j_0 = v_6_in_j_0 + v_4_in_j_0 - v_7_in_j_0;
+    const jg_real v_8_in_j_1 = v_6_in_j_1 + v_4_in_j_1 - v_7_in_j_1;
+    const jg_real v_8_in_j_2 = v_6_in_j_2 + v_4_in_j_2 - v_7_in_j_2;
+    const jg_real t124 = omega_i_dot_f_star * h_star_dot_g_j - f_star_dot_g_j * omega_i_dot_h_star;
     /* v_8_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_8_in_i_0 = A_ji_0 * v_8_in_j_0 + A_ji_1 * v_8_in_j_1 + A_ji_2 * v_8_in_j_2;
     const jg_real v_8_in_i_1 = A_ji_3 * v_8_in_j_0 + A_ji_4 * v_8_in_j_1 + A_ji_5 * v_8_in_j_2;
     const jg_real v_8_in_i_2 = A_ji_6 * v_8_in_j_0 + A_ji_7 * v_8_in_j_1 + A_ji_8 * v_8_in_j_2;
     /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_9_in_i_0 = v_2_in_i_0 + v_8_in_i_0;
+    const jg_real v_9_in_i_0 = v_8_in_i_0 + v_2_in_i_0;
+    const jg_real v_9_in_i_1 = v_8_in_i_1 + v_2_in_i_1;
+    const jg_real v_9_in_i_2 = v_8_in_i_2 + v_2_in_i_2;
     gamma[0] = v_9_in_i_0;
-    const jg_real v_9_in_i_1 = v_2_in_i_1 + v_8_in_i_1;
     gamma[1] = v_9_in_i_1;
-    const jg_real v_9_in_i_2 = v_2_in_i_2 + v_8_in_i_2;
     gamma[2] = v_9_in_i_2;
-    gamma[5] = alphadot[0] * (cosine_1 * (cosine_2 * (alphadot[0] * (H_22 * f_star_dot_g_j + sine_1 *
-        h_star_dot_g_j) + JG_REAL(2.0) * (t108 - t114)) + sine_2 * (alphadot[0] * (cosine_1 * sine_2 *
-        f_star_dot_g_j + sine_1 * g_star_dot_g_j) + JG_REAL(2.0) * (t110 - t111))) + (cosine_2 * g_star_dot_g_j -
-        sine_2 * h_star_dot_g_j) * (JG_REAL(2.0) * sine_1 * alphadot[1])) + alphadot[1] * (cosine_2 *
-        (f_star_dot_g_j * t75 - JG_REAL(2.0) * t111 + JG_REAL(2.0) * t110) + sine_2 * (sine_2 * alphadot[1] *
-        f_star_dot_g_j - JG_REAL(2.0) * t108 + JG_REAL(2.0) * t114)) + f_star_dot_g_j * t117 + omega_j_dot_f_star *
-        (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) - omega_i_dot_g_j * omega_i_dot_f_star;
-    gamma[3] = alphadot[0] * (cosine_1 * (cosine_2 * ((cosine_2 * g_star_dot_h_j - t99) * t72 - alphadot[1] * (t100
-        + g_star_dot_h_j * t73) + JG_REAL(2.0) * (t106 - t107)) + sine_2 * (f_star_dot_h_j * t76 + alphadot[1] *
-        t99) + h_star_dot_h_j * alphadot[1]) + sine_1 * (g_star_dot_h_j * t76 + JG_REAL(2.0) * t113)) +
-        g_star_dot_h_j * (omega_i_dot_omega_i + sine_2 * sine_2 * alphadot[1] * alphadot[1] - t115 +
-        omega_j_dot_omega_j + t47) + alphadot[1] * (sine_2 * (alphadot[1] * t100 + JG_REAL(2.0) * t107 -
-        JG_REAL(2.0) * t106) - alphadot[2] * t74 * f_star_dot_h_j) + omega_j_dot_g_star * (JG_REAL(2.0) *
-        omega_i_dot_h_j - omega_j_dot_h_j) - t34 * t113 - omega_i_dot_h_j * omega_i_dot_g_star;
+    gamma[3] = alphadot[0] * (cosine_1 * (cosine_2 * ((cosine_2 * g_star_dot_h_j - t100) * t72 - (g_star_dot_h_j *
+        t73 + t101) * alphadot[1] + JG_REAL(2.0) * (t107 - t108)) + sine_2 * (f_star_dot_h_j * t81 + t100 *
+        alphadot[1]) + h_star_dot_h_j * alphadot[1]) + sine_1 * (JG_REAL(2.0) * t110 + g_star_dot_h_j * t81)) +
+        g_star_dot_h_j * (omega_i_dot_omega_i + sine_2 * t75 * alphadot[1] - t111 + omega_j_dot_omega_j + t42) +
+        alphadot[1] * (sine_2 * (JG_REAL(2.0) * t108 + t101 * alphadot[1] - JG_REAL(2.0) * t107) - cosine_2 * t41 *
+        f_star_dot_h_j) + omega_j_dot_g_star * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) - t41 * t110 -
+        omega_i_dot_h_j * omega_i_dot_g_star;
     gamma[4] = -(alphadot[0] * (cosine_1 * (sine_2 * (t72 * (cosine_2 * g_star_dot_f_j - sine_2 * h_star_dot_f_j) -
-        alphadot[1] * (h_star_dot_f_j * t74 + t103) + t116) + cosine_2 * (g_star_dot_f_j * t75 - f_star_dot_f_j *
-        t76) + g_star_dot_f_j * alphadot[1]) + sine_1 * (JG_REAL(2.0) * t109 - h_star_dot_f_j * t76)) + alphadot[1]
-        * (cosine_2 * (t116 - alphadot[1] * (t103 + cosine_2 * h_star_dot_f_j)) - alphadot[2] * t73 *
-        f_star_dot_f_j) - h_star_dot_f_j * (t117 + t47) - t34 * t109 + omega_j_dot_h_star * (omega_j_dot_f_j -
-        JG_REAL(2.0) * omega_i_dot_f_j) + omega_i_dot_f_j * omega_i_dot_h_star);
+        alphadot[1] * (t105 + JG_REAL(2.0) * t96) + t112) + cosine_2 * (g_star_dot_f_j * t77 - f_star_dot_f_j * t81)
+        + g_star_dot_f_j * alphadot[1]) + sine_1 * (JG_REAL(2.0) * t113 - h_star_dot_f_j * t81)) + alphadot[1] *
+        (cosine_2 * (t112 - alphadot[1] * (t105 + t96)) - t73 * alphadot[2] * f_star_dot_f_j) - h_star_dot_f_j *
+        (t115 + t42) - t41 * t113 + omega_j_dot_h_star * (omega_j_dot_f_j - omega_i_dot_f_j * JG_REAL(2.0)) +
+        omega_i_dot_f_j * omega_i_dot_h_star);
+    gamma[5] = alphadot[0] * (cosine_1 * (sine_2 * (JG_REAL(2.0) * (t114 - t116) + alphadot[0] * (sine_1 *
+        g_star_dot_g_j + cosine_1 * sine_2 * f_star_dot_g_j)) + cosine_2 * (JG_REAL(2.0) * (t120 - t124) +
+        alphadot[0] * (H_22 * f_star_dot_g_j + sine_1 * h_star_dot_g_j))) + (cosine_2 * g_star_dot_g_j - sine_2 *
+        h_star_dot_g_j) * (sine_1 * JG_REAL(2.0) * alphadot[1])) + alphadot[1] * (cosine_2 * (f_star_dot_g_j * t77 -
+        JG_REAL(2.0) * t116 + JG_REAL(2.0) * t114) + sine_2 * (f_star_dot_g_j * t75 - JG_REAL(2.0) * t120 +
+        JG_REAL(2.0) * t124)) + f_star_dot_g_j * t115 + omega_j_dot_f_star * (omega_i_dot_g_j * JG_REAL(2.0) -
+        omega_j_dot_g_j) - omega_i_dot_g_j * omega_i_dot_f_star;
 }
 
-void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_ball_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -948,43 +933,39 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[2], &sine_0, &cosine_0);
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
+    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
+    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[2], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[1], &sine_2, &cosine_2);
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    /* omega_j_in_joint_j = omega_j, axes of joint j */
-    const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
+    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
     /* v_i_in_j = v_i, axes of body j */
     const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
-    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
@@ -993,6 +974,9 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
+    /* omega_j_in_joint_j = omega_j, axes of joint j */
+    const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* v_1_in_j = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_2 * e_ij_in_j_1 - omega_i_in_j_1 * e_ij_in_j_2;
     const jg_real v_1_in_j_1 = omega_i_in_j_0 * e_ij_in_j_2 - omega_i_in_j_2 * e_ij_in_j_0;
@@ -1002,19 +986,17 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
         C_j[2];
     const jg_real omega_i_in_joint_j_1 = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 *
         C_j[5];
-    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
-        C_j[8];
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
     const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
+    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
+        C_j[8];
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
+    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
     const jg_real v_3_in_i_0 = A_ji_0 * v_3_in_j_0 + A_ji_1 * v_3_in_j_1 + A_ji_2 * v_3_in_j_2;
-    phi_q_v[0] = v_3_in_i_0;
     const jg_real v_3_in_i_1 = A_ji_3 * v_3_in_j_0 + A_ji_4 * v_3_in_j_1 + A_ji_5 * v_3_in_j_2;
-    phi_q_v[1] = v_3_in_i_1;
     const jg_real v_3_in_i_2 = A_ji_6 * v_3_in_j_0 + A_ji_7 * v_3_in_j_1 + A_ji_8 * v_3_in_j_2;
-    phi_q_v[2] = v_3_in_i_2;
     /* H_22 =  */
     const jg_real H_22 = cosine_2 * cosine_0;
     /* H_00 =  */
@@ -1056,6 +1038,9 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = g_star_in_j_0 * C_j[0] + g_star_in_j_1 * C_j[1] + g_star_in_j_2 * C_j[2];
+    phi_q_v[0] = v_3_in_i_0;
+    phi_q_v[1] = v_3_in_i_1;
+    phi_q_v[2] = v_3_in_i_2;
     phi_q_v[3] = -(g_star_dot_g_j * omega_j_in_joint_j_0 - g_star_dot_f_j * omega_j_in_joint_j_1 + (alphadot[0] *
         (H_22 * f_star_dot_h_j + sine_2 * h_star_dot_h_j) - sine_0 * f_star_dot_h_j * alphadot[1] - (g_star_dot_g_j
         * omega_i_in_joint_j_0 - g_star_dot_f_j * omega_i_in_joint_j_1) - h_star_dot_h_j * alphadot[2]));
@@ -1069,16 +1054,13 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
         h_star_dot_g_j);
 }
 
-void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_ball_parametric_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -1088,123 +1070,128 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[1], &sine_2, &cosine_2);
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
+    const jg_real lambda_0_1_2_in_j_1 = lambda[1] * A_ji_4 + lambda[0] * A_ji_1 + lambda[2] * A_ji_7;
+    const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ji_5 + lambda[0] * A_ji_2 + lambda[2] * A_ji_8;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     /* v_1_in_j = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body j */
     const jg_real v_1_in_j_0 = lambda_0_1_2_in_j_2 * v_0_in_j_1 - lambda_0_1_2_in_j_1 * v_0_in_j_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
-    const jg_real v_1_in_j_1 = lambda_0_1_2_in_j_0 * v_0_in_j_2 - lambda_0_1_2_in_j_2 * v_0_in_j_0;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
-    const jg_real v_1_in_j_2 = lambda_0_1_2_in_j_1 * v_0_in_j_0 - lambda_0_1_2_in_j_0 * v_0_in_j_1;
-    const jg_real t30 = cosine_0 * sine_2;
-    const jg_real t31 = sine_0 * sine_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_2 * s_j[0];
+    const jg_real v_1_in_j_1 = v_0_in_j_2 * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_2 * v_0_in_j_0;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - s_j[1] * lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_j_2 = lambda_0_1_2_in_j_1 * v_0_in_j_0 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
+    const jg_real t30 = sine_0 * sine_1;
+    const jg_real t31 = cosine_0 * cosine_1;
+    const jg_real t32 = sine_1 * cosine_0;
+    const jg_real t33 = sine_0 * cosine_1;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
     /* H_21 =  */
     const jg_real H_21 = sine_1 * cosine_2;
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1 + cosine_1 * t30;
-    /* H_01 =  */
-    const jg_real H_01 = sine_1 * t30 - sine_0 * cosine_1;
-    const jg_real t36 = sine_1 * cosine_0 - cosine_1 * t31;
     /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_1 + sine_1 * t31;
+    const jg_real H_11 = t31 + t30 * sine_2;
+    /* H_02 =  */
+    const jg_real H_02 = t30 + sine_2 * t31;
+    /* H_01 =  */
+    const jg_real H_01 = sine_2 * t32 - t33;
+    const jg_real t39 = t32 - sine_2 * t33;
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t36 * C_i[4] + H_22 * C_i[7];
-    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t36 * C_i[3] + H_22 * C_i[6];
-    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t36 * C_i[5] + H_22 * C_i[8];
+    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t39 * C_i[4] + H_22 * C_i[7];
+    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t39 * C_i[3] + H_22 * C_i[6];
+    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t39 * C_i[5] + H_22 * C_i[8];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
     const jg_real g_star_in_i_0 = C_i[0] * H_01 + C_i[3] * H_11 + C_i[6] * H_21;
     const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_0 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
-    const jg_real h_star_in_j_1 = A_ji_1 * h_star_in_i_0 + A_ji_4 * h_star_in_i_1 + A_ji_7 * h_star_in_i_2;
-    const jg_real h_star_in_j_2 = A_ji_2 * h_star_in_i_0 + A_ji_5 * h_star_in_i_1 + A_ji_8 * h_star_in_i_2;
+    const jg_real h_star_in_j_0 = A_ji_3 * h_star_in_i_1 + h_star_in_i_0 * A_ji_0 + h_star_in_i_2 * A_ji_6;
+    const jg_real h_star_in_j_1 = h_star_in_i_1 * A_ji_4 + A_ji_1 * h_star_in_i_0 + A_ji_7 * h_star_in_i_2;
+    const jg_real h_star_in_j_2 = h_star_in_i_1 * A_ji_5 + A_ji_2 * h_star_in_i_0 + A_ji_8 * h_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_0 = A_ji_0 * g_star_in_i_0 + A_ji_3 * g_star_in_i_1 + A_ji_6 * g_star_in_i_2;
-    const jg_real g_star_in_j_1 = A_ji_1 * g_star_in_i_0 + A_ji_4 * g_star_in_i_1 + A_ji_7 * g_star_in_i_2;
-    const jg_real g_star_in_j_2 = A_ji_2 * g_star_in_i_0 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
+    const jg_real g_star_in_j_0 = A_ji_3 * g_star_in_i_1 + A_ji_0 * g_star_in_i_0 + A_ji_6 * g_star_in_i_2;
+    const jg_real g_star_in_j_1 = A_ji_4 * g_star_in_i_1 + A_ji_1 * g_star_in_i_0 + A_ji_7 * g_star_in_i_2;
+    const jg_real g_star_in_j_2 = A_ji_5 * g_star_in_i_1 + A_ji_2 * g_star_in_i_0 + A_ji_8 * g_star_in_i_2;
     /* h_star_in_joint_j = h_star, axes of joint j */
     const jg_real h_star_in_joint_j_1 = h_star_in_j_0 * C_j[3] + h_star_in_j_1 * C_j[4] + h_star_in_j_2 * C_j[5];
     const jg_real h_star_in_joint_j_0 = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
     const jg_real h_star_in_joint_j_2 = h_star_in_j_0 * C_j[6] + h_star_in_j_1 * C_j[7] + h_star_in_j_2 * C_j[8];
     /* g_star_in_joint_j = g_star, axes of joint j */
-    const jg_real g_star_in_joint_j_0 = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
+    const jg_real g_star_in_joint_j_0 = g_star_in_j_0 * C_j[0] + g_star_in_j_1 * C_j[1] + g_star_in_j_2 * C_j[2];
     const jg_real g_star_in_joint_j_1 = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    const jg_real g_star_in_joint_j_2 = C_j[6] * g_star_in_j_0 + C_j[7] * g_star_in_j_1 + C_j[8] * g_star_in_j_2;
     /* v_2_in_joint_j = lambda_4 f_j x h_star, axes of joint j */
-    const jg_real v_2_in_joint_j_2 = lambda[4] * h_star_in_joint_j_1;
-    const jg_real t57 = lambda[4] * h_star_in_joint_j_2;
+    const jg_real v_2_in_joint_j_2 = h_star_in_joint_j_1 * lambda[4];
+    const jg_real g_star_in_joint_j_2 = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
+    const jg_real t59 = h_star_in_joint_j_2 * lambda[4];
     /* v_4_in_joint_j = lambda_3 h_j x g_star, axes of joint j */
     const jg_real v_4_in_joint_j_1 = g_star_in_joint_j_0 * lambda[3];
-    const jg_real t59 = g_star_in_joint_j_1 * lambda[3];
+    const jg_real t61 = g_star_in_joint_j_1 * lambda[3];
     /* f_star_in_joint_j = f_star, axes of joint j */
     const jg_real f_star_in_joint_j_2 = h_star_in_joint_j_1 * g_star_in_joint_j_0 - h_star_in_joint_j_0 *
         g_star_in_joint_j_1;
-    const jg_real f_star_in_joint_j_0 = h_star_in_joint_j_2 * g_star_in_joint_j_1 - h_star_in_joint_j_1 *
+    const jg_real f_star_in_joint_j_0 = g_star_in_joint_j_1 * h_star_in_joint_j_2 - h_star_in_joint_j_1 *
         g_star_in_joint_j_2;
     /* v_2_in_j = lambda_4 f_j x h_star, axes of body j */
-    const jg_real v_2_in_j_0 = C_j[6] * v_2_in_joint_j_2 - C_j[3] * t57;
-    const jg_real v_2_in_j_1 = C_j[7] * v_2_in_joint_j_2 - C_j[4] * t57;
-    const jg_real v_2_in_j_2 = C_j[8] * v_2_in_joint_j_2 - C_j[5] * t57;
-    phi_q_t_lambda[14] = h_star_in_joint_j_2 * lambda[3] - lambda[4] * g_star_in_joint_j_0;
+    const jg_real v_2_in_j_0 = C_j[6] * v_2_in_joint_j_2 - C_j[3] * t59;
+    const jg_real v_2_in_j_1 = C_j[7] * v_2_in_joint_j_2 - C_j[4] * t59;
+    const jg_real v_2_in_j_2 = C_j[8] * v_2_in_joint_j_2 - C_j[5] * t59;
     /* v_3_in_joint_j = lambda_5 g_j x f_star, axes of joint j */
-    const jg_real v_3_in_joint_j = lambda[5] * f_star_in_joint_j_2;
-    const jg_real t66 = lambda[5] * f_star_in_joint_j_0;
+    const jg_real v_3_in_joint_j = f_star_in_joint_j_2 * lambda[5];
     /* v_4_in_j = lambda_3 h_j x g_star, axes of body j */
-    const jg_real v_4_in_j_0 = C_j[3] * v_4_in_joint_j_1 - C_j[0] * t59;
-    const jg_real v_4_in_j_1 = C_j[4] * v_4_in_joint_j_1 - C_j[1] * t59;
-    const jg_real v_4_in_j_2 = C_j[5] * v_4_in_joint_j_1 - C_j[2] * t59;
+    const jg_real v_4_in_j_0 = C_j[3] * v_4_in_joint_j_1 - C_j[0] * t61;
+    const jg_real t69 = lambda[5] * f_star_in_joint_j_0;
+    const jg_real v_4_in_j_1 = C_j[4] * v_4_in_joint_j_1 - C_j[1] * t61;
+    const jg_real v_4_in_j_2 = C_j[5] * v_4_in_joint_j_1 - C_j[2] * t61;
     /* v_3_in_j = lambda_5 g_j x f_star, axes of body j */
-    const jg_real v_3_in_j_0 = C_j[0] * v_3_in_joint_j - C_j[6] * t66;
-    const jg_real v_3_in_j_1 = C_j[1] * v_3_in_joint_j - C_j[7] * t66;
-    const jg_real v_3_in_j_2 = C_j[2] * v_3_in_joint_j - C_j[8] * t66;
-    phi_q_t_lambda[13] = cosine_1 * (lambda[4] * f_star_in_joint_j_0 - h_star_in_joint_j_1 * lambda[5]) + sine_1 *
-        (f_star_in_joint_j_2 * lambda[3] - lambda[5] * g_star_in_joint_j_1);
+    const jg_real v_3_in_j_0 = C_j[0] * v_3_in_joint_j - C_j[6] * t69;
+    const jg_real v_3_in_j_1 = C_j[1] * v_3_in_joint_j - C_j[7] * t69;
+    const jg_real v_3_in_j_2 = C_j[2] * v_3_in_joint_j - C_j[8] * t69;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_star + lambda_4 f_j x h_star + lambda_5 g_j x f_star, ... */
-    const jg_real v_5_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_2_in_j_0 + v_3_in_j_0 + v_4_in_j_0;
+    const jg_real v_5_in_j_0 = v_2_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0 + v_4_in_j_0;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[14] = h_star_in_joint_j_2 * lambda[3] - g_star_in_joint_j_0 * lambda[4];
     phi_q_t_lambda[9] = v_5_in_j_0;
-    const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
-    phi_q_t_lambda[10] = v_5_in_j_1;
-    const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
-    phi_q_t_lambda[11] = v_5_in_j_2;
-    phi_q_t_lambda[12] = lambda[4] * (H_21 * f_star_in_joint_j_0 + sine_2 * g_star_in_joint_j_0) + lambda[5] * (H_22
-        * g_star_in_joint_j_1 - h_star_in_joint_j_1 * H_21) - lambda[3] * (H_22 * f_star_in_joint_j_2 + sine_2 *
-        h_star_in_joint_j_2);
+    const jg_real v_5_in_j_1 = v_2_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
+    const jg_real v_5_in_j_2 = v_2_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
     /* v_6_in_j = r_j x lambda_0_1_2 + s_j x lambda_0_1_2 - r_i x lambda_0_1_2 + lambda_3 h_j x g_star + ... */
-    const jg_real v_6_in_j_0 = v_1_in_j_0 + v_5_in_j_0;
-    const jg_real v_6_in_j_1 = v_1_in_j_1 + v_5_in_j_1;
-    const jg_real v_6_in_j_2 = v_1_in_j_2 + v_5_in_j_2;
+    const jg_real v_6_in_j_0 = v_5_in_j_0 + v_1_in_j_0;
+    const jg_real v_6_in_j_1 = v_5_in_j_1 + v_1_in_j_1;
+    const jg_real v_6_in_j_2 = v_5_in_j_2 + v_1_in_j_2;
     /* v_6_in_i = r_j x lambda_0_1_2 + s_j x lambda_0_1_2 - r_i x lambda_0_1_2 + lambda_3 h_j x g_star + ... */
     const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
     const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
     const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
+    phi_q_t_lambda[10] = v_5_in_j_1;
+    phi_q_t_lambda[11] = v_5_in_j_2;
+    phi_q_t_lambda[12] = lambda[4] * (H_21 * f_star_in_joint_j_0 + sine_2 * g_star_in_joint_j_0) + lambda[5] * (H_22
+        * g_star_in_joint_j_1 - h_star_in_joint_j_1 * H_21) - lambda[3] * (H_22 * f_star_in_joint_j_2 + sine_2 *
+        h_star_in_joint_j_2);
+    phi_q_t_lambda[13] = cosine_1 * (f_star_in_joint_j_0 * lambda[4] - h_star_in_joint_j_1 * lambda[5]) + sine_1 *
+        (f_star_in_joint_j_2 * lambda[3] - g_star_in_joint_j_1 * lambda[5]);
     phi_q_t_lambda[3] = -v_6_in_i_0;
     phi_q_t_lambda[4] = -v_6_in_i_1;
     phi_q_t_lambda[5] = -v_6_in_i_2;
@@ -1229,113 +1216,111 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
+    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     jg_real sine_2;
     jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    phi_q[22] = A_ji_4;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
+    phi_q[23] = A_ji_7;
+    phi_q[20] = A_ji_6;
+    phi_q[19] = A_ji_3;
+    phi_q[18] = A_ji_0;
+    phi_q[21] = A_ji_1;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
+    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
+    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    phi_q[24] = A_ji_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[3] = e_ij_in_i_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[8] = -e_ij_in_i_2;
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[27] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    phi_q[28] = A_ji_5 * s_j[1] - A_ji_4 * s_j[2];
+    phi[0] = d_ij_in_i_0;
+    phi_q[14] = -e_ij_in_i_0;
+    phi_q[29] = A_ji_8 * s_j[1] - A_ji_7 * s_j[2];
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_2 = h_j_in_i_0 * f_j_in_i_1 - h_j_in_i_1 * f_j_in_i_0;
+    const jg_real g_j_in_i_1 = h_j_in_i_2 * f_j_in_i_0 - h_j_in_i_0 * f_j_in_i_2;
+    const jg_real g_j_in_i_0 = h_j_in_i_1 * f_j_in_i_2 - h_j_in_i_2 * f_j_in_i_1;
+    phi_q[33] = A_ji_0 * s_j[2] - s_j[0] * A_ji_2;
+    phi_q[34] = A_ji_3 * s_j[2] - A_ji_5 * s_j[0];
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
+    phi_q[35] = A_ji_6 * s_j[2] - A_ji_8 * s_j[0];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
-    phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ji_4;
-    /* v_5_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_5_in_j_1 = C_j[1] * lambda[4];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[26] = A_ji_8;
-    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    phi_q[23] = A_ji_7;
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    phi_q[20] = A_ji_6;
-    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    phi_q[19] = A_ji_3;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + s_j[1] * A_ji_7 + s_j[2] * A_ji_8;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    phi_q[3] = e_ij_in_i_2;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    phi_q[13] = e_ij_in_i_1;
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
-    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
-    phi_q[8] = -e_ij_in_i_2;
-    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
-    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    phi_q[4] = -e_ij_in_i_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     /* v_5_in_i = lambda_4 f_j, axes of body i */
     const jg_real v_5_in_i_1 = f_j_in_i_1 * lambda[4];
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    phi_q[9] = e_ij_in_i_0;
     /* v_7_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_7_in_i_1 = h_j_in_i_1 * lambda[3];
+    /* v_6_in_i = lambda_5 g_j, axes of body i */
+    const jg_real v_6_in_i_2 = g_j_in_i_2 * lambda[5];
     const jg_real v_5_in_i_2 = f_j_in_i_2 * lambda[4];
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    const jg_real v_6_in_i_1 = g_j_in_i_1 * lambda[5];
     const jg_real v_7_in_i_2 = h_j_in_i_2 * lambda[3];
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
-    phi_q[14] = -e_ij_in_i_0;
-    const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
+    /* v_5_in_j = lambda_4 f_j, axes of body j */
+    const jg_real v_5_in_j_1 = C_j[1] * lambda[4];
     /* v_7_in_j = lambda_3 h_j, axes of body j */
     const jg_real v_7_in_j_1 = C_j[7] * lambda[3];
     const jg_real v_5_in_j_2 = C_j[2] * lambda[4];
-    const jg_real t46 = A_ji_6 * lambda[1] - A_ji_3 * lambda[2];
-    phi_q_t_lambda_q[9] = t46;
-    phi_q_t_lambda_q[42] = t46;
+    const jg_real t48 = A_ji_6 * lambda[1] - A_ji_3 * lambda[2];
+    const jg_real t49 = A_ji_7 * lambda[1] - A_ji_4 * lambda[2];
+    phi_q_t_lambda_q[4] = -lambda[1];
+    phi_q[39] = s_j[0] * A_ji_1 - A_ji_0 * s_j[1];
+    phi_q[40] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    phi_q[41] = A_ji_7 * s_j[0] - A_ji_6 * s_j[1];
+    phi_q_t_lambda_q[9] = t48;
+    phi_q_t_lambda_q[42] = t48;
+    phi_q_t_lambda_q[10] = t49;
+    phi_q_t_lambda_q[45] = t49;
+    const jg_real t50 = A_ji_8 * lambda[1] - A_ji_5 * lambda[2];
     const jg_real v_7_in_j_2 = C_j[8] * lambda[3];
-    const jg_real t48 = A_ji_7 * lambda[1] - A_ji_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t48;
-    phi_q_t_lambda_q[45] = t48;
-    const jg_real t49 = A_ji_8 * lambda[1] - A_ji_5 * lambda[2];
-    phi_q_t_lambda_q[11] = t49;
-    phi_q_t_lambda_q[48] = t49;
-    /* v_6_in_i = lambda_5 g_j, axes of body i */
-    const jg_real v_6_in_i_2 = g_j_in_i_2 * lambda[5];
-    const jg_real v_6_in_i_1 = g_j_in_i_1 * lambda[5];
     const jg_real v_5_in_j_0 = C_j[0] * lambda[4];
     const jg_real v_7_in_j_0 = C_j[6] * lambda[3];
     const jg_real v_6_in_i_0 = g_j_in_i_0 * lambda[5];
@@ -1343,425 +1328,412 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real v_7_in_i_0 = h_j_in_i_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
-    phi_q_t_lambda_q[76] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_0;
     const jg_real t60 = A_ji_0 * lambda[2] - A_ji_6 * lambda[0];
+    const jg_real t61 = A_ji_1 * lambda[2] - A_ji_7 * lambda[0];
+    phi_q_t_lambda_q[11] = t50;
+    phi_q_t_lambda_q[48] = t50;
+    phi_q_t_lambda_q[76] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[21] = t60;
     phi_q_t_lambda_q[43] = t60;
-    const jg_real t61 = A_ji_1 * lambda[2] - A_ji_7 * lambda[0];
     phi_q_t_lambda_q[22] = t61;
     phi_q_t_lambda_q[46] = t61;
     const jg_real t62 = A_ji_2 * lambda[2] - A_ji_8 * lambda[0];
+    const jg_real t63 = A_ji_3 * lambda[0] - A_ji_0 * lambda[1];
+    const jg_real t64 = A_ji_4 * lambda[0] - A_ji_1 * lambda[1];
     phi_q_t_lambda_q[23] = t62;
     phi_q_t_lambda_q[49] = t62;
     phi_q_t_lambda_q[55] = -lambda_0_1_2_in_j_1;
-    const jg_real t63 = A_ji_3 * lambda[0] - A_ji_0 * lambda[1];
-    phi_q_t_lambda_q[33] = t63;
-    phi_q_t_lambda_q[44] = t63;
-    const jg_real t64 = A_ji_4 * lambda[0] - A_ji_1 * lambda[1];
-    phi_q_t_lambda_q[34] = t64;
-    phi_q_t_lambda_q[47] = t64;
-    const jg_real t65 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
-    phi_q_t_lambda_q[35] = t65;
-    phi_q_t_lambda_q[50] = t65;
     phi_q_t_lambda_q[65] = -lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[77] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[33] = t63;
+    phi_q_t_lambda_q[44] = t63;
+    phi_q_t_lambda_q[34] = t64;
+    phi_q_t_lambda_q[47] = t64;
     /* v_20_in_i = 2 omega_i, axes of body i */
-    const jg_real v_20_in_i_0 = JG_REAL(2.0) * omega_i[0];
-    const jg_real v_20_in_i_1 = JG_REAL(2.0) * omega_i[1];
-    const jg_real v_20_in_i_2 = JG_REAL(2.0) * omega_i[2];
+    const jg_real v_20_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_20_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_20_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    const jg_real t68 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     const jg_real t70 = JG_REAL(2.0) * alphadot[2];
-    const jg_real t71 = alphadot[2] * alphadot[2];
-    /* v_23_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
-    const jg_real v_23_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
-    const jg_real v_23_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
-    const jg_real v_23_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
-    const jg_real t75 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    const jg_real t71 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    const jg_real t72 = alphadot[2] * alphadot[2];
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
-    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
-    /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    /* v_23_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
+    const jg_real v_23_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
+    const jg_real t75 = cosine_0 * sine_1;
+    const jg_real t76 = sine_0 * cosine_1;
+    const jg_real t77 = cosine_0 * cosine_1;
+    const jg_real t78 = sine_1 * sine_0;
+    /* H_21 =  */
+    const jg_real H_21 = sine_1 * cosine_2;
+    /* H_22 =  */
+    const jg_real H_22 = cosine_1 * cosine_2;
+    const jg_real t81 = cosine_1 * lambda[4];
+    const jg_real t82 = sine_1 * lambda[3];
+    const jg_real t83 = sine_1 * sine_1;
+    const jg_real t84 = cosine_1 * cosine_1;
+    /* H_01 =  */
+    const jg_real H_01 = sine_2 * t75 - t76;
+    const jg_real t86 = t75 - sine_2 * t76;
+    /* H_02 =  */
+    const jg_real H_02 = t78 + sine_2 * t77;
+    /* H_11 =  */
+    const jg_real H_11 = t77 + sine_2 * t78;
     /* v_26_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_26_in_i_0 = omega_i[0] * t75;
-    const jg_real v_26_in_i_1 = omega_i[1] * t75;
-    const jg_real v_26_in_i_2 = omega_i[2] * t75;
+    const jg_real v_26_in_i_0 = omega_i[0] * t71;
     /* v_21_in_i = v_j - v_i, axes of body i */
     const jg_real v_21_in_i_2 = v_j_in_i_2 - v_i[2];
-    /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
+    const jg_real v_23_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
+    const jg_real v_26_in_i_1 = omega_i[1] * t71;
+    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
     const jg_real v_21_in_i_1 = v_j_in_i_1 - v_i[1];
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     const jg_real v_21_in_i_0 = v_j_in_i_0 - v_i[0];
-    /* v_22_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_22_in_i_0 = v_20_in_i_1 * v_21_in_i_2 - v_20_in_i_2 * v_21_in_i_1;
-    const jg_real v_22_in_i_1 = v_20_in_i_2 * v_21_in_i_0 - v_20_in_i_0 * v_21_in_i_2;
-    const jg_real v_22_in_i_2 = v_20_in_i_0 * v_21_in_i_1 - v_20_in_i_1 * v_21_in_i_0;
-    const jg_real t91 = cosine_0 * sine_1;
-    const jg_real t92 = sine_0 * sine_1;
-    /* H_21 =  */
-    const jg_real H_21 = sine_2 * cosine_1;
-    /* H_22 =  */
-    const jg_real H_22 = cosine_2 * cosine_1;
-    const jg_real t95 = sine_1 * lambda[4];
-    const jg_real t96 = sine_1 * lambda[3];
-    /* v_9_in_joint_j = sin(alpha_2) lambda_4 f_j - cos(alpha_2) lambda_3 h_j, axes of joint j */
-    const jg_real v_9_in_joint_j = sine_2 * lambda[4];
-    const jg_real t98 = cosine_2 * lambda[3];
-    const jg_real t99 = cosine_2 * lambda[4];
-    const jg_real t100 = sine_2 * lambda[3];
-    const jg_real t101 = sine_2 * sine_2;
-    const jg_real t102 = H_22 * lambda[5];
-    const jg_real t103 = H_21 * lambda[5];
-    /* H_01 =  */
-    const jg_real H_01 = sine_2 * t91 - sine_0 * cosine_2;
-    /* H_02 =  */
-    const jg_real H_02 = cosine_2 * t91 + sine_0 * sine_2;
-    const jg_real t106 = cosine_2 * cosine_2;
-    /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_2 + sine_2 * t92;
-    const jg_real t108 = cosine_0 * sine_2 - cosine_2 * t92;
-    const jg_real t109 = cosine_1 * alphadot[0];
-    const jg_real t110 = sine_2 * JG_REAL(2.0);
-    const jg_real t111 = cosine_2 * JG_REAL(2.0);
-    const jg_real t112 = sine_1 * alphadot[0] - t70;
+    const jg_real v_23_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
+    const jg_real v_26_in_i_2 = omega_i[2] * t71;
+    /* h_star_in_i = h_star, axes of body i */
+    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t86 + C_i[6] * H_22;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = H_01 * C_i[0] + H_11 * C_i[3] + H_21 * C_i[6];
     const jg_real g_star_in_i_1 = H_01 * C_i[1] + H_11 * C_i[4] + H_21 * C_i[7];
     const jg_real g_star_in_i_2 = H_01 * C_i[2] + H_11 * C_i[5] + H_21 * C_i[8];
-    /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t108 + C_i[6] * H_22;
-    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t108 + C_i[7] * H_22;
-    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t108 + C_i[8] * H_22;
+    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t86 + C_i[7] * H_22;
+    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t86 + C_i[8] * H_22;
+    /* g_j_dot_omega_i = g_j . omega_i */
+    const jg_real g_j_dot_omega_i = g_j_in_i_1 * omega_i[1] + g_j_in_i_0 * omega_i[0] + g_j_in_i_2 * omega_i[2];
+    /* v_22_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_22_in_i_0 = v_20_in_i_1 * v_21_in_i_2 - v_20_in_i_2 * v_21_in_i_1;
+    const jg_real v_22_in_i_1 = v_20_in_i_2 * v_21_in_i_0 - v_20_in_i_0 * v_21_in_i_2;
+    const jg_real t108 = cosine_2 * alphadot[0];
     /* g_star_in_joint_j = g_star, axes of joint j */
-    const jg_real g_star_in_joint_j_2 = g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
+    const jg_real g_star_in_joint_j_2 = h_j_in_i_0 * g_star_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
         h_j_in_i_2;
-    phi[3] = g_star_in_joint_j_2;
     /* h_star_in_joint_j = h_star, axes of joint j */
     const jg_real h_star_in_joint_j_0 = f_j_in_i_0 * h_star_in_i_0 + f_j_in_i_1 * h_star_in_i_1 + f_j_in_i_2 *
         h_star_in_i_2;
-    phi[4] = h_star_in_joint_j_0;
-    /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = g_star_in_i_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_i_1;
     const jg_real g_star_in_joint_j_0 = g_star_in_i_0 * f_j_in_i_0 + g_star_in_i_1 * f_j_in_i_1 + g_star_in_i_2 *
         f_j_in_i_2;
-    const jg_real f_star_in_i_1 = g_star_in_i_2 * h_star_in_i_0 - g_star_in_i_0 * h_star_in_i_2;
     const jg_real h_star_in_joint_j_2 = h_j_in_i_0 * h_star_in_i_0 + h_j_in_i_1 * h_star_in_i_1 + h_j_in_i_2 *
         h_star_in_i_2;
-    phi_q[51] = h_star_in_joint_j_2;
+    /* f_star_in_i = f_star, axes of body i */
+    const jg_real f_star_in_i_0 = g_star_in_i_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_i_1;
+    const jg_real f_star_in_i_1 = g_star_in_i_2 * h_star_in_i_0 - g_star_in_i_0 * h_star_in_i_2;
+    const jg_real h_star_in_joint_j_1 = h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_2 *
+        g_j_in_i_2;
     const jg_real f_star_in_i_2 = g_star_in_i_0 * h_star_in_i_1 - g_star_in_i_1 * h_star_in_i_0;
-    const jg_real h_star_in_joint_j_1 = g_j_in_i_0 * h_star_in_i_0 + g_j_in_i_1 * h_star_in_i_1 + g_j_in_i_2 *
-        h_star_in_i_2;
-    const jg_real g_star_in_joint_j_1 = g_star_in_i_0 * g_j_in_i_0 + g_star_in_i_1 * g_j_in_i_1 + g_star_in_i_2 *
+    const jg_real g_star_in_joint_j_1 = g_star_in_i_1 * g_j_in_i_1 + g_star_in_i_0 * g_j_in_i_0 + g_star_in_i_2 *
         g_j_in_i_2;
     /* f_star_in_joint_j = f_star, axes of joint j */
     const jg_real f_star_in_joint_j_1 = g_star_in_joint_j_2 * h_star_in_joint_j_0 - g_star_in_joint_j_0 *
         h_star_in_joint_j_2;
-    phi[5] = f_star_in_joint_j_1;
-    const jg_real f_star_in_joint_j_2 = g_star_in_joint_j_0 * h_star_in_joint_j_1 - g_star_in_joint_j_1 *
-        h_star_in_joint_j_0;
-    const jg_real f_star_in_joint_j_0 = g_star_in_joint_j_1 * h_star_in_joint_j_2 - g_star_in_joint_j_2 *
+    const jg_real f_star_in_joint_j_2 = g_star_in_joint_j_0 * h_star_in_joint_j_1 - h_star_in_joint_j_0 *
+        g_star_in_joint_j_1;
+    const jg_real f_star_in_joint_j_0 = h_star_in_joint_j_2 * g_star_in_joint_j_1 - g_star_in_joint_j_2 *
         h_star_in_joint_j_1;
     /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
-    const jg_real f_star_cross_g_j_in_i_0 = g_star_in_joint_j_1 * h_star_in_i_0 - g_star_in_i_0 *
+    const jg_real f_star_cross_g_j_in_i_0 = h_star_in_i_0 * g_star_in_joint_j_1 - g_star_in_i_0 *
         h_star_in_joint_j_1;
+    const jg_real f_star_cross_g_j_in_i_1 = h_star_in_i_1 * g_star_in_joint_j_1 - g_star_in_i_1 *
+        h_star_in_joint_j_1;
+    phi_q_t_lambda_q[35] = t68;
+    phi_q_t_lambda_q[50] = t68;
+    phi[3] = g_star_in_joint_j_2;
+    phi[4] = h_star_in_joint_j_0;
+    phi_q[51] = h_star_in_joint_j_2;
+    phi[5] = f_star_in_joint_j_1;
     phi_q[7] = f_star_cross_g_j_in_i_0;
-    const jg_real f_star_cross_g_j_in_i_1 = g_star_in_joint_j_1 * h_star_in_i_1 - g_star_in_i_1 *
-        h_star_in_joint_j_1;
     phi_q[12] = f_star_cross_g_j_in_i_1;
-    const jg_real f_star_cross_g_j_in_i_2 = g_star_in_joint_j_1 * h_star_in_i_2 - g_star_in_i_2 *
+    const jg_real f_star_cross_g_j_in_i_2 = h_star_in_i_2 * g_star_in_joint_j_1 - g_star_in_i_2 *
         h_star_in_joint_j_1;
-    phi_q[17] = f_star_cross_g_j_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_1 = C_j[1] * g_star_in_joint_j_0 + g_star_in_joint_j_1 * C_j[4] + C_j[7] *
+    const jg_real g_star_in_j_1 = g_star_in_joint_j_1 * C_j[4] + C_j[1] * g_star_in_joint_j_0 + C_j[7] *
         g_star_in_joint_j_2;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_2 = C_j[2] * h_star_in_joint_j_0 + h_star_in_joint_j_1 * C_j[5] + C_j[8] *
-        h_star_in_joint_j_2;
-    const jg_real g_star_in_j_2 = C_j[2] * g_star_in_joint_j_0 + g_star_in_joint_j_1 * C_j[5] + C_j[8] *
-        g_star_in_joint_j_2;
-    const jg_real h_star_in_j_1 = C_j[1] * h_star_in_joint_j_0 + h_star_in_joint_j_1 * C_j[4] + C_j[7] *
+    const jg_real h_star_in_j_2 = h_star_in_joint_j_1 * C_j[5] + C_j[2] * h_star_in_joint_j_0 + C_j[8] *
         h_star_in_joint_j_2;
     /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
     const jg_real g_star_cross_h_j_in_i_0 = h_star_in_joint_j_2 * f_star_in_i_0 - h_star_in_i_0 *
         f_star_in_joint_j_2;
-    phi_q[5] = g_star_cross_h_j_in_i_0;
     /* h_star_cross_f_j_in_i = h_star x f_j, axes of body i */
     const jg_real h_star_cross_f_j_in_i_0 = g_star_in_i_0 * f_star_in_joint_j_0 - g_star_in_joint_j_0 *
         f_star_in_i_0;
-    phi_q[6] = h_star_cross_f_j_in_i_0;
     const jg_real g_star_cross_h_j_in_i_1 = h_star_in_joint_j_2 * f_star_in_i_1 - h_star_in_i_1 *
         f_star_in_joint_j_2;
-    phi_q[10] = g_star_cross_h_j_in_i_1;
     const jg_real h_star_cross_f_j_in_i_1 = g_star_in_i_1 * f_star_in_joint_j_0 - g_star_in_joint_j_0 *
         f_star_in_i_1;
-    phi_q[11] = h_star_cross_f_j_in_i_1;
     const jg_real g_star_cross_h_j_in_i_2 = h_star_in_joint_j_2 * f_star_in_i_2 - h_star_in_i_2 *
         f_star_in_joint_j_2;
-    phi_q[15] = g_star_cross_h_j_in_i_2;
     const jg_real h_star_cross_f_j_in_i_2 = g_star_in_i_2 * f_star_in_joint_j_0 - g_star_in_joint_j_0 *
         f_star_in_i_2;
-    phi_q[16] = h_star_cross_f_j_in_i_2;
-    const jg_real h_star_in_j_0 = C_j[0] * h_star_in_joint_j_0 + h_star_in_joint_j_1 * C_j[3] + C_j[6] *
-        h_star_in_joint_j_2;
-    const jg_real g_star_in_j_0 = C_j[0] * g_star_in_joint_j_0 + g_star_in_joint_j_1 * C_j[3] + C_j[6] *
+    const jg_real g_star_in_j_2 = g_star_in_joint_j_1 * C_j[5] + C_j[2] * g_star_in_joint_j_0 + C_j[8] *
         g_star_in_joint_j_2;
-    phi_q[46] = H_21 * f_star_in_joint_j_0 + sine_1 * g_star_in_joint_j_0;
-    phi_q[47] = g_star_in_joint_j_1 * H_22 - H_21 * h_star_in_joint_j_1;
-    phi_q[48] = sine_2 * f_star_in_joint_j_2;
+    const jg_real h_star_in_j_1 = h_star_in_joint_j_1 * C_j[4] + C_j[1] * h_star_in_joint_j_0 + C_j[7] *
+        h_star_in_joint_j_2;
+    const jg_real h_star_in_j_0 = h_star_in_joint_j_1 * C_j[3] + C_j[0] * h_star_in_joint_j_0 + C_j[6] *
+        h_star_in_joint_j_2;
+    phi_q[17] = f_star_cross_g_j_in_i_2;
+    phi_q[5] = g_star_cross_h_j_in_i_0;
+    phi_q[6] = h_star_cross_f_j_in_i_0;
+    phi_q[10] = g_star_cross_h_j_in_i_1;
+    phi_q[11] = h_star_cross_f_j_in_i_1;
+    phi_q[15] = g_star_cross_h_j_in_i_2;
+    phi_q[16] = h_star_cross_f_j_in_i_2;
+    phi_q[48] = sine_1 * f_star_in_joint_j_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_0 = g_star_in_j_1 * h_star_in_j_2 - g_star_in_j_2 * h_star_in_j_1;
+    const jg_real g_star_in_j_0 = g_star_in_joint_j_1 * C_j[3] + C_j[0] * g_star_in_joint_j_0 + C_j[6] *
+        g_star_in_joint_j_2;
+    phi_q[49] = cosine_1 * f_star_in_joint_j_0;
     phi_q[38] = h_star_in_joint_j_1 * g_star_in_j_1 - g_star_in_joint_j_1 * h_star_in_j_1;
-    phi_q[49] = cosine_2 * f_star_in_joint_j_0;
     phi_q[44] = h_star_in_joint_j_1 * g_star_in_j_2 - g_star_in_joint_j_1 * h_star_in_j_2;
-    phi_q[45] = -(H_22 * f_star_in_joint_j_2 + sine_1 * h_star_in_joint_j_2);
+    phi_q[46] = H_21 * f_star_in_joint_j_0 + sine_2 * g_star_in_joint_j_0;
+    phi_q[47] = H_22 * g_star_in_joint_j_1 - H_21 * h_star_in_joint_j_1;
     phi_q[52] = -g_star_in_joint_j_0;
-    phi_q[32] = h_star_in_joint_j_1 * g_star_in_j_0 - g_star_in_joint_j_1 * h_star_in_j_0;
-    const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - g_star_in_j_0 * h_star_in_j_2;
-    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - g_star_in_j_1 * h_star_in_j_0;
-    /* v_4_in_joint_j = sin(alpha_2) g_star + cos(alpha_2) h_star, axes of joint j */
-    const jg_real v_4_in_joint_j_1 = sine_2 * g_star_in_joint_j_1 + cosine_2 * h_star_in_joint_j_1;
-    /* v_8_in_j = lambda_5 f_star, axes of body j */
-    const jg_real v_8_in_j_0 = f_star_in_j_0 * lambda[5];
+    phi_q[45] = -(H_22 * f_star_in_joint_j_2 + sine_2 * h_star_in_joint_j_2);
     phi_q[30] = f_star_in_joint_j_2 * h_star_in_j_0 - h_star_in_joint_j_2 * f_star_in_j_0;
-    phi_q[31] = g_star_in_joint_j_0 * f_star_in_j_0 - f_star_in_joint_j_0 * g_star_in_j_0;
-    const jg_real v_8_in_j_1 = f_star_in_j_1 * lambda[5];
-    phi_q[50] = -v_4_in_joint_j_1;
+    /* v_4_in_joint_j = sin(alpha_2) g_star + cos(alpha_2) h_star, axes of joint j */
+    const jg_real v_4_in_joint_j_1 = sine_1 * g_star_in_joint_j_1 + cosine_1 * h_star_in_joint_j_1;
+    const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - h_star_in_j_2 * g_star_in_j_0;
+    const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - g_star_in_j_1 * h_star_in_j_0;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + h_star_in_i_1 * v_5_in_i_1 + f_star_in_i_1 * v_6_in_i_1 +
+    const jg_real M_0_i_i_4 = h_star_in_i_1 * v_5_in_i_1 + e_ij_in_i_1 * lambda[1] + f_star_in_i_1 * v_6_in_i_1 +
         g_star_in_i_1 * v_7_in_i_1;
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + h_star_in_i_2 * v_5_in_i_2 + f_star_in_i_2 * v_6_in_i_2 +
-        g_star_in_i_2 * v_7_in_i_2;
+    /* v_8_in_j = lambda_5 f_star, axes of body j */
+    const jg_real v_8_in_j_1 = f_star_in_j_1 * lambda[5];
     const jg_real v_8_in_j_2 = f_star_in_j_2 * lambda[5];
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + h_star_in_i_0 * v_5_in_i_1 + f_star_in_i_0 * v_6_in_i_1 +
+    const jg_real M_0_i_i_8 = h_star_in_i_2 * v_5_in_i_2 + e_ij_in_i_2 * lambda[2] + f_star_in_i_2 * v_6_in_i_2 +
+        g_star_in_i_2 * v_7_in_i_2;
+    const jg_real v_8_in_j_0 = f_star_in_j_0 * lambda[5];
+    const jg_real M_0_i_i_3 = h_star_in_i_0 * v_5_in_i_1 + e_ij_in_i_1 * lambda[0] + f_star_in_i_0 * v_6_in_i_1 +
         g_star_in_i_0 * v_7_in_i_1;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q[31] = g_star_in_joint_j_0 * f_star_in_j_0 - f_star_in_joint_j_0 * g_star_in_j_0;
+    phi_q[32] = h_star_in_joint_j_1 * g_star_in_j_0 - g_star_in_joint_j_1 * h_star_in_j_0;
+    phi_q[50] = -v_4_in_joint_j_1;
     phi_q[36] = f_star_in_joint_j_2 * h_star_in_j_1 - h_star_in_joint_j_2 * f_star_in_j_1;
     phi_q[37] = g_star_in_joint_j_0 * f_star_in_j_1 - f_star_in_joint_j_0 * g_star_in_j_1;
     phi_q[42] = f_star_in_joint_j_2 * h_star_in_j_2 - h_star_in_joint_j_2 * f_star_in_j_2;
     phi_q[43] = g_star_in_joint_j_0 * f_star_in_j_2 - f_star_in_joint_j_0 * g_star_in_j_2;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + h_star_in_i_0 * v_5_in_i_2 + f_star_in_i_0 * v_6_in_i_2 +
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    const jg_real M_0_i_i_6 = h_star_in_i_0 * v_5_in_i_2 + e_ij_in_i_2 * lambda[0] + f_star_in_i_0 * v_6_in_i_2 +
         g_star_in_i_0 * v_7_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + h_star_in_j_0 * v_5_in_j_1 + C_j[4] * v_8_in_j_0 +
-        g_star_in_j_0 * v_7_in_j_1;
-    phi_q_t_lambda_q[67] = M_1_j_j_3;
-    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + h_star_in_j_1 * v_5_in_j_1 + C_j[4] * v_8_in_j_1 +
+    const jg_real M_1_j_j_4 = h_star_in_j_1 * v_5_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[4] * v_8_in_j_1 +
         g_star_in_j_1 * v_7_in_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + h_star_in_j_2 * v_5_in_j_2 + C_j[5] * v_8_in_j_2 +
+    const jg_real M_1_j_j_8 = h_star_in_j_2 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + C_j[5] * v_8_in_j_2 +
         g_star_in_j_2 * v_7_in_j_2;
-    /* v_12_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
-        */
-    const jg_real v_12_in_star = h_star_in_joint_j_0 * t95 + h_star_in_joint_j_1 * t102;
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + h_star_in_j_0 * v_5_in_j_2 + C_j[5] * v_8_in_j_0 +
+    const jg_real M_1_j_j_3 = h_star_in_j_0 * v_5_in_j_1 + s_j[1] * lambda_0_1_2_in_j_0 + C_j[4] * v_8_in_j_0 +
+        g_star_in_j_0 * v_7_in_j_1;
+    const jg_real M_1_j_j_6 = h_star_in_j_0 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_0 + C_j[5] * v_8_in_j_0 +
         g_star_in_j_0 * v_7_in_j_2;
-    phi_q_t_lambda_q[78] = M_1_j_j_6;
-    const jg_real t162 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + h_star_in_j_0 * v_5_in_j_0 + C_j[3] * v_8_in_j_0 +
+    const jg_real t151 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t152 = h_star_in_joint_j_1 * lambda[5];
+    const jg_real t153 = h_star_in_joint_j_0 * lambda[4];
+    const jg_real M_1_j_j_0 = h_star_in_j_0 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_0 + C_j[3] * v_8_in_j_0 +
         g_star_in_j_0 * v_7_in_j_0;
-    /* v_13_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
-        */
-    const jg_real v_13_in_star_1 = f_star_in_joint_j_2 * t96 + f_star_in_joint_j_1 * t103;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + h_star_in_j_1 * v_5_in_j_0 + C_j[3] * v_8_in_j_1 +
+    const jg_real t155 = g_star_in_joint_j_1 * lambda[5];
+    const jg_real t156 = g_star_in_joint_j_2 * lambda[3];
+    const jg_real t157 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real M_1_j_j_1 = h_star_in_j_1 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_8_in_j_1 +
         g_star_in_j_1 * v_7_in_j_0;
-    phi_q_t_lambda_q[57] = M_1_j_j_1;
-    /* v_9_in_star = sin(alpha_2) lambda_4 f_j - cos(alpha_2) lambda_3 h_j, axes of body star */
-    const jg_real v_9_in_star_2 = h_star_in_joint_j_0 * v_9_in_joint_j - h_star_in_joint_j_2 * t98;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + h_star_in_j_1 * v_5_in_j_2 + C_j[5] * v_8_in_j_1 +
+    const jg_real t159 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_1_j_j_7 = h_star_in_j_1 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_8_in_j_1 +
         g_star_in_j_1 * v_7_in_j_2;
-    phi_q_t_lambda_q[79] = M_1_j_j_7;
-    /* v_15_in_joint_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j, axes of joint j */
-    const jg_real v_15_in_joint_j_0 = f_star_in_joint_j_1 * t100;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + h_star_in_j_2 * v_5_in_j_0 + C_j[3] * v_8_in_j_2 +
-        g_star_in_j_2 * v_7_in_j_0;
-    phi_q_t_lambda_q[58] = M_1_j_j_2;
-    const jg_real t170 = g_star_in_joint_j_2 * t96 + g_star_in_joint_j_1 * t103 + v_12_in_star;
-    const jg_real t171 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t172 = M_1_j_j_0 + M_1_j_j_4;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + h_star_in_j_2 * v_5_in_j_1 + C_j[4] * v_8_in_j_2 +
-        g_star_in_j_2 * v_7_in_j_1;
-    phi_q_t_lambda_q[69] = M_1_j_j_5;
-    const jg_real v_9_in_star_1 = g_star_in_joint_j_0 * v_9_in_joint_j - g_star_in_joint_j_2 * t98;
-    const jg_real t175 = cosine_2 * h_star_in_joint_j_2;
-    /* v_11_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star
-        ... */
-    const jg_real v_11_in_star_1 = cosine_1 * v_9_in_star_2;
-    const jg_real v_15_in_joint_j_1 = f_star_in_joint_j_2 * t99 - f_star_in_joint_j_0 * t100;
-    const jg_real t178 = sine_2 * g_star_in_joint_j_0;
-    const jg_real v_4_in_joint_j_2 = sine_2 * g_star_in_joint_j_2 + t175;
-    /* v_14_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_14_in_star_1 = v_11_in_star_1 + v_13_in_star_1;
-    const jg_real t181 = g_star_in_joint_j_2 * lambda[3];
-    const jg_real t182 = h_star_in_joint_j_0 * lambda[4];
     /* v_19_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
     const jg_real v_19_in_star_1 = f_star_in_joint_j_2 * lambda[3];
-    const jg_real v_4_in_joint_j_0 = t178 + cosine_2 * h_star_in_joint_j_0;
+    const jg_real t162 = f_star_in_joint_j_1 * lambda[5];
+    const jg_real M_1_j_j_2 = h_star_in_j_2 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_2 + C_j[3] * v_8_in_j_2 +
+        g_star_in_j_2 * v_7_in_j_0;
+    /* v_12_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
+        */
+    const jg_real v_12_in_star = H_22 * t152 + sine_2 * t153;
+    const jg_real M_1_j_j_5 = h_star_in_j_2 * v_5_in_j_1 + s_j[1] * lambda_0_1_2_in_j_2 + C_j[4] * v_8_in_j_2 +
+        g_star_in_j_2 * v_7_in_j_1;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q_t_lambda_q[67] = M_1_j_j_3;
+    phi_q_t_lambda_q[78] = M_1_j_j_6;
+    phi_q_t_lambda_q[57] = M_1_j_j_1;
+    phi_q_t_lambda_q[79] = M_1_j_j_7;
+    phi_q_t_lambda_q[58] = M_1_j_j_2;
+    phi_q_t_lambda_q[69] = M_1_j_j_5;
+    const jg_real t166 = h_star_in_joint_j_2 * lambda[3];
     const jg_real v_19_in_star_2 = f_star_in_joint_j_0 * lambda[4];
-    const jg_real v_14_in_star_2 = f_star_in_joint_j_0 * t95 + f_star_in_joint_j_1 * t102 - cosine_1 *
-        v_9_in_star_1;
-    const jg_real t187 = t181 + t182;
-    /* v_17_in_joint_j = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of joint j */
-    const jg_real v_17_in_joint_j_2 = lambda[5] * v_4_in_joint_j_0;
-    const jg_real t189 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t162 + A_ji_2 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t189;
-    phi_q_t_lambda_q[51] = t189;
-    const jg_real t190 = A_ji_2 * t172 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t190;
-    phi_q_t_lambda_q[73] = t190;
+    const jg_real t168 = g_star_in_joint_j_0 * lambda[4];
+    const jg_real t169 = H_21 * t155 + sine_2 * t156 + v_12_in_star;
+    const jg_real t170 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t151 + A_ji_2 * M_1_j_j_6);
+    /* v_13_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
+        */
+    const jg_real v_13_in_star_1 = sine_2 * v_19_in_star_1 + H_21 * t162;
+    /* v_15_in_joint_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j, axes of joint j */
+    const jg_real v_15_in_joint_j_0 = f_star_in_joint_j_1 * t82;
+    const jg_real t173 = cosine_1 * h_star_in_joint_j_2;
+    const jg_real v_15_in_joint_j_1 = f_star_in_joint_j_2 * t81 - f_star_in_joint_j_0 * t82;
+    /* v_9_in_star = sin(alpha_2) lambda_4 f_j - cos(alpha_2) lambda_3 h_j, axes of body star */
+    const jg_real v_9_in_star_2 = sine_1 * t153 - cosine_1 * t166;
+    const jg_real t176 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t157 + A_ji_2 * M_1_j_j_7);
+    const jg_real t177 = A_ji_2 * t159 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    const jg_real v_9_in_star_1 = sine_1 * t168 - cosine_1 * t156;
+    const jg_real t179 = sine_1 * g_star_in_joint_j_0;
+    const jg_real v_4_in_joint_j_2 = sine_1 * g_star_in_joint_j_2 + t173;
+    const jg_real t181 = t153 + t156;
+    /* v_11_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star
+        ... */
+    const jg_real v_11_in_star_1 = cosine_2 * v_9_in_star_2;
+    const jg_real v_4_in_joint_j_0 = t179 + cosine_1 * h_star_in_joint_j_0;
+    /* v_14_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_14_in_star_1 = v_13_in_star_1 + v_11_in_star_1;
+    const jg_real v_14_in_star_2 = sine_2 * v_19_in_star_2 + H_22 * t162 - cosine_2 * v_9_in_star_1;
     /* v_18_in_joint_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ...
         */
     const jg_real v_18_in_joint_j = v_15_in_joint_j_0 + lambda[5] * v_4_in_joint_j_2;
-    const jg_real t192 = f_star_in_joint_j_1 * t99 + v_17_in_joint_j_2;
-    const jg_real t193 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t171 + A_ji_2 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t193;
-    phi_q_t_lambda_q[62] = t193;
+    /* v_17_in_joint_j = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of joint j */
+    const jg_real v_17_in_joint_j_2 = lambda[5] * v_4_in_joint_j_0;
+    const jg_real t188 = f_star_in_joint_j_1 * t81 + v_17_in_joint_j_2;
+    /* v_19_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
+    const jg_real v_19_in_j_0 = g_star_in_j_0 * v_19_in_star_1 - f_star_in_j_0 * t181 + h_star_in_j_0 *
+        v_19_in_star_2;
+    const jg_real v_19_in_j_1 = g_star_in_j_1 * v_19_in_star_1 - f_star_in_j_1 * t181 + h_star_in_j_1 *
+        v_19_in_star_2;
+    const jg_real v_19_in_j_2 = g_star_in_j_2 * v_19_in_star_1 - f_star_in_j_2 * t181 + h_star_in_j_2 *
+        v_19_in_star_2;
     /* v_14_in_j = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_14_in_j_0 = g_star_in_j_0 * v_14_in_star_1 - f_star_in_j_0 * t170 + h_star_in_j_0 *
+    const jg_real v_14_in_j_0 = g_star_in_j_0 * v_14_in_star_1 - f_star_in_j_0 * t169 + h_star_in_j_0 *
         v_14_in_star_2;
+    phi_q_t_lambda_q[12] = t170;
+    phi_q_t_lambda_q[51] = t170;
+    phi_q_t_lambda_q[13] = t176;
+    phi_q_t_lambda_q[62] = t176;
+    phi_q_t_lambda_q[14] = t177;
+    phi_q_t_lambda_q[73] = t177;
     phi_q_t_lambda_q[59] = v_14_in_j_0;
     phi_q_t_lambda_q[87] = v_14_in_j_0;
-    const jg_real v_14_in_j_1 = g_star_in_j_1 * v_14_in_star_1 - f_star_in_j_1 * t170 + h_star_in_j_1 *
+    const jg_real v_14_in_j_1 = g_star_in_j_1 * v_14_in_star_1 - f_star_in_j_1 * t169 + h_star_in_j_1 *
         v_14_in_star_2;
-    phi_q_t_lambda_q[70] = v_14_in_j_1;
-    phi_q_t_lambda_q[88] = v_14_in_j_1;
-    const jg_real v_14_in_j_2 = g_star_in_j_2 * v_14_in_star_1 - f_star_in_j_2 * t170 + h_star_in_j_2 *
+    const jg_real v_14_in_j_2 = g_star_in_j_2 * v_14_in_star_1 - f_star_in_j_2 * t169 + h_star_in_j_2 *
         v_14_in_star_2;
-    phi_q_t_lambda_q[81] = v_14_in_j_2;
-    phi_q_t_lambda_q[89] = v_14_in_j_2;
     const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_5_in_i_0 + f_star_in_i_1 * v_6_in_i_0 +
         g_star_in_i_1 * v_7_in_i_0;
-    phi_q_t_lambda_q[18] = M_0_i_i_1;
-    /* v_19_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_19_in_j_0 = g_star_in_j_0 * v_19_in_star_1 - f_star_in_j_0 * t187 + h_star_in_j_0 *
-        v_19_in_star_2;
-    const jg_real v_19_in_j_1 = g_star_in_j_1 * v_19_in_star_1 - f_star_in_j_1 * t187 + h_star_in_j_1 *
-        v_19_in_star_2;
-    const jg_real v_19_in_j_2 = g_star_in_j_2 * v_19_in_star_1 - f_star_in_j_2 * t187 + h_star_in_j_2 *
-        v_19_in_star_2;
     /* v_18_in_i = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
-    const jg_real v_18_in_i_0 = f_j_in_i_0 * v_18_in_joint_j + g_j_in_i_0 * v_15_in_joint_j_1 - h_j_in_i_0 * t192;
-    phi_q_t_lambda_q[16] = v_18_in_i_0;
-    phi_q_t_lambda_q[93] = v_18_in_i_0;
+    const jg_real v_18_in_i_0 = g_j_in_i_0 * v_15_in_joint_j_1 + f_j_in_i_0 * v_18_in_joint_j - h_j_in_i_0 * t188;
     const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_5_in_i_0 + f_star_in_i_0 * v_6_in_i_0 +
         g_star_in_i_0 * v_7_in_i_0;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + h_star_in_i_1 * v_5_in_i_2 + f_star_in_i_1 * v_6_in_i_2 +
-        g_star_in_i_1 * v_7_in_i_2;
-    phi_q_t_lambda_q[20] = M_0_i_i_7;
-    /* v_14_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_14_in_i_0 = A_ji_0 * v_14_in_j_0 + A_ji_1 * v_14_in_j_1 + A_ji_2 * v_14_in_j_2;
-    const jg_real t205 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t162 + A_ji_5 * M_1_j_j_6);
-    phi_q_t_lambda_q[24] = t205;
-    phi_q_t_lambda_q[52] = t205;
-    const jg_real t206 = A_ji_5 * t172 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[26] = t206;
-    phi_q_t_lambda_q[74] = t206;
-    const jg_real t207 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t171 + A_ji_5 * M_1_j_j_7);
-    phi_q_t_lambda_q[25] = t207;
-    phi_q_t_lambda_q[63] = t207;
-    const jg_real v_14_in_i_1 = A_ji_3 * v_14_in_j_0 + A_ji_4 * v_14_in_j_1 + A_ji_5 * v_14_in_j_2;
-    const jg_real t209 = -v_14_in_i_0;
-    phi_q_t_lambda_q[15] = t209;
-    phi_q_t_lambda_q[84] = t209;
-    const jg_real v_18_in_i_1 = f_j_in_i_1 * v_18_in_joint_j + g_j_in_i_1 * v_15_in_joint_j_1 - h_j_in_i_1 * t192;
-    phi_q_t_lambda_q[28] = v_18_in_i_1;
-    phi_q_t_lambda_q[94] = v_18_in_i_1;
     /* v_19_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
     const jg_real v_19_in_i_0 = A_ji_0 * v_19_in_j_0 + A_ji_1 * v_19_in_j_1 + A_ji_2 * v_19_in_j_2;
+    phi_q_t_lambda_q[70] = v_14_in_j_1;
+    phi_q_t_lambda_q[88] = v_14_in_j_1;
+    phi_q_t_lambda_q[81] = v_14_in_j_2;
+    phi_q_t_lambda_q[89] = v_14_in_j_2;
+    phi_q_t_lambda_q[18] = M_0_i_i_1;
+    phi_q_t_lambda_q[16] = v_18_in_i_0;
+    phi_q_t_lambda_q[93] = v_18_in_i_0;
     phi_q_t_lambda_q[17] = v_19_in_i_0;
     phi_q_t_lambda_q[102] = v_19_in_i_0;
-    phi_q_t_lambda_q[19] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real t212 = -v_14_in_i_1;
-    phi_q_t_lambda_q[27] = t212;
-    phi_q_t_lambda_q[85] = t212;
+    const jg_real M_0_i_i_7 = h_star_in_i_1 * v_5_in_i_2 + e_ij_in_i_2 * lambda[1] + f_star_in_i_1 * v_6_in_i_2 +
+        g_star_in_i_1 * v_7_in_i_2;
+    /* v_14_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_14_in_i_0 = A_ji_0 * v_14_in_j_0 + A_ji_1 * v_14_in_j_1 + A_ji_2 * v_14_in_j_2;
+    const jg_real t201 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t151 + A_ji_5 * M_1_j_j_6);
+    const jg_real t202 = -v_14_in_i_0;
+    const jg_real t203 = A_ji_5 * t159 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    phi_q_t_lambda_q[20] = M_0_i_i_7;
+    phi_q_t_lambda_q[19] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[24] = t201;
+    phi_q_t_lambda_q[52] = t201;
+    phi_q_t_lambda_q[15] = t202;
+    phi_q_t_lambda_q[84] = t202;
+    phi_q_t_lambda_q[26] = t203;
+    phi_q_t_lambda_q[74] = t203;
+    const jg_real v_14_in_i_1 = A_ji_3 * v_14_in_j_0 + A_ji_4 * v_14_in_j_1 + A_ji_5 * v_14_in_j_2;
+    const jg_real t205 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t157 + A_ji_5 * M_1_j_j_7);
+    const jg_real v_18_in_i_1 = g_j_in_i_1 * v_15_in_joint_j_1 + f_j_in_i_1 * v_18_in_joint_j - h_j_in_i_1 * t188;
+    const jg_real t207 = -v_14_in_i_1;
     const jg_real v_19_in_i_1 = A_ji_3 * v_19_in_j_0 + A_ji_4 * v_19_in_j_1 + A_ji_5 * v_19_in_j_2;
+    phi_q_t_lambda_q[25] = t205;
+    phi_q_t_lambda_q[63] = t205;
+    phi_q_t_lambda_q[28] = v_18_in_i_1;
+    phi_q_t_lambda_q[94] = v_18_in_i_1;
+    phi_q_t_lambda_q[27] = t207;
+    phi_q_t_lambda_q[85] = t207;
     phi_q_t_lambda_q[29] = v_19_in_i_1;
     phi_q_t_lambda_q[103] = v_19_in_i_1;
-    phi_q_t_lambda_q[32] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[56] = -t162;
     const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + h_star_in_i_2 * v_5_in_i_0 + f_star_in_i_2 * v_6_in_i_0 +
         g_star_in_i_2 * v_7_in_i_0;
+    const jg_real M_0_i_i_5 = h_star_in_i_2 * v_5_in_i_1 + e_ij_in_i_1 * lambda[2] + f_star_in_i_2 * v_6_in_i_1 +
+        g_star_in_i_2 * v_7_in_i_1;
+    const jg_real t211 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t151 + A_ji_8 * M_1_j_j_6);
+    const jg_real t212 = A_ji_8 * t159 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    phi_q_t_lambda_q[32] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[30] = M_0_i_i_2;
+    phi_q_t_lambda_q[31] = M_0_i_i_5;
+    phi_q_t_lambda_q[56] = -t151;
+    phi_q_t_lambda_q[36] = t211;
+    phi_q_t_lambda_q[53] = t211;
+    phi_q_t_lambda_q[38] = t212;
+    phi_q_t_lambda_q[75] = t212;
+    const jg_real v_14_in_i_2 = A_ji_6 * v_14_in_j_0 + A_ji_7 * v_14_in_j_1 + A_ji_8 * v_14_in_j_2;
+    const jg_real t214 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t157 + A_ji_8 * M_1_j_j_7);
     const jg_real t215 = -v_19_in_j_0;
+    const jg_real v_18_in_i_2 = g_j_in_i_2 * v_15_in_joint_j_1 + f_j_in_i_2 * v_18_in_joint_j - h_j_in_i_2 * t188;
+    const jg_real t217 = -v_19_in_j_1;
+    phi_q_t_lambda_q[37] = t214;
+    phi_q_t_lambda_q[64] = t214;
     phi_q_t_lambda_q[61] = t215;
     phi_q_t_lambda_q[105] = t215;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + h_star_in_i_2 * v_5_in_i_1 + f_star_in_i_2 * v_6_in_i_1 +
-        g_star_in_i_2 * v_7_in_i_1;
-    phi_q_t_lambda_q[31] = M_0_i_i_5;
-    phi_q_t_lambda_q[68] = -t171;
-    const jg_real t217 = -v_19_in_j_1;
-    phi_q_t_lambda_q[72] = t217;
-    phi_q_t_lambda_q[106] = t217;
-    const jg_real t218 = A_ji_8 * t172 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
-    phi_q_t_lambda_q[38] = t218;
-    phi_q_t_lambda_q[75] = t218;
-    phi_q_t_lambda_q[80] = -t172;
-    const jg_real v_14_in_i_2 = A_ji_6 * v_14_in_j_0 + A_ji_7 * v_14_in_j_1 + A_ji_8 * v_14_in_j_2;
-    const jg_real t220 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t162 + A_ji_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[36] = t220;
-    phi_q_t_lambda_q[53] = t220;
-    const jg_real v_18_in_i_2 = f_j_in_i_2 * v_18_in_joint_j + g_j_in_i_2 * v_15_in_joint_j_1 - h_j_in_i_2 * t192;
+    phi_q_t_lambda_q[68] = -t157;
     phi_q_t_lambda_q[40] = v_18_in_i_2;
     phi_q_t_lambda_q[95] = v_18_in_i_2;
-    const jg_real t222 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t171 + A_ji_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[37] = t222;
-    phi_q_t_lambda_q[64] = t222;
-    const jg_real t223 = -v_19_in_j_2;
-    phi_q_t_lambda_q[83] = t223;
-    phi_q_t_lambda_q[107] = t223;
+    phi_q_t_lambda_q[72] = t217;
+    phi_q_t_lambda_q[106] = t217;
     const jg_real v_19_in_i_2 = A_ji_6 * v_19_in_j_0 + A_ji_7 * v_19_in_j_1 + A_ji_8 * v_19_in_j_2;
+    const jg_real t219 = -v_14_in_i_2;
+    const jg_real t220 = -v_19_in_j_2;
+    const jg_real t221 = C_j[6] * t188 - (C_j[3] * v_15_in_joint_j_1 + C_j[0] * v_18_in_joint_j);
+    phi_q_t_lambda_q[80] = -t159;
     phi_q_t_lambda_q[41] = v_19_in_i_2;
     phi_q_t_lambda_q[104] = v_19_in_i_2;
-    const jg_real t225 = f_star_in_joint_j_1 * lambda[5];
-    const jg_real t226 = h_star_in_joint_j_2 * lambda[3];
-    const jg_real t227 = C_j[6] * t192 - (C_j[0] * v_18_in_joint_j + C_j[3] * v_15_in_joint_j_1);
-    phi_q_t_lambda_q[60] = t227;
-    phi_q_t_lambda_q[96] = t227;
-    const jg_real t228 = g_star_in_joint_j_0 * lambda[4];
-    const jg_real t229 = -v_14_in_i_2;
-    phi_q_t_lambda_q[39] = t229;
-    phi_q_t_lambda_q[86] = t229;
-    const jg_real t230 = C_j[7] * t192 - (C_j[1] * v_18_in_joint_j + C_j[4] * v_15_in_joint_j_1);
-    phi_q_t_lambda_q[71] = t230;
-    phi_q_t_lambda_q[97] = t230;
-    const jg_real t231 = C_j[8] * t192 - (C_j[2] * v_18_in_joint_j + C_j[5] * v_15_in_joint_j_1);
-    phi_q_t_lambda_q[82] = t231;
-    phi_q_t_lambda_q[98] = t231;
-    const jg_real t232 = sine_2 * h_star_in_joint_j_1 - cosine_2 * g_star_in_joint_j_1;
-    const jg_real t233 = sine_1 * lambda[5] * t232;
-    phi_q_t_lambda_q[110] = -t187;
-    const jg_real t234 = f_star_in_joint_j_2 * t98 - f_star_in_joint_j_0 * v_9_in_joint_j;
-    phi_q_t_lambda_q[101] = t234;
-    phi_q_t_lambda_q[109] = t234;
-    const jg_real t235 = lambda[3] * (H_21 * f_star_in_joint_j_2 + sine_1 * g_star_in_joint_j_2) + lambda[4] * (H_22
-        * f_star_in_joint_j_0 + sine_1 * h_star_in_joint_j_0);
-    phi_q_t_lambda_q[92] = t235;
-    phi_q_t_lambda_q[108] = t235;
-    phi_q_t_lambda_q[91] = t233 + t100 * (g_star_in_joint_j_2 * H_22 - H_21 * h_star_in_joint_j_2) + t99 *
-        (g_star_in_joint_j_0 * H_22 - H_21 * h_star_in_joint_j_0);
-    const jg_real t236 = sine_2 * h_star_in_joint_j_2;
+    phi_q_t_lambda_q[39] = t219;
+    phi_q_t_lambda_q[86] = t219;
+    phi_q_t_lambda_q[83] = t220;
+    phi_q_t_lambda_q[107] = t220;
+    phi_q_t_lambda_q[60] = t221;
+    phi_q_t_lambda_q[96] = t221;
+    const jg_real t222 = C_j[7] * t188 - (C_j[4] * v_15_in_joint_j_1 + C_j[1] * v_18_in_joint_j);
+    const jg_real t223 = C_j[8] * t188 - (C_j[5] * v_15_in_joint_j_1 + C_j[2] * v_18_in_joint_j);
+    const jg_real t224 = sine_1 * h_star_in_joint_j_1 - cosine_1 * g_star_in_joint_j_1;
+    const jg_real t225 = sine_2 * lambda[5] * t224;
+    const jg_real t226 = cosine_1 * v_19_in_star_1 - sine_1 * v_19_in_star_2;
+    phi_q_t_lambda_q[71] = t222;
+    phi_q_t_lambda_q[97] = t222;
+    phi_q_t_lambda_q[82] = t223;
+    phi_q_t_lambda_q[98] = t223;
+    phi_q_t_lambda_q[110] = -t181;
+    phi_q_t_lambda_q[101] = t226;
+    phi_q_t_lambda_q[109] = t226;
+    phi_q_t_lambda_q[91] = t225 + t82 * (g_star_in_joint_j_2 * H_22 - H_21 * h_star_in_joint_j_2) + t81 * (H_22 *
+        g_star_in_joint_j_0 - H_21 * h_star_in_joint_j_0);
+    const jg_real t227 = lambda[3] * (H_21 * f_star_in_joint_j_2 + sine_2 * g_star_in_joint_j_2) + lambda[4] * (H_22
+        * f_star_in_joint_j_0 + sine_2 * h_star_in_joint_j_0);
+    const jg_real v_22_in_i_2 = v_20_in_i_0 * v_21_in_i_1 - v_20_in_i_1 * v_21_in_i_0;
+    /* f_j_dot_omega_i = f_j . omega_i */
+    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    const jg_real t230 = sine_1 * h_star_in_joint_j_2;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
         omega_j[2];
-    const jg_real t238 = f_star_in_joint_j_1 * f_j_dot_omega_i - f_star_in_joint_j_0 * g_j_dot_omega_i;
+    const jg_real t232 = sine_1 * JG_REAL(2.0);
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_j_0 * omega_j[0] + g_star_in_j_1 * omega_j[1] + g_star_in_j_2 *
         omega_j[2];
     /* h_star_dot_omega_j = h_star . omega_j */
     const jg_real h_star_dot_omega_j = h_star_in_j_0 * omega_j[0] + h_star_in_j_1 * omega_j[1] + h_star_in_j_2 *
         omega_j[2];
-    phi_q_t_lambda_q[100] = -(t100 * v_4_in_joint_j_2 + t99 * v_4_in_joint_j_0 + lambda[5] * t106 *
-        f_star_in_joint_j_1 + lambda[5] * t101 * f_star_in_joint_j_1);
-    phi_q_t_lambda_q[99] = cosine_1 * (cosine_2 * (sine_2 * (t181 - t182) + lambda[3] * t175) + t228 * (JG_REAL(1.0)
-        - t101) - t226) + t233;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = f_star_dot_omega_j * f_star_dot_omega_j + g_star_dot_omega_j *
         g_star_dot_omega_j + h_star_dot_omega_j * h_star_dot_omega_j;
@@ -1770,87 +1742,96 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
         h_star_in_i_0 * h_star_dot_omega_j;
     const jg_real omega_j_in_i_1 = f_star_in_i_1 * f_star_dot_omega_j + g_star_in_i_1 * g_star_dot_omega_j +
         h_star_in_i_1 * h_star_dot_omega_j;
+    const jg_real t238 = f_star_in_joint_j_1 * f_j_dot_omega_i - f_star_in_joint_j_0 * g_j_dot_omega_i;
     const jg_real omega_j_in_i_2 = f_star_in_i_2 * f_star_dot_omega_j + g_star_in_i_2 * g_star_dot_omega_j +
         h_star_in_i_2 * h_star_dot_omega_j;
+    const jg_real t240 = sine_2 * alphadot[0] - t70;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_star_in_joint_j_0 * f_star_dot_omega_j + g_star_in_joint_j_0 *
         g_star_dot_omega_j + h_star_in_joint_j_0 * h_star_dot_omega_j;
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = f_star_in_joint_j_1 * f_star_dot_omega_j + g_star_in_joint_j_1 *
-        g_star_dot_omega_j + h_star_in_joint_j_1 * h_star_dot_omega_j;
-    const jg_real t247 = cosine_2 * g_star_in_joint_j_0;
     /* v_24_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_24_in_i_0 = v_20_in_i_0 - omega_j_in_i_0;
     const jg_real v_24_in_i_1 = v_20_in_i_1 - omega_j_in_i_1;
     const jg_real v_24_in_i_2 = v_20_in_i_2 - omega_j_in_i_2;
-    phi_q_t_lambda_q[90] = -(cosine_1 * (cosine_1 * (cosine_2 * (cosine_2 * (t181 + t225) - sine_2 * (t226 + t228))
-        + (t182 + t225) * t101) + sine_1 * (cosine_2 * (v_19_in_star_2 + h_star_in_joint_j_1 * lambda[5]) + sine_2 *
-        (v_19_in_star_1 + g_star_in_joint_j_1 * lambda[5]))) + sine_1 * sine_1 * t187);
-    /* g_star_dot_omega_i = g_star . omega_i */
-    const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = f_star_in_joint_j_1 * f_star_dot_omega_j + g_star_in_joint_j_1 *
+        g_star_dot_omega_j + h_star_in_joint_j_1 * h_star_dot_omega_j;
+    const jg_real t246 = cosine_1 * JG_REAL(2.0);
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
         omega_i[2];
+    const jg_real t248 = f_star_in_joint_j_1 * f_j_dot_omega_j - f_star_in_joint_j_0 * g_j_dot_omega_j;
+    const jg_real t249 = omega_i_dot_omega_j * JG_REAL(2.0);
+    const jg_real t250 = s_j_in_i_0 * v_24_in_i_0 + s_j_in_i_1 * v_24_in_i_1 + s_j_in_i_2 * v_24_in_i_2;
+    const jg_real t251 = h_star_in_joint_j_1 * f_j_dot_omega_i - h_star_in_joint_j_0 * g_j_dot_omega_i -
+        (h_star_in_joint_j_1 * f_j_dot_omega_j - h_star_in_joint_j_0 * g_j_dot_omega_j);
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = f_star_in_joint_j_2 * f_star_dot_omega_j + g_star_in_joint_j_2 *
         g_star_dot_omega_j + h_star_in_joint_j_2 * h_star_dot_omega_j;
-    const jg_real t253 = f_star_in_joint_j_2 * g_j_dot_omega_i - f_star_in_joint_j_1 * h_j_dot_omega_i;
-    const jg_real t254 = f_star_in_joint_j_1 * f_j_dot_omega_j - f_star_in_joint_j_0 * g_j_dot_omega_j;
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
-    const jg_real t256 = h_star_in_joint_j_1 * f_j_dot_omega_i - h_star_in_joint_j_0 * g_j_dot_omega_i -
-        (h_star_in_joint_j_1 * f_j_dot_omega_j - h_star_in_joint_j_0 * g_j_dot_omega_j);
+    const jg_real t253 = omega_i_dot_omega_i - t249 + omega_j_dot_omega_j;
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
+    const jg_real t255 = cosine_1 * g_star_in_joint_j_0;
+    /* g_star_dot_omega_i = g_star . omega_i */
+    const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+        omega_i[2];
     const jg_real t257 = f_star_in_joint_j_2 * g_j_dot_omega_j - f_star_in_joint_j_1 * h_j_dot_omega_j;
-    const jg_real t258 = JG_REAL(2.0) * omega_i_dot_omega_j;
-    const jg_real t259 = s_j_in_i_0 * v_24_in_i_0 + s_j_in_i_1 * v_24_in_i_1 + s_j_in_i_2 * v_24_in_i_2;
-    const jg_real t260 = g_star_in_joint_j_2 * g_j_dot_omega_i - g_star_in_joint_j_1 * h_j_dot_omega_i -
+    /* v_25_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
+    const jg_real v_25_in_i_0 = s_j_in_i_0 * t253 + omega_j_in_i_0 * t250;
+    const jg_real v_25_in_i_1 = s_j_in_i_1 * t253 + omega_j_in_i_1 * t250;
+    const jg_real v_25_in_i_2 = s_j_in_i_2 * t253 + omega_j_in_i_2 * t250;
+    const jg_real t261 = f_star_in_joint_j_2 * g_j_dot_omega_i - f_star_in_joint_j_1 * h_j_dot_omega_i;
+    /* v_27_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_27_in_i_0 = v_25_in_i_0 + v_23_in_i_0 - v_26_in_i_0;
+    const jg_real v_27_in_i_1 = v_25_in_i_1 + v_23_in_i_1 - v_26_in_i_1;
+    const jg_real v_27_in_i_2 = v_25_in_i_2 + v_23_in_i_2 - v_26_in_i_2;
+    /* v_28_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_28_in_i_0 = v_27_in_i_0 + v_22_in_i_0;
+    const jg_real v_28_in_i_1 = v_27_in_i_1 + v_22_in_i_1;
+    const jg_real v_28_in_i_2 = v_27_in_i_2 + v_22_in_i_2;
+    phi_q_t_lambda_q[92] = t227;
+    phi_q_t_lambda_q[108] = t227;
+    phi_q_t_lambda_q[100] = -(t82 * v_4_in_joint_j_2 + t81 * v_4_in_joint_j_0 + t162 * t84 + t162 * t83);
+    phi_q_t_lambda_q[90] = -(cosine_2 * (sine_2 * (cosine_1 * (t152 + v_19_in_star_2) + sine_1 * (t155 +
+        v_19_in_star_1)) + cosine_2 * (cosine_1 * (cosine_1 * (t156 + t162) - sine_1 * (t166 + t168)) + (t153 +
+        t162) * t83)) + sine_2 * sine_2 * t181);
+    phi_q_t_lambda_q[99] = t225 + cosine_2 * (cosine_1 * (sine_1 * (t156 - t153) + lambda[3] * t173) + t168 *
+        (JG_REAL(1.0) - t83) - t166);
+    gamma[0] = v_28_in_i_0;
+    gamma[1] = v_28_in_i_1;
+    gamma[2] = v_28_in_i_2;
+    const jg_real t268 = g_star_in_joint_j_2 * g_j_dot_omega_i - g_star_in_joint_j_1 * h_j_dot_omega_i -
         (g_star_in_joint_j_2 * g_j_dot_omega_j - g_star_in_joint_j_1 * h_j_dot_omega_j);
-    const jg_real t261 = omega_i_dot_omega_i - t258 + omega_j_dot_omega_j;
+    const jg_real t269 = g_star_in_joint_j_0 * h_j_dot_omega_j - g_star_in_joint_j_2 * f_j_dot_omega_j;
     /* h_star_dot_omega_i = h_star . omega_i */
     const jg_real h_star_dot_omega_i = h_star_in_i_0 * omega_i[0] + h_star_in_i_1 * omega_i[1] + h_star_in_i_2 *
         omega_i[2];
-    const jg_real t263 = g_star_in_joint_j_0 * h_j_dot_omega_j - g_star_in_joint_j_2 * f_j_dot_omega_j;
-    const jg_real t264 = g_star_in_joint_j_0 * h_j_dot_omega_i - g_star_in_joint_j_2 * f_j_dot_omega_i;
-    /* v_25_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_25_in_i_0 = s_j_in_i_0 * t261 + omega_j_in_i_0 * t259;
-    const jg_real v_25_in_i_1 = s_j_in_i_1 * t261 + omega_j_in_i_1 * t259;
-    const jg_real v_25_in_i_2 = s_j_in_i_2 * t261 + omega_j_in_i_2 * t259;
-    const jg_real t268 = h_star_in_joint_j_0 * h_j_dot_omega_j - h_star_in_joint_j_2 * f_j_dot_omega_j;
-    const jg_real t269 = h_star_in_joint_j_0 * h_j_dot_omega_i - h_star_in_joint_j_2 * f_j_dot_omega_i;
-    /* v_27_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_27_in_i_0 = v_23_in_i_0 + v_25_in_i_0 - v_26_in_i_0;
-    const jg_real v_27_in_i_1 = v_23_in_i_1 + v_25_in_i_1 - v_26_in_i_1;
-    const jg_real v_27_in_i_2 = v_23_in_i_2 + v_25_in_i_2 - v_26_in_i_2;
-    /* v_28_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_28_in_i_0 = v_22_in_i_0 + v_27_in_i_0;
-    gamma[0] = v_28_in_i_0;
-    const jg_real v_28_in_i_1 = v_22_in_i_1 + v_27_in_i_1;
-    gamma[1] = v_28_in_i_1;
-    const jg_real v_28_in_i_2 = v_22_in_i_2 + v_27_in_i_2;
-    gamma[2] = v_28_in_i_2;
+    const jg_real t271 = g_star_in_joint_j_0 * h_j_dot_omega_i - g_star_in_joint_j_2 * f_j_dot_omega_i;
+    const jg_real t272 = h_star_in_joint_j_0 * h_j_dot_omega_j - h_star_in_joint_j_2 * f_j_dot_omega_j;
+    const jg_real t273 = h_star_in_joint_j_0 * h_j_dot_omega_i - h_star_in_joint_j_2 * f_j_dot_omega_i;
     /* f_star_dot_omega_i = f_star . omega_i */
     const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
-    gamma[3] = alphadot[0] * (cosine_1 * (cosine_2 * ((cosine_2 * g_star_in_joint_j_2 - t236) * t109 - alphadot[1] *
-        (t175 + g_star_in_joint_j_2 * t110) + JG_REAL(2.0) * (t238 - t254)) + sine_2 * (f_star_in_joint_j_2 * t112 +
-        alphadot[1] * t236) + h_star_in_joint_j_2 * alphadot[1]) + sine_1 * (g_star_in_joint_j_2 * t112 +
-        JG_REAL(2.0) * t256)) + g_star_in_joint_j_2 * (omega_i_dot_omega_i + t101 * alphadot[1] * alphadot[1] - t258
-        + omega_j_dot_omega_j + t71) + alphadot[1] * (sine_2 * (t175 * alphadot[1] + JG_REAL(2.0) * t254 -
-        JG_REAL(2.0) * t238) - f_star_in_joint_j_2 * t111 * alphadot[2]) + g_star_dot_omega_j * (JG_REAL(2.0) *
-        h_j_dot_omega_i - h_j_dot_omega_j) - t70 * t256 - h_j_dot_omega_i * g_star_dot_omega_i;
-    gamma[4] = -(alphadot[0] * (cosine_1 * (sine_2 * (t109 * (t247 - sine_2 * h_star_in_joint_j_0) - alphadot[1] *
-        (t178 + h_star_in_joint_j_0 * t111) + JG_REAL(2.0) * (t253 - t257)) + cosine_2 * (alphadot[1] * t247 -
-        f_star_in_joint_j_0 * t112) + g_star_in_joint_j_0 * alphadot[1]) + sine_1 * (JG_REAL(2.0) * t260 -
-        h_star_in_joint_j_0 * t112)) + h_star_in_joint_j_0 * (t258 - (omega_i_dot_omega_i + t106 * alphadot[1] *
-        alphadot[1]) - omega_j_dot_omega_j - t71) + alphadot[1] * (cosine_2 * (JG_REAL(2.0) * t253 - (t178 *
-        alphadot[1] + JG_REAL(2.0) * t257)) - f_star_in_joint_j_0 * t110 * alphadot[2]) - t70 * t260 +
-        h_star_dot_omega_j * (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) + f_j_dot_omega_i *
-        h_star_dot_omega_i);
-    gamma[5] = alphadot[0] * (cosine_1 * (cosine_2 * (alphadot[0] * (H_22 * f_star_in_joint_j_1 + sine_1 *
-        h_star_in_joint_j_1) + JG_REAL(2.0) * (t263 - t264)) + sine_2 * (alphadot[0] * (H_21 * f_star_in_joint_j_1 +
-        sine_1 * g_star_in_joint_j_1) + JG_REAL(2.0) * (t269 - t268))) - sine_1 * JG_REAL(2.0) * alphadot[1] * t232)
-        + alphadot[1] * (cosine_2 * (cosine_2 * f_star_in_joint_j_1 * alphadot[1] - JG_REAL(2.0) * t268 +
-        JG_REAL(2.0) * t269) + sine_2 * (sine_2 * f_star_in_joint_j_1 * alphadot[1] - JG_REAL(2.0) * t263 +
-        JG_REAL(2.0) * t264)) + f_star_in_joint_j_1 * t261 + f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i -
+    gamma[3] = alphadot[0] * (cosine_2 * (cosine_1 * ((cosine_1 * g_star_in_joint_j_2 - t230) * t108 - (t173 +
+        g_star_in_joint_j_2 * t232) * alphadot[1] + JG_REAL(2.0) * (t238 - t248)) + sine_1 * (f_star_in_joint_j_2 *
+        t240 + t230 * alphadot[1]) + h_star_in_joint_j_2 * alphadot[1]) + sine_2 * (JG_REAL(2.0) * t251 +
+        g_star_in_joint_j_2 * t240)) + g_star_in_joint_j_2 * (omega_i_dot_omega_i + t83 * alphadot[1] * alphadot[1]
+        - t249 + omega_j_dot_omega_j + t72) + alphadot[1] * (sine_1 * (JG_REAL(2.0) * t248 + t173 * alphadot[1] -
+        JG_REAL(2.0) * t238) - f_star_in_joint_j_2 * t246 * alphadot[2]) + g_star_dot_omega_j * (JG_REAL(2.0) *
+        h_j_dot_omega_i - h_j_dot_omega_j) - t70 * t251 - h_j_dot_omega_i * g_star_dot_omega_i;
+    gamma[4] = -(alphadot[0] * (cosine_2 * (sine_1 * (t108 * (t255 - sine_1 * h_star_in_joint_j_0) - alphadot[1] *
+        (t179 + h_star_in_joint_j_0 * t246) + JG_REAL(2.0) * (t261 - t257)) + cosine_1 * (alphadot[1] * t255 -
+        f_star_in_joint_j_0 * t240) + g_star_in_joint_j_0 * alphadot[1]) + sine_2 * (JG_REAL(2.0) * t268 -
+        h_star_in_joint_j_0 * t240)) + h_star_in_joint_j_0 * (t249 - (omega_i_dot_omega_i + t84 * alphadot[1] *
+        alphadot[1]) - omega_j_dot_omega_j - t72) + alphadot[1] * (cosine_1 * (JG_REAL(2.0) * t261 - (JG_REAL(2.0) *
+        t257 + t179 * alphadot[1])) - f_star_in_joint_j_0 * t232 * alphadot[2]) - t70 * t268 + h_star_dot_omega_j *
+        (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) + f_j_dot_omega_i * h_star_dot_omega_i);
+    gamma[5] = alphadot[0] * (cosine_2 * (cosine_1 * (JG_REAL(2.0) * (t269 - t271) + alphadot[0] * (H_22 *
+        f_star_in_joint_j_1 + sine_2 * h_star_in_joint_j_1)) + sine_1 * (JG_REAL(2.0) * (t273 - t272) + alphadot[0]
+        * (H_21 * f_star_in_joint_j_1 + sine_2 * g_star_in_joint_j_1))) - sine_2 * JG_REAL(2.0) * alphadot[1] *
+        t224) + alphadot[1] * (cosine_1 * (cosine_1 * f_star_in_joint_j_1 * alphadot[1] - JG_REAL(2.0) * t272 +
+        JG_REAL(2.0) * t273) + sine_1 * (sine_1 * f_star_in_joint_j_1 * alphadot[1] - JG_REAL(2.0) * t269 +
+        JG_REAL(2.0) * t271)) + f_star_in_joint_j_1 * t253 + f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i -
         g_j_dot_omega_j) - g_j_dot_omega_i * f_star_dot_omega_i;
 }
 

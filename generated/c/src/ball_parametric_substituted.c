@@ -4,10 +4,6 @@
  * joint ball, form parametric, rows regular, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/ball.h"
 
 const int *jg_ball_parametric_substituted_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_ball_parametric_substituted_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_ball_parametric_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -64,11 +59,8 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     /* H_21 =  */
     const jg_real H_21 = sine_2 * cosine_1;
     /* H_00 =  */
@@ -98,39 +90,35 @@ void jg_ball_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    phi[5] = f_star_dot_g_j;
+    const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
-    phi[3] = g_star_dot_h_j;
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[3] = g_star_dot_h_j;
+    phi[5] = f_star_dot_g_j;
     phi[4] = h_star_dot_f_j;
 }
 
-void jg_ball_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_ball_parametric_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q[3] = s_i[2];
-    phi_q[13] = s_i[1];
-    phi_q[4] = -s_i[1];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -140,6 +128,12 @@ void jg_ball_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, c
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[3] = s_i[2];
+    phi_q[13] = s_i[1];
+    phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[9] = s_i[0];
     phi_q[14] = -s_i[0];
@@ -150,63 +144,63 @@ void jg_ball_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, c
     phi_q[37] = -C_j[4];
     phi_q[38] = -C_j[7];
     phi_q[42] = -C_j[2];
-    phi_q[43] = -C_j[5];
-    phi_q[44] = -C_j[8];
-    phi_q[50] = JG_REAL(1.0);
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
     /* H_10 =  */
     const jg_real H_10 = cosine_1 * sine_0;
-    phi_q[48] = cosine_2;
     /* H_21 =  */
     const jg_real H_21 = cosine_1 * sine_2;
+    /* H_01 =  */
+    const jg_real H_01 = cosine_0 * sine_1 * sine_2 - sine_0 * cosine_2;
+    phi_q[43] = -C_j[5];
+    phi_q[44] = -C_j[8];
+    phi_q[50] = JG_REAL(1.0);
+    phi_q[48] = cosine_2;
     phi_q[46] = H_21;
     phi_q[45] = -sine_1;
     phi_q[47] = cosine_1 * cosine_2;
     phi_q[49] = -sine_2;
-    /* H_01 =  */
-    const jg_real H_01 = cosine_0 * sine_1 * sine_2 - sine_0 * cosine_2;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_2 + sine_0 * sine_1 * sine_2;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_0 = H_00 * C_i[0] + H_10 * C_i[3] - sine_1 * C_i[6];
-    phi_q[5] = f_j_in_i_0;
     const jg_real f_j_in_i_1 = H_00 * C_i[1] + H_10 * C_i[4] - sine_1 * C_i[7];
-    phi_q[10] = f_j_in_i_1;
     const jg_real f_j_in_i_2 = H_00 * C_i[2] + H_10 * C_i[5] - sine_1 * C_i[8];
-    phi_q[15] = f_j_in_i_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = C_i[0] * H_01 + C_i[3] * H_11 + C_i[6] * H_21;
-    phi_q[6] = g_j_in_i_0;
     const jg_real g_j_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
-    phi_q[16] = g_j_in_i_2;
     const jg_real g_j_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
-    phi_q[11] = g_j_in_i_1;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    phi_q[7] = h_j_in_i_0;
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
+    phi_q[5] = f_j_in_i_0;
+    phi_q[10] = f_j_in_i_1;
+    phi_q[15] = f_j_in_i_2;
+    phi_q[6] = g_j_in_i_0;
+    phi_q[16] = g_j_in_i_2;
+    phi_q[11] = g_j_in_i_1;
+    phi_q[7] = h_j_in_i_0;
     phi_q[12] = h_j_in_i_1;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
-    phi_q[17] = h_j_in_i_2;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_0 = C_j[0] * f_j_in_i_0 + C_j[3] * g_j_in_i_0 + C_j[6] * h_j_in_i_0;
-    phi_q[18] = A_ij_0;
     const jg_real A_ij_1 = C_j[0] * f_j_in_i_1 + C_j[3] * g_j_in_i_1 + C_j[6] * h_j_in_i_1;
-    phi_q[19] = A_ij_1;
     const jg_real A_ij_7 = f_j_in_i_1 * C_j[2] + g_j_in_i_1 * C_j[5] + h_j_in_i_1 * C_j[8];
-    phi_q[25] = A_ij_7;
     const jg_real A_ij_2 = C_j[0] * f_j_in_i_2 + C_j[3] * g_j_in_i_2 + C_j[6] * h_j_in_i_2;
-    phi_q[20] = A_ij_2;
     const jg_real A_ij_8 = f_j_in_i_2 * C_j[2] + g_j_in_i_2 * C_j[5] + h_j_in_i_2 * C_j[8];
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_6 = f_j_in_i_0 * C_j[2] + g_j_in_i_0 * C_j[5] + h_j_in_i_0 * C_j[8];
-    phi_q[24] = A_ij_6;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    phi_q[17] = h_j_in_i_2;
+    phi_q[18] = A_ij_0;
+    phi_q[19] = A_ij_1;
+    phi_q[25] = A_ij_7;
+    phi_q[20] = A_ij_2;
+    phi_q[26] = A_ij_8;
+    phi_q[24] = A_ij_6;
     phi_q[21] = A_ij_3;
     const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
-    phi_q[22] = A_ij_4;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
+    phi_q[22] = A_ij_4;
     phi_q[23] = A_ij_5;
     phi_q[33] = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
     phi_q[34] = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
@@ -227,8 +221,8 @@ void jg_ball_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha
     jg_scatter(jg_ball_parametric_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_ball_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_ball_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -250,46 +244,40 @@ void jg_ball_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real H_10 = cosine_1 * sine_0;
     const jg_real t9 = cosine_1 * lambda[3];
     const jg_real t10 = cosine_1 * sine_2;
-    const jg_real t11 = sine_2 * lambda[3];
-    const jg_real t12 = lambda[4] * sine_2;
-    const jg_real t13 = cosine_2 * lambda[5];
-    const jg_real t14 = cosine_2 * lambda[3];
     /* H_02 =  */
     const jg_real H_02 = cosine_0 * sine_1 * cosine_2 + sine_2 * sine_0;
-    const jg_real t16 = sine_2 * cosine_0 - sine_0 * sine_1 * cosine_2;
-    const jg_real t17 = t12 + t13;
-    const jg_real t18 = lambda[5] * sine_1 + cosine_2 * t9;
-    const jg_real t19 = H_22 * lambda[4] - t10 * lambda[5];
-    phi_q_t_lambda_q[28] = t19;
-    const jg_real t20 = lambda[4] * sine_1 + sine_2 * t9;
+    const jg_real t12 = sine_2 * cosine_0 - sine_0 * sine_1 * cosine_2;
+    const jg_real t13 = lambda[5] * sine_1 + cosine_2 * t9;
+    const jg_real t14 = H_22 * lambda[4] - t10 * lambda[5];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = H_00 * C_i[2] + H_10 * C_i[5] - sine_1 * C_i[8];
-    phi_q_t_lambda_q[29] = -t17;
+    const jg_real t16 = lambda[4] * sine_1 + sine_2 * t9;
+    const jg_real t17 = sine_2 * lambda[3];
+    const jg_real t18 = lambda[4] * sine_2;
     const jg_real f_j_in_i_1 = H_00 * C_i[1] + H_10 * C_i[4] - sine_1 * C_i[7];
+    const jg_real t20 = cosine_2 * lambda[5];
+    const jg_real t21 = cosine_2 * lambda[3];
     const jg_real f_j_in_i_0 = H_00 * C_i[0] + H_10 * C_i[3] - sine_1 * C_i[6];
+    const jg_real t23 = t18 + t20;
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t16 + H_22 * C_i[7];
-    const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t16 + H_22 * C_i[8];
-    const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t16 + H_22 * C_i[6];
-    phi_q_t_lambda_q[18] = -(t9 + sine_1 * t12 + sine_1 * t13);
-    /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_0 = f_j_in_i_0 * lambda[0] + f_j_in_i_1 * lambda[1] + f_j_in_i_2 *
-        lambda[2];
+    const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t12 + H_22 * C_i[7];
+    const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t12 + H_22 * C_i[8];
+    const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t12 + H_22 * C_i[6];
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
     const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
     const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
+    /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
+    const jg_real lambda_0_1_2_in_joint_j_0 = f_j_in_i_0 * lambda[0] + f_j_in_i_1 * lambda[1] + f_j_in_i_2 *
+        lambda[2];
     const jg_real lambda_0_1_2_in_joint_j_2 = h_j_in_i_0 * lambda[0] + h_j_in_i_1 * lambda[1] + h_j_in_i_2 *
         lambda[2];
     /* v_0_in_i = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
-    const jg_real v_0_in_i_0 = t19 * f_j_in_i_0 - t18 * g_j_in_i_0 + h_j_in_i_0 * t20;
-    const jg_real v_0_in_i_1 = t19 * f_j_in_i_1 - t18 * g_j_in_i_1 + h_j_in_i_1 * t20;
+    const jg_real v_0_in_i_0 = t14 * f_j_in_i_0 - t13 * g_j_in_i_0 + h_j_in_i_0 * t16;
+    const jg_real v_0_in_i_1 = t14 * f_j_in_i_1 - t13 * g_j_in_i_1 + h_j_in_i_1 * t16;
     const jg_real lambda_0_1_2_in_joint_j_1 = g_j_in_i_0 * lambda[0] + g_j_in_i_1 * lambda[1] + g_j_in_i_2 *
         lambda[2];
-    phi_q_t_lambda_q[19] = lambda[4] * h_j_in_i_0 - lambda[5] * g_j_in_i_0;
-    const jg_real v_0_in_i_2 = t19 * f_j_in_i_2 - t18 * g_j_in_i_2 + h_j_in_i_2 * t20;
-    phi_q_t_lambda_q[20] = lambda[4] * h_j_in_i_1 - lambda[5] * g_j_in_i_1;
-    phi_q_t_lambda_q[21] = lambda[4] * h_j_in_i_2 - lambda[5] * g_j_in_i_2;
+    const jg_real v_0_in_i_2 = t14 * f_j_in_i_2 - t13 * g_j_in_i_2 + h_j_in_i_2 * t16;
     /* g_j_cross_lambda_0_1_2_in_j = g_j x lambda_0_1_2, axes of body j */
     const jg_real g_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_2 * C_j[0] - lambda_0_1_2_in_joint_j_0 *
         C_j[6];
@@ -298,21 +286,23 @@ void jg_ball_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
     const jg_real g_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_2 * C_j[2] - lambda_0_1_2_in_joint_j_0 *
         C_j[8];
     /* v_1_in_i = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
-    const jg_real v_1_in_i_0 = f_j_in_i_0 * t17 - g_j_in_i_0 * t11 - h_j_in_i_0 * t14;
-    phi_q_t_lambda_q[9] = v_1_in_i_0;
-    phi_q_t_lambda_q[0] = -v_0_in_i_0;
-    const jg_real v_1_in_i_1 = f_j_in_i_1 * t17 - g_j_in_i_1 * t11 - h_j_in_i_1 * t14;
-    phi_q_t_lambda_q[10] = v_1_in_i_1;
-    const jg_real v_1_in_i_2 = f_j_in_i_2 * t17 - g_j_in_i_2 * t11 - h_j_in_i_2 * t14;
-    phi_q_t_lambda_q[11] = v_1_in_i_2;
-    phi_q_t_lambda_q[1] = -v_0_in_i_1;
-    phi_q_t_lambda_q[2] = -v_0_in_i_2;
+    const jg_real v_1_in_i_0 = f_j_in_i_0 * t23 - g_j_in_i_0 * t17 - h_j_in_i_0 * t21;
+    const jg_real v_1_in_i_1 = f_j_in_i_1 * t23 - g_j_in_i_1 * t17 - h_j_in_i_1 * t21;
     /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
     const jg_real f_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[6] - lambda_0_1_2_in_joint_j_2 *
         C_j[3];
     /* h_j_cross_lambda_0_1_2_in_j = h_j x lambda_0_1_2, axes of body j */
     const jg_real h_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[3] - lambda_0_1_2_in_joint_j_1 *
         C_j[0];
+    const jg_real v_1_in_i_2 = f_j_in_i_2 * t23 - g_j_in_i_2 * t17 - h_j_in_i_2 * t21;
+    phi_q_t_lambda_q[28] = t14;
+    phi_q_t_lambda_q[18] = -(t9 + sine_1 * t18 + sine_1 * t20);
+    phi_q_t_lambda_q[0] = -v_0_in_i_0;
+    phi_q_t_lambda_q[1] = -v_0_in_i_1;
+    phi_q_t_lambda_q[2] = -v_0_in_i_2;
+    phi_q_t_lambda_q[9] = v_1_in_i_0;
+    phi_q_t_lambda_q[10] = v_1_in_i_1;
+    phi_q_t_lambda_q[11] = v_1_in_i_2;
     const jg_real f_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_1 * C_j[7] - lambda_0_1_2_in_joint_j_2 *
         C_j[4];
     const jg_real h_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[4] - lambda_0_1_2_in_joint_j_1 *
@@ -321,39 +311,43 @@ void jg_ball_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRI
         C_j[5];
     const jg_real h_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[5] - lambda_0_1_2_in_joint_j_1 *
         C_j[2];
-    phi_q_t_lambda_q[22] = -f_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[23] = -f_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[24] = -f_j_cross_lambda_0_1_2_in_j_2;
     /* v_4_in_j = cos(alpha_2) g_j x lambda_0_1_2 - sin(alpha_2) h_j x lambda_0_1_2, axes of body j */
     const jg_real v_4_in_j_0 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_0 - sine_2 * h_j_cross_lambda_0_1_2_in_j_0;
     const jg_real v_4_in_j_1 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_1 - sine_2 * h_j_cross_lambda_0_1_2_in_j_1;
     const jg_real v_4_in_j_2 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_2 - sine_2 * h_j_cross_lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[25] = f_j_cross_lambda_0_1_2_in_j_1 * s_j[2] - f_j_cross_lambda_0_1_2_in_j_2 * s_j[1];
-    phi_q_t_lambda_q[26] = f_j_cross_lambda_0_1_2_in_j_2 * s_j[0] - f_j_cross_lambda_0_1_2_in_j_0 * s_j[2];
     /* v_3_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
     const jg_real v_3_in_j_0 = sine_1 * f_j_cross_lambda_0_1_2_in_j_0 - t10 * g_j_cross_lambda_0_1_2_in_j_0 - H_22 *
         h_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[19] = lambda[4] * h_j_in_i_0 - lambda[5] * g_j_in_i_0;
+    phi_q_t_lambda_q[20] = lambda[4] * h_j_in_i_1 - lambda[5] * g_j_in_i_1;
+    phi_q_t_lambda_q[22] = -f_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[23] = -f_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[24] = -f_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[21] = lambda[4] * h_j_in_i_2 - lambda[5] * g_j_in_i_2;
     phi_q_t_lambda_q[3] = v_3_in_j_0;
     phi_q_t_lambda_q[12] = -v_4_in_j_0;
     const jg_real v_3_in_j_1 = sine_1 * f_j_cross_lambda_0_1_2_in_j_1 - t10 * g_j_cross_lambda_0_1_2_in_j_1 - H_22 *
         h_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[4] = v_3_in_j_1;
     const jg_real v_3_in_j_2 = sine_1 * f_j_cross_lambda_0_1_2_in_j_2 - t10 * g_j_cross_lambda_0_1_2_in_j_2 - H_22 *
         h_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[4] = v_3_in_j_1;
     phi_q_t_lambda_q[5] = v_3_in_j_2;
     phi_q_t_lambda_q[13] = -v_4_in_j_1;
     phi_q_t_lambda_q[14] = -v_4_in_j_2;
-    phi_q_t_lambda_q[27] = f_j_cross_lambda_0_1_2_in_j_0 * s_j[1] - f_j_cross_lambda_0_1_2_in_j_1 * s_j[0];
+    phi_q_t_lambda_q[25] = f_j_cross_lambda_0_1_2_in_j_1 * s_j[2] - f_j_cross_lambda_0_1_2_in_j_2 * s_j[1];
     phi_q_t_lambda_q[15] = v_4_in_j_1 * s_j[2] - v_4_in_j_2 * s_j[1];
     phi_q_t_lambda_q[16] = v_4_in_j_2 * s_j[0] - v_4_in_j_0 * s_j[2];
-    phi_q_t_lambda_q[17] = v_4_in_j_0 * s_j[1] - v_4_in_j_1 * s_j[0];
+    phi_q_t_lambda_q[29] = -t23;
     /* v_5_in_j = sin(alpha_1) (s_j . lambda_0_1_2) f_j - cos(alpha_1) sin(alpha_2) (s_j . lambda_0_1_2) g_j ... */
     const jg_real v_5_in_j_2 = v_3_in_j_1 * s_j[0] - v_3_in_j_0 * s_j[1];
-    phi_q_t_lambda_q[8] = v_5_in_j_2;
     const jg_real v_5_in_j_0 = v_3_in_j_2 * s_j[1] - v_3_in_j_1 * s_j[2];
-    phi_q_t_lambda_q[6] = v_5_in_j_0;
     const jg_real v_5_in_j_1 = v_3_in_j_0 * s_j[2] - v_3_in_j_2 * s_j[0];
+    phi_q_t_lambda_q[17] = v_4_in_j_0 * s_j[1] - v_4_in_j_1 * s_j[0];
+    phi_q_t_lambda_q[8] = v_5_in_j_2;
+    phi_q_t_lambda_q[6] = v_5_in_j_0;
     phi_q_t_lambda_q[7] = v_5_in_j_1;
+    phi_q_t_lambda_q[26] = f_j_cross_lambda_0_1_2_in_j_2 * s_j[0] - f_j_cross_lambda_0_1_2_in_j_0 * s_j[2];
+    phi_q_t_lambda_q[27] = f_j_cross_lambda_0_1_2_in_j_0 * s_j[1] - f_j_cross_lambda_0_1_2_in_j_1 * s_j[0];
 }
 
 void jg_ball_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -364,8 +358,8 @@ void jg_ball_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RES
     jg_scatter(jg_ball_parametric_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_substituted_gamma(const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -392,12 +386,12 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
     const jg_real omega_j_in_joint_j_0 = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     const jg_real omega_j_in_joint_j_1 = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     const jg_real omega_j_in_joint_j_2 = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
     const jg_real t18 = cosine_0 * sine_1;
@@ -409,36 +403,36 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
     const jg_real v_2_in_joint_j = sine_0 * alphadot[0] - alphadot[2];
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_2;
+    const jg_real t24 = alphadot[0] * t18 + t19;
     /* H_10 =  */
     const jg_real H_10 = cosine_0 * sine_2;
-    const jg_real t25 = alphadot[0] * t18 + t19;
     const jg_real t26 = alphadot[0] * H_22 - t21;
     /* v_0_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
     const jg_real v_0_in_joint_j_0 = v_2_in_joint_j + omega_j_in_joint_j_0;
-    const jg_real v_0_in_joint_j_1 = omega_j_in_joint_j_1 - t25;
     const jg_real v_0_in_joint_j_2 = omega_j_in_joint_j_2 - t26;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * cosine_2 * cosine_1 + sine_1 * sine_2;
+    const jg_real v_0_in_joint_j_1 = omega_j_in_joint_j_1 - t24;
     const jg_real t31 = sine_1 * cosine_2 - sine_0 * sine_2 * cosine_1;
+    const jg_real t32 = v_2_in_joint_j * s_j_in_joint_j_0 - t24 * s_j_in_joint_j_1 - t26 * s_j_in_joint_j_2;
+    const jg_real t33 = v_2_in_joint_j * omega_j_in_joint_j_0 - t24 * omega_j_in_joint_j_1 - t26 *
+        omega_j_in_joint_j_2;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_0 = H_00 * C_i[0] + H_10 * C_i[3] - sine_0 * C_i[6];
     const jg_real f_j_in_i_2 = H_00 * C_i[2] + H_10 * C_i[5] - sine_0 * C_i[8];
     const jg_real f_j_in_i_1 = H_00 * C_i[1] + H_10 * C_i[4] - sine_0 * C_i[7];
-    const jg_real t35 = v_2_in_joint_j * s_j_in_joint_j_0 - t25 * s_j_in_joint_j_1 - t26 * s_j_in_joint_j_2;
-    const jg_real t36 = v_2_in_joint_j * omega_j_in_joint_j_0 - t25 * omega_j_in_joint_j_1 - t26 *
-        omega_j_in_joint_j_2;
     /* v_1_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
         ... */
-    const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_1 * v_0_in_joint_j_0 - v_j_in_joint_j_0 * v_0_in_joint_j_1;
     const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_0 * v_0_in_joint_j_2 - v_j_in_joint_j_2 * v_0_in_joint_j_0;
     const jg_real v_1_in_joint_j_0 = v_j_in_joint_j_2 * v_0_in_joint_j_1 - v_j_in_joint_j_1 * v_0_in_joint_j_2;
+    /* v_3_in_joint_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
+    const jg_real v_3_in_joint_j_0 = omega_j_in_joint_j_0 * t32 - t33 * s_j_in_joint_j_0;
+    const jg_real v_3_in_joint_j_1 = omega_j_in_joint_j_1 * t32 - t33 * s_j_in_joint_j_1;
+    const jg_real v_3_in_joint_j_2 = omega_j_in_joint_j_2 * t32 - t33 * s_j_in_joint_j_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t31 + H_22 * C_i[7];
     const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t31 + H_22 * C_i[8];
-    /* v_3_in_joint_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_3_in_joint_j_0 = omega_j_in_joint_j_0 * t35 - t36 * s_j_in_joint_j_0;
-    const jg_real v_3_in_joint_j_1 = omega_j_in_joint_j_1 * t35 - t36 * s_j_in_joint_j_1;
-    const jg_real v_3_in_joint_j_2 = omega_j_in_joint_j_2 * t35 - t36 * s_j_in_joint_j_2;
+    const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_1 * v_0_in_joint_j_0 - v_j_in_joint_j_0 * v_0_in_joint_j_1;
     const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t31 + H_22 * C_i[6];
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
@@ -459,29 +453,29 @@ void jg_ball_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, cons
         v_3_in_joint_j_2;
     const jg_real v_1_in_i_1 = v_1_in_joint_j_0 * f_j_in_i_1 + v_1_in_joint_j_1 * g_j_in_i_1 + v_1_in_joint_j_2 *
         h_j_in_i_1;
+    /* g_j_dot_omega_i = g_j . omega_i */
+    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
     const jg_real v_3_in_i_2 = f_j_in_i_2 * v_3_in_joint_j_0 + g_j_in_i_2 * v_3_in_joint_j_1 + h_j_in_i_2 *
         v_3_in_joint_j_2;
     const jg_real v_1_in_i_2 = v_1_in_joint_j_0 * f_j_in_i_2 + v_1_in_joint_j_1 * g_j_in_i_2 + v_1_in_joint_j_2 *
         h_j_in_i_2;
-    /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
     /* v_4_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_4_in_i_0 = v_1_in_i_0 - omega_i_cross_v_i_in_i_0 + v_3_in_i_0;
-    gamma[0] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = v_1_in_i_1 - omega_i_cross_v_i_in_i_1 + v_3_in_i_1;
-    gamma[1] = v_4_in_i_1;
     const jg_real v_4_in_i_2 = v_1_in_i_2 - omega_i_cross_v_i_in_i_2 + v_3_in_i_2;
+    gamma[0] = v_4_in_i_0;
+    gamma[1] = v_4_in_i_1;
     gamma[2] = v_4_in_i_2;
     gamma[3] = alphadot[1] * (cosine_1 * h_j_dot_omega_i + sine_1 * g_j_dot_omega_i) - (cosine_1 * g_j_dot_omega_i -
         sine_1 * h_j_dot_omega_i - alphadot[1]) * (alphadot[0] * cosine_0);
-    gamma[4] = -(alphadot[0] * (H_22 * t50 - sine_0 * (t21 + h_j_dot_omega_i)) - t21 * t50 + alphadot[2] *
-        h_j_dot_omega_i);
     gamma[5] = alphadot[0] * (t18 * t50 + sine_0 * (t19 - g_j_dot_omega_i)) + t19 * t50 + alphadot[2] *
         g_j_dot_omega_i;
+    gamma[4] = -(alphadot[0] * (H_22 * t50 - sine_0 * (t21 + h_j_dot_omega_i)) - t21 * t50 + alphadot[2] *
+        h_j_dot_omega_i);
 }
 
-void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_ball_parametric_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -505,25 +499,25 @@ void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, co
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
-    const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
+    const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
     const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    /* omega_j_dot_g_j = omega_j . g_j */
-    const jg_real omega_j_dot_g_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    /* omega_j_dot_g_j = omega_j . g_j */
+    const jg_real omega_j_dot_g_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     const jg_real t21 = cosine_0 * sine_1;
@@ -557,14 +551,12 @@ void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, co
     const jg_real omega_i_dot_g_j = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
-    phi_q_v[4] = cosine_1 * alphadot[1] - omega_j_dot_g_j + H_21 * alphadot[0] + omega_i_dot_g_j;
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = f_j_in_i_0 * s_j_cross_omega_j_in_joint_j_0 + g_j_in_i_0 *
         s_j_cross_omega_j_in_joint_j_1 + h_j_in_i_0 * s_j_cross_omega_j_in_joint_j_2;
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_0 = v_j_in_joint_j_0 * f_j_in_i_0 + v_j_in_joint_j_1 * g_j_in_i_0 + v_j_in_joint_j_2 *
         h_j_in_i_0;
-    phi_q_v[5] = H_22 * alphadot[0] - (omega_j_dot_h_j + sine_1 * alphadot[1]) + omega_i_dot_h_j;
     const jg_real s_j_cross_omega_j_in_i_1 = f_j_in_i_1 * s_j_cross_omega_j_in_joint_j_0 + g_j_in_i_1 *
         s_j_cross_omega_j_in_joint_j_1 + h_j_in_i_1 * s_j_cross_omega_j_in_joint_j_2;
     const jg_real v_j_in_i_1 = v_j_in_joint_j_0 * f_j_in_i_1 + v_j_in_joint_j_1 * g_j_in_i_1 + v_j_in_joint_j_2 *
@@ -575,26 +567,25 @@ void jg_ball_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, co
         s_j_cross_omega_j_in_joint_j_1 + h_j_in_i_2 * s_j_cross_omega_j_in_joint_j_2;
     const jg_real v_j_in_i_2 = v_j_in_joint_j_0 * f_j_in_i_2 + v_j_in_joint_j_1 * g_j_in_i_2 + v_j_in_joint_j_2 *
         h_j_in_i_2;
-    phi_q_v[3] = omega_i_dot_f_j - (omega_j_dot_f_j - alphadot[2] + sine_2 * alphadot[0]);
     /* v_0_in_i = v_i - v_j - s_i x omega_i + s_j x omega_j, axes of body i */
     const jg_real v_0_in_i_0 = v_i[0] - v_j_in_i_0 - s_i_cross_omega_i_in_i_0 + s_j_cross_omega_j_in_i_0;
     const jg_real v_0_in_i_1 = v_i[1] - v_j_in_i_1 - s_i_cross_omega_i_in_i_1 + s_j_cross_omega_j_in_i_1;
     const jg_real v_0_in_i_2 = v_i[2] - v_j_in_i_2 - s_i_cross_omega_i_in_i_2 + s_j_cross_omega_j_in_i_2;
+    phi_q_v[4] = cosine_1 * alphadot[1] - omega_j_dot_g_j + H_21 * alphadot[0] + omega_i_dot_g_j;
+    phi_q_v[5] = H_22 * alphadot[0] - (omega_j_dot_h_j + sine_1 * alphadot[1]) + omega_i_dot_h_j;
+    phi_q_v[3] = omega_i_dot_f_j - (omega_j_dot_f_j - alphadot[2] + sine_2 * alphadot[0]);
     phi_q_v[0] = -v_0_in_i_0;
     phi_q_v[1] = -v_0_in_i_1;
     phi_q_v[2] = -v_0_in_i_2;
 }
 
-void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -604,7 +595,6 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[1], &sine_2, &cosine_2);
-    phi_q_t_lambda[14] = lambda[3];
     /* s_i_cross_lambda_0_1_2_in_i = s_i x lambda_0_1_2, axes of body i */
     const jg_real s_i_cross_lambda_0_1_2_in_i_0 = lambda[2] * s_i[1] - lambda[1] * s_i[2];
     const jg_real s_i_cross_lambda_0_1_2_in_i_1 = lambda[0] * s_i[2] - lambda[2] * s_i[0];
@@ -631,7 +621,6 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
     const jg_real H_22 = cosine_2 * cosine_1;
     /* H_11 =  */
     const jg_real H_11 = t16 + sine_2 * t15;
-    phi_q_t_lambda[13] = lambda[4] * cosine_1 - lambda[5] * sine_1;
     /* H_02 =  */
     const jg_real H_02 = t15 + sine_2 * t16;
     /* H_01 =  */
@@ -639,7 +628,6 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
     const jg_real t26 = t17 - t18 * sine_2;
     /* v_0_in_joint_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of joint i */
     const jg_real v_0_in_joint_i_2 = lambda[4] * H_21 - lambda[3] * sine_2 + lambda[5] * H_22;
-    phi_q_t_lambda[12] = v_0_in_joint_i_2;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
         sine_2 * lambda_0_1_2_in_joint_i_2;
@@ -656,34 +644,38 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_in_joint_j_2 * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
         lambda_0_1_2_in_joint_j_2 * C_j[7];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[14] = lambda[3];
+    phi_q_t_lambda[13] = lambda[4] * cosine_1 - lambda[5] * sine_1;
+    phi_q_t_lambda[12] = v_0_in_joint_i_2;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_in_joint_j_2 * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* v_1_in_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j - s_i x lambda_0_1_2, axes of body i */
     const jg_real v_1_in_i_0 = v_0_in_i_0 - s_i_cross_lambda_0_1_2_in_i_0;
-    phi_q_t_lambda[3] = v_1_in_i_0;
     const jg_real v_1_in_i_1 = v_0_in_i_1 - s_i_cross_lambda_0_1_2_in_i_1;
-    phi_q_t_lambda[4] = v_1_in_i_1;
     const jg_real v_1_in_i_2 = v_0_in_i_2 - s_i_cross_lambda_0_1_2_in_i_2;
-    phi_q_t_lambda[5] = v_1_in_i_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[3] = v_1_in_i_0;
+    phi_q_t_lambda[4] = v_1_in_i_1;
+    phi_q_t_lambda[5] = v_1_in_i_2;
     phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_in_j_2 - v_0_in_j_2;
     phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_in_j_0 - v_0_in_j_0;
     phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_in_j_1 - v_0_in_j_1;
 }
 
-void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -698,23 +690,25 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    phi_q[9] = s_i[0];
-    phi_q[13] = s_i[1];
-    phi_q[3] = s_i[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
     jg_real sine_2;
     jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
+    phi_q[9] = s_i[0];
+    phi_q[13] = s_i[1];
+    phi_q[3] = s_i[2];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     phi_q[14] = -s_i[0];
     phi_q[30] = -C_j[0];
     phi_q[31] = -C_j[3];
@@ -723,84 +717,71 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     phi_q[37] = -C_j[4];
     phi_q[38] = -C_j[7];
     phi_q[42] = -C_j[2];
-    phi_q[43] = -C_j[5];
-    phi_q[44] = -C_j[8];
-    phi_q[50] = JG_REAL(1.0);
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
+    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
+    const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     const jg_real t24 = cosine_0 * sine_1;
-    phi_q[48] = cosine_2;
-    const jg_real t25 = sine_0 * sine_1;
+    const jg_real t25 = sine_0 * cosine_1;
+    const jg_real t26 = cosine_0 * cosine_1;
+    const jg_real t27 = sine_1 * sine_0;
     /* H_21 =  */
-    const jg_real H_21 = sine_2 * cosine_1;
+    const jg_real H_21 = sine_1 * cosine_2;
+    phi_q[43] = -C_j[5];
+    phi_q[44] = -C_j[8];
+    phi_q[50] = JG_REAL(1.0);
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi_q[48] = cosine_1;
     phi_q[46] = H_21;
     /* H_00 =  */
-    const jg_real H_00 = cosine_0 * cosine_1;
+    const jg_real H_00 = cosine_0 * cosine_2;
     /* H_10 =  */
-    const jg_real H_10 = sine_0 * cosine_1;
+    const jg_real H_10 = sine_0 * cosine_2;
     /* H_22 =  */
-    const jg_real H_22 = cosine_2 * cosine_1;
-    phi_q[47] = H_22;
-    phi_q[45] = -sine_1;
-    phi_q[49] = -sine_2;
+    const jg_real H_22 = cosine_1 * cosine_2;
     /* H_01 =  */
-    const jg_real H_01 = sine_2 * t24 - sine_0 * cosine_2;
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_2 + cosine_2 * t24;
+    const jg_real H_01 = sine_2 * t24 - t25;
     /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_2 + sine_2 * t25;
-    const jg_real t33 = cosine_0 * sine_2 - cosine_2 * t25;
-    const jg_real t34 = cosine_1 * lambda[3];
-    const jg_real t35 = sine_2 * lambda[4];
-    const jg_real t36 = cosine_2 * lambda[5];
-    const jg_real t37 = sine_2 * lambda[3];
-    /* v_0_in_joint_j = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
-    const jg_real v_0_in_joint_j_0 = H_22 * lambda[4] - H_21 * lambda[5];
-    phi_q_t_lambda_q[28] = v_0_in_joint_j_0;
+    const jg_real H_11 = t26 + sine_2 * t27;
+    /* H_02 =  */
+    const jg_real H_02 = t27 + sine_2 * t26;
+    const jg_real t35 = t24 - sine_2 * t25;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - sine_1 * C_i[6];
-    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - sine_1 * C_i[7];
-    phi_q[10] = f_star_in_i_1;
-    /* v_1_in_joint_j = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
-    const jg_real v_1_in_joint_j = t35 + t36;
-    const jg_real t42 = cosine_2 * lambda[3];
-    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - sine_1 * C_i[8];
-    phi_q[15] = f_star_in_i_2;
-    const jg_real t44 = cosine_2 * alphadot[1];
+    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - sine_2 * C_i[6];
+    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - sine_2 * C_i[7];
+    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - sine_2 * C_i[8];
+    const jg_real t39 = cosine_2 * lambda[3];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = H_01 * C_i[0] + H_11 * C_i[3] + H_21 * C_i[6];
     const jg_real g_star_in_i_1 = H_01 * C_i[1] + H_11 * C_i[4] + H_21 * C_i[7];
-    phi_q[11] = g_star_in_i_1;
     const jg_real g_star_in_i_2 = H_01 * C_i[2] + H_11 * C_i[5] + H_21 * C_i[8];
-    phi_q[16] = g_star_in_i_2;
     /* A_joint_j_i = turns i axes to joint j axes */
-    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - C_i[5] * t33 + C_i[8] * H_22;
+    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - C_i[5] * t35 + C_i[8] * H_22;
+    phi_q[47] = H_22;
+    phi_q[45] = -sine_2;
+    phi_q[49] = -sine_1;
+    phi_q[10] = f_star_in_i_1;
+    phi_q[15] = f_star_in_i_2;
+    phi_q[11] = g_star_in_i_1;
+    phi_q[16] = g_star_in_i_2;
     phi_q[17] = A_joint_j_i_8;
-    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * t33 + C_i[7] * H_22;
-    phi_q[12] = A_joint_j_i_5;
-    const jg_real t50 = sine_1 * lambda[5] + cosine_2 * t34;
-    const jg_real v_0_in_joint_j_2 = sine_1 * lambda[4] + sine_2 * t34;
+    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * t35 + C_i[7] * H_22;
     /* f_star_world = f_star, world axes */
     const jg_real f_star_world_0 = A_i[0] * f_star_in_i_0 + A_i[3] * f_star_in_i_1 + A_i[6] * f_star_in_i_2;
     const jg_real f_star_world_1 = A_i[1] * f_star_in_i_0 + A_i[4] * f_star_in_i_1 + A_i[7] * f_star_in_i_2;
@@ -808,92 +789,83 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     /* g_star_world = g_star, world axes */
     const jg_real g_star_world_0 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
     const jg_real A_joint_j_i_0 = g_star_in_i_1 * A_joint_j_i_8 - g_star_in_i_2 * A_joint_j_i_5;
-    phi_q[5] = A_joint_j_i_0;
     const jg_real g_star_world_1 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
     const jg_real A_joint_j_i_1 = f_star_in_i_2 * A_joint_j_i_5 - f_star_in_i_1 * A_joint_j_i_8;
-    phi_q[6] = A_joint_j_i_1;
-    const jg_real A_joint_j_i_2 = g_star_in_i_2 * f_star_in_i_1 - g_star_in_i_1 * f_star_in_i_2;
-    phi_q[7] = A_joint_j_i_2;
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
+    const jg_real A_joint_j_i_2 = g_star_in_i_2 * f_star_in_i_1 - g_star_in_i_1 * f_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = f_star_in_i_1 * C_j[1] + g_star_in_i_1 * C_j[4] + C_j[7] * A_joint_j_i_5;
-    phi_q[22] = A_ji_4;
-    const jg_real A_ji_8 = f_star_in_i_2 * C_j[2] + g_star_in_i_2 * C_j[5] + C_j[8] * A_joint_j_i_8;
-    phi_q[26] = A_ji_8;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
-    const jg_real A_ji_5 = f_star_in_i_1 * C_j[2] + g_star_in_i_1 * C_j[5] + C_j[8] * A_joint_j_i_5;
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_7 = f_star_in_i_2 * C_j[1] + g_star_in_i_2 * C_j[4] + C_j[7] * A_joint_j_i_8;
-    phi_q[23] = A_ji_7;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    const jg_real A_ji_3 = f_star_in_i_1 * C_j[0] + g_star_in_i_1 * C_j[3] + C_j[6] * A_joint_j_i_5;
-    phi_q[19] = A_ji_3;
-    const jg_real A_ji_6 = f_star_in_i_2 * C_j[0] + g_star_in_i_2 * C_j[3] + C_j[6] * A_joint_j_i_8;
-    phi_q[20] = A_ji_6;
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    phi[5] = f_star_dot_g_j;
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = g_star_in_i_1 * C_j[4] + f_star_in_i_1 * C_j[1] + C_j[7] * A_joint_j_i_5;
+    const jg_real A_ji_8 = g_star_in_i_2 * C_j[5] + f_star_in_i_2 * C_j[2] + C_j[8] * A_joint_j_i_8;
+    const jg_real A_ji_5 = g_star_in_i_1 * C_j[5] + f_star_in_i_1 * C_j[2] + C_j[8] * A_joint_j_i_5;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
-    /* v_0_in_i = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
-    const jg_real v_0_in_i_0 = A_joint_j_i_0 * v_0_in_joint_j_0 - A_joint_j_i_1 * t50 + A_joint_j_i_2 *
-        v_0_in_joint_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    const jg_real A_ji_7 = g_star_in_i_2 * C_j[4] + f_star_in_i_2 * C_j[1] + C_j[7] * A_joint_j_i_8;
+    phi_q[12] = A_joint_j_i_5;
+    phi_q[5] = A_joint_j_i_0;
+    phi_q[6] = A_joint_j_i_1;
+    phi_q[7] = A_joint_j_i_2;
+    phi_q[22] = A_ji_4;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
+    phi_q[23] = A_ji_7;
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
+    const jg_real A_ji_3 = g_star_in_i_1 * C_j[3] + f_star_in_i_1 * C_j[0] + C_j[6] * A_joint_j_i_5;
+    /* v_0_in_joint_j = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
+    const jg_real v_0_in_joint_j_0 = H_22 * lambda[4] - H_21 * lambda[5];
+    const jg_real A_ji_6 = g_star_in_i_2 * C_j[3] + f_star_in_i_2 * C_j[0] + C_j[6] * A_joint_j_i_8;
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     phi[3] = g_star_dot_h_j;
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    phi_q_t_lambda_q[0] = -v_0_in_i_0;
-    const jg_real v_0_in_i_1 = f_star_in_i_1 * v_0_in_joint_j_0 - g_star_in_i_1 * t50 + A_joint_j_i_5 *
+    phi[5] = f_star_dot_g_j;
+    phi_q[19] = A_ji_3;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    phi_q_t_lambda_q[28] = v_0_in_joint_j_0;
+    phi_q[20] = A_ji_6;
+    phi_q[18] = A_ji_0;
+    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    /* h_star_dot_f_j = h_star . f_j */
+    const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
+    const jg_real t74 = sine_2 * lambda[5] + cosine_1 * t39;
+    const jg_real v_0_in_joint_j_2 = sine_2 * lambda[4] + sine_1 * t39;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    /* v_0_in_i = (cos(alpha_1) cos(alpha_2) lambda_4 - cos(alpha_1) sin(alpha_2) lambda_5) f_j + ... */
+    const jg_real v_0_in_i_0 = A_joint_j_i_0 * v_0_in_joint_j_0 - A_joint_j_i_1 * t74 + A_joint_j_i_2 *
         v_0_in_joint_j_2;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real v_0_in_i_1 = f_star_in_i_1 * v_0_in_joint_j_0 - g_star_in_i_1 * t74 + A_joint_j_i_5 *
+        v_0_in_joint_j_2;
+    phi[4] = h_star_dot_f_j;
+    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[24] = A_ji_2;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    phi_q_t_lambda_q[1] = -v_0_in_i_1;
-    const jg_real v_0_in_i_2 = f_star_in_i_2 * v_0_in_joint_j_0 - g_star_in_i_2 * t50 + A_joint_j_i_8 *
-        v_0_in_joint_j_2;
-    /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
-    phi[4] = h_star_dot_f_j;
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    phi_q_t_lambda_q[2] = -v_0_in_i_2;
+    const jg_real v_0_in_i_2 = f_star_in_i_2 * v_0_in_joint_j_0 - g_star_in_i_2 * t74 + A_joint_j_i_8 *
+        v_0_in_joint_j_2;
+    const jg_real t81 = sine_1 * lambda[4];
+    const jg_real t82 = cosine_1 * lambda[5];
+    const jg_real t83 = sine_1 * lambda[3];
+    const jg_real t84 = cosine_1 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    /* v_1_in_i = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
-    const jg_real v_1_in_i_0 = A_joint_j_i_0 * v_1_in_joint_j - A_joint_j_i_1 * t37 - A_joint_j_i_2 * t42;
-    phi_q_t_lambda_q[9] = v_1_in_i_0;
-    phi_q_t_lambda_q[29] = -v_1_in_joint_j;
-    const jg_real t87 = H_21 * alphadot[0] + t44;
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
-    const jg_real v_1_in_i_1 = f_star_in_i_1 * v_1_in_joint_j - g_star_in_i_1 * t37 - A_joint_j_i_5 * t42;
-    phi_q_t_lambda_q[10] = v_1_in_i_1;
-    const jg_real v_1_in_i_2 = f_star_in_i_2 * v_1_in_joint_j - g_star_in_i_2 * t37 - A_joint_j_i_8 * t42;
-    phi_q_t_lambda_q[11] = v_1_in_i_2;
-    phi_q_t_lambda_q[19] = A_joint_j_i_2 * lambda[4] - A_joint_j_i_1 * lambda[5];
-    phi_q_t_lambda_q[20] = A_joint_j_i_5 * lambda[4] - g_star_in_i_1 * lambda[5];
-    phi_q_t_lambda_q[21] = A_joint_j_i_8 * lambda[4] - g_star_in_i_2 * lambda[5];
-    phi_q_t_lambda_q[18] = -(t34 + sine_1 * t35 + sine_1 * t36);
-    /* v_8_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_8_in_joint_j = sine_1 * alphadot[0] - alphadot[2];
-    const jg_real t93 = sine_2 * alphadot[1];
+    /* v_1_in_joint_j = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
+    const jg_real v_1_in_joint_j = t81 + t82;
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
     const jg_real f_j_cross_lambda_0_1_2_in_j_0 = C_j[1] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_1;
     /* g_j_cross_lambda_0_1_2_in_j = g_j x lambda_0_1_2, axes of body j */
@@ -906,91 +878,113 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real f_j_cross_lambda_0_1_2_in_j_2 = C_j[0] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_0;
     const jg_real g_j_cross_lambda_0_1_2_in_j_2 = C_j[3] * lambda_0_1_2_in_j_1 - C_j[4] * lambda_0_1_2_in_j_0;
     const jg_real h_j_cross_lambda_0_1_2_in_j_2 = C_j[6] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_0;
-    const jg_real t103 = H_22 * alphadot[0] - t93;
-    phi_q_t_lambda_q[22] = -f_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[23] = -f_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[24] = -f_j_cross_lambda_0_1_2_in_j_2;
-    /* v_4_in_j = cos(alpha_2) g_j x lambda_0_1_2 - sin(alpha_2) h_j x lambda_0_1_2, axes of body j */
-    const jg_real v_4_in_j_0 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_0 - sine_2 * h_j_cross_lambda_0_1_2_in_j_0;
-    const jg_real v_4_in_j_1 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_1 - sine_2 * h_j_cross_lambda_0_1_2_in_j_1;
-    const jg_real v_4_in_j_2 = cosine_2 * g_j_cross_lambda_0_1_2_in_j_2 - sine_2 * h_j_cross_lambda_0_1_2_in_j_2;
+    /* v_1_in_i = (cos(alpha_2) lambda_5 + sin(alpha_2) lambda_4) f_j - sin(alpha_2) lambda_3 g_j - ... */
+    const jg_real v_1_in_i_0 = A_joint_j_i_0 * v_1_in_joint_j - A_joint_j_i_1 * t83 - A_joint_j_i_2 * t84;
     /* v_3_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
-    const jg_real v_3_in_j_0 = sine_1 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
+    const jg_real v_3_in_j_0 = sine_2 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
         * h_j_cross_lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_i_1 = f_star_in_i_1 * v_1_in_joint_j - g_star_in_i_1 * t83 - A_joint_j_i_5 * t84;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q_t_lambda_q[0] = -v_0_in_i_0;
+    phi_q_t_lambda_q[1] = -v_0_in_i_1;
+    phi_q_t_lambda_q[2] = -v_0_in_i_2;
+    phi_q_t_lambda_q[9] = v_1_in_i_0;
     phi_q_t_lambda_q[3] = v_3_in_j_0;
-    phi_q_t_lambda_q[25] = s_j[2] * f_j_cross_lambda_0_1_2_in_j_1 - s_j[1] * f_j_cross_lambda_0_1_2_in_j_2;
-    const jg_real v_3_in_j_1 = sine_1 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
+    phi_q_t_lambda_q[10] = v_1_in_i_1;
+    /* v_4_in_j = cos(alpha_2) g_j x lambda_0_1_2 - sin(alpha_2) h_j x lambda_0_1_2, axes of body j */
+    const jg_real v_4_in_j_0 = cosine_1 * g_j_cross_lambda_0_1_2_in_j_0 - sine_1 * h_j_cross_lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_i_2 = f_star_in_i_2 * v_1_in_joint_j - g_star_in_i_2 * t83 - A_joint_j_i_8 * t84;
+    const jg_real v_3_in_j_1 = sine_2 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
         * h_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[4] = v_3_in_j_1;
-    phi_q_t_lambda_q[26] = s_j[0] * f_j_cross_lambda_0_1_2_in_j_2 - s_j[2] * f_j_cross_lambda_0_1_2_in_j_0;
-    const jg_real v_3_in_j_2 = sine_1 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
+    const jg_real v_4_in_j_1 = cosine_1 * g_j_cross_lambda_0_1_2_in_j_1 - sine_1 * h_j_cross_lambda_0_1_2_in_j_1;
+    const jg_real v_4_in_j_2 = cosine_1 * g_j_cross_lambda_0_1_2_in_j_2 - sine_1 * h_j_cross_lambda_0_1_2_in_j_2;
+    const jg_real v_3_in_j_2 = sine_2 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
         * h_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[11] = v_1_in_i_2;
+    phi_q_t_lambda_q[4] = v_3_in_j_1;
+    phi_q_t_lambda_q[19] = A_joint_j_i_2 * lambda[4] - A_joint_j_i_1 * lambda[5];
     phi_q_t_lambda_q[5] = v_3_in_j_2;
-    phi_q_t_lambda_q[27] = s_j[1] * f_j_cross_lambda_0_1_2_in_j_0 - s_j[0] * f_j_cross_lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[12] = -v_4_in_j_0;
     phi_q_t_lambda_q[13] = -v_4_in_j_1;
+    phi_q_t_lambda_q[20] = A_joint_j_i_5 * lambda[4] - g_star_in_i_1 * lambda[5];
     phi_q_t_lambda_q[14] = -v_4_in_j_2;
-    /* v_8_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_8_in_j_0 = C_j[0] * v_8_in_joint_j - C_j[3] * t87 - C_j[6] * t103;
-    const jg_real v_8_in_j_1 = C_j[1] * v_8_in_joint_j - C_j[4] * t87 - C_j[7] * t103;
+    /* v_5_in_j = sin(alpha_1) (s_j . lambda_0_1_2) f_j - cos(alpha_1) sin(alpha_2) (s_j . lambda_0_1_2) g_j ... */
+    const jg_real v_5_in_j_2 = s_j[0] * v_3_in_j_1 - s_j[1] * v_3_in_j_0;
+    const jg_real v_5_in_j_0 = s_j[1] * v_3_in_j_2 - s_j[2] * v_3_in_j_1;
+    const jg_real v_5_in_j_1 = s_j[2] * v_3_in_j_0 - s_j[0] * v_3_in_j_2;
+    phi_q_t_lambda_q[8] = v_5_in_j_2;
+    phi_q_t_lambda_q[18] = -(t39 + sine_2 * t81 + sine_2 * t82);
+    phi_q_t_lambda_q[22] = -f_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[23] = -f_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[17] = s_j[1] * v_4_in_j_0 - s_j[0] * v_4_in_j_1;
+    phi_q_t_lambda_q[24] = -f_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[6] = v_5_in_j_0;
+    phi_q_t_lambda_q[7] = v_5_in_j_1;
+    const jg_real t110 = cosine_1 * alphadot[1];
+    const jg_real t111 = sine_1 * alphadot[1];
+    const jg_real t112 = H_21 * alphadot[0] + t110;
+    /* v_8_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_8_in_joint_j = sine_2 * alphadot[0] - alphadot[2];
+    const jg_real t114 = H_22 * alphadot[0] - t111;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = A_joint_j_i_2 * omega_i[0] + A_joint_j_i_5 * omega_i[1] + A_joint_j_i_8 *
         omega_i[2];
-    phi_q_t_lambda_q[15] = s_j[2] * v_4_in_j_1 - s_j[1] * v_4_in_j_2;
-    phi_q_t_lambda_q[16] = s_j[0] * v_4_in_j_2 - s_j[2] * v_4_in_j_0;
-    phi_q_t_lambda_q[17] = s_j[1] * v_4_in_j_0 - s_j[0] * v_4_in_j_1;
-    /* v_5_in_j = sin(alpha_1) (s_j . lambda_0_1_2) f_j - cos(alpha_1) sin(alpha_2) (s_j . lambda_0_1_2) g_j ... */
-    const jg_real v_5_in_j_2 = s_j[0] * v_3_in_j_1 - s_j[1] * v_3_in_j_0;
-    phi_q_t_lambda_q[8] = v_5_in_j_2;
-    const jg_real v_5_in_j_0 = s_j[1] * v_3_in_j_2 - s_j[2] * v_3_in_j_1;
-    phi_q_t_lambda_q[6] = v_5_in_j_0;
-    const jg_real v_5_in_j_1 = s_j[2] * v_3_in_j_0 - s_j[0] * v_3_in_j_2;
-    phi_q_t_lambda_q[7] = v_5_in_j_1;
-    const jg_real v_8_in_j_2 = C_j[2] * v_8_in_joint_j - C_j[5] * t87 - C_j[8] * t103;
-    /* v_9_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_9_in_j_1 = v_8_in_j_1 + omega_j[1];
-    const jg_real v_9_in_j_0 = v_8_in_j_0 + omega_j[0];
-    const jg_real v_9_in_j_2 = v_8_in_j_2 + omega_j[2];
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = A_joint_j_i_1 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
         omega_i[2];
+    /* v_8_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_8_in_j_0 = C_j[0] * v_8_in_joint_j - C_j[3] * t112 - C_j[6] * t114;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = A_joint_j_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
-    const jg_real t122 = s_j[0] * v_8_in_j_0 + s_j[1] * v_8_in_j_1 + s_j[2] * v_8_in_j_2;
-    const jg_real t123 = v_8_in_j_0 * omega_j[0] + v_8_in_j_1 * omega_j[1] + v_8_in_j_2 * omega_j[2];
+    const jg_real v_8_in_j_1 = C_j[1] * v_8_in_joint_j - C_j[4] * t112 - C_j[7] * t114;
+    const jg_real v_8_in_j_2 = C_j[2] * v_8_in_joint_j - C_j[5] * t112 - C_j[8] * t114;
+    /* v_9_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_9_in_j_0 = v_8_in_j_0 + omega_j[0];
+    const jg_real v_9_in_j_1 = v_8_in_j_1 + omega_j[1];
+    const jg_real v_9_in_j_2 = v_8_in_j_2 + omega_j[2];
+    const jg_real t124 = alphadot[2] - f_j_dot_omega_i;
+    const jg_real t125 = s_j[0] * v_8_in_j_0 + s_j[1] * v_8_in_j_1 + s_j[2] * v_8_in_j_2;
+    const jg_real t126 = v_8_in_j_0 * omega_j[0] + v_8_in_j_1 * omega_j[1] + v_8_in_j_2 * omega_j[2];
     /* v_10_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
-    const jg_real v_10_in_j_2 = v_j[1] * v_9_in_j_0 - v_j[0] * v_9_in_j_1;
-    const jg_real t125 = alphadot[2] - f_j_dot_omega_i;
-    const jg_real v_10_in_j_0 = v_j[2] * v_9_in_j_1 - v_j[1] * v_9_in_j_2;
-    const jg_real v_10_in_j_1 = v_j[0] * v_9_in_j_2 - v_j[2] * v_9_in_j_0;
+    const jg_real v_10_in_j_2 = v_j[1] * v_9_in_j_0 - v_9_in_j_1 * v_j[0];
+    const jg_real v_10_in_j_0 = v_9_in_j_1 * v_j[2] - v_9_in_j_2 * v_j[1];
+    const jg_real v_10_in_j_1 = v_9_in_j_2 * v_j[0] - v_j[2] * v_9_in_j_0;
+    phi_q_t_lambda_q[15] = s_j[2] * v_4_in_j_1 - s_j[1] * v_4_in_j_2;
+    phi_q_t_lambda_q[16] = s_j[0] * v_4_in_j_2 - s_j[2] * v_4_in_j_0;
+    phi_q_t_lambda_q[21] = A_joint_j_i_8 * lambda[4] - g_star_in_i_2 * lambda[5];
+    phi_q_t_lambda_q[29] = -v_1_in_joint_j;
+    phi_q_t_lambda_q[25] = s_j[2] * f_j_cross_lambda_0_1_2_in_j_1 - s_j[1] * f_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[26] = s_j[0] * f_j_cross_lambda_0_1_2_in_j_2 - s_j[2] * f_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[27] = s_j[1] * f_j_cross_lambda_0_1_2_in_j_0 - s_j[0] * f_j_cross_lambda_0_1_2_in_j_1;
+    gamma[3] = alphadot[1] * (cosine_1 * h_j_dot_omega_i + sine_1 * g_j_dot_omega_i) - (cosine_1 * g_j_dot_omega_i -
+        sine_1 * h_j_dot_omega_i - alphadot[1]) * (cosine_2 * alphadot[0]);
     /* v_11_in_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_11_in_j_0 = omega_j[0] * t122 - s_j[0] * t123;
-    const jg_real v_11_in_j_1 = omega_j[1] * t122 - s_j[1] * t123;
-    const jg_real v_11_in_j_2 = omega_j[2] * t122 - s_j[2] * t123;
+    const jg_real v_11_in_j_0 = t125 * omega_j[0] - s_j[0] * t126;
+    const jg_real v_11_in_j_1 = t125 * omega_j[1] - s_j[1] * t126;
+    const jg_real v_11_in_j_2 = t125 * omega_j[2] - s_j[2] * t126;
     /* v_10_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
     const jg_real v_10_in_i_0 = A_ji_0 * v_10_in_j_0 + A_ji_1 * v_10_in_j_1 + A_ji_2 * v_10_in_j_2;
     const jg_real v_10_in_i_1 = A_ji_3 * v_10_in_j_0 + A_ji_4 * v_10_in_j_1 + A_ji_5 * v_10_in_j_2;
     const jg_real v_10_in_i_2 = A_ji_6 * v_10_in_j_0 + A_ji_7 * v_10_in_j_1 + A_ji_8 * v_10_in_j_2;
-    gamma[3] = alphadot[1] * (cosine_2 * h_j_dot_omega_i + sine_2 * g_j_dot_omega_i) - (cosine_2 * g_j_dot_omega_i -
-        sine_2 * h_j_dot_omega_i - alphadot[1]) * (cosine_1 * alphadot[0]);
     /* v_11_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_11_in_i_0 = A_ji_0 * v_11_in_j_0 + A_ji_1 * v_11_in_j_1 + A_ji_2 * v_11_in_j_2;
     const jg_real v_11_in_i_1 = A_ji_3 * v_11_in_j_0 + A_ji_4 * v_11_in_j_1 + A_ji_5 * v_11_in_j_2;
     const jg_real v_11_in_i_2 = A_ji_6 * v_11_in_j_0 + A_ji_7 * v_11_in_j_1 + A_ji_8 * v_11_in_j_2;
-    gamma[5] = alphadot[0] * (H_21 * t125 + sine_1 * (t44 - g_j_dot_omega_i)) + t44 * t125 + alphadot[2] *
-        g_j_dot_omega_i;
     /* v_12_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_12_in_i_0 = v_10_in_i_0 - omega_i_cross_v_i_in_i_0 + v_11_in_i_0;
-    gamma[0] = v_12_in_i_0;
     const jg_real v_12_in_i_1 = v_10_in_i_1 - omega_i_cross_v_i_in_i_1 + v_11_in_i_1;
-    gamma[1] = v_12_in_i_1;
     const jg_real v_12_in_i_2 = v_10_in_i_2 - omega_i_cross_v_i_in_i_2 + v_11_in_i_2;
-    gamma[2] = v_12_in_i_2;
-    gamma[4] = -(alphadot[0] * (H_22 * t125 - sine_1 * (t93 + h_j_dot_omega_i)) - t93 * t125 + alphadot[2] *
+    gamma[5] = alphadot[0] * (H_21 * t124 + sine_2 * (t110 - g_j_dot_omega_i)) + t110 * t124 + alphadot[2] *
+        g_j_dot_omega_i;
+    gamma[4] = -(alphadot[0] * (H_22 * t124 - sine_2 * (t111 + h_j_dot_omega_i)) - t111 * t124 + alphadot[2] *
         h_j_dot_omega_i);
+    gamma[0] = v_12_in_i_0;
+    gamma[1] = v_12_in_i_1;
+    gamma[2] = v_12_in_i_2;
 }
 
 void jg_ball_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -4,10 +4,6 @@
  * joint ball, form parametric, rows table4, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/ball.h"
 
 const int *jg_ball_parametric_table4_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_ball_parametric_table4_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_ball_parametric_table4_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -41,155 +36,146 @@ void jg_ball_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = f_j_world_0 * h_i_world_0 + f_j_world_1 * h_i_world_1 + f_j_world_2 * h_i_world_2;
-    /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = C_i[0] * f_j_in_i_0 + C_i[1] * f_j_in_i_1 + C_i[2] * f_j_in_i_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* h_i_dot_h_j = h_i . h_j */
+    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
     phi[4] = sine_0 + h_i_dot_f_j;
     phi[3] = f_i_dot_f_j - jg_cos(alpha[0]) * cosine_0;
     phi[5] = h_i_dot_h_j - cosine_0 * jg_cos(alpha[2]);
 }
 
-void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_ball_parametric_table4_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    jg_real sine_2;
-    jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    phi_q[19] = A_ji_3;
-    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    phi_q[22] = A_ji_4;
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    phi_q[25] = A_ji_5;
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    phi_q[20] = A_ji_6;
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[19] = A_ji_3;
+    phi_q[22] = A_ji_4;
+    phi_q[25] = A_ji_5;
+    phi_q[20] = A_ji_6;
     phi_q[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    phi_q[26] = A_ji_8;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[3] = e_ij_in_i_2;
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    phi_q[13] = e_ij_in_i_1;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    phi_q[26] = A_ji_8;
+    phi_q[3] = e_ij_in_i_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[24] = A_ji_2;
     phi_q[8] = -e_ij_in_i_2;
     phi_q[4] = -e_ij_in_i_1;
+    phi_q[21] = A_ji_1;
+    phi_q[18] = A_ji_0;
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    phi_q[9] = e_ij_in_i_0;
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    phi_q[14] = -e_ij_in_i_0;
-    /* f_j_cross_f_i_in_i = f_j x f_i, axes of body i */
-    const jg_real f_j_cross_f_i_in_i_0 = f_j_in_i_1 * C_i[2] - f_j_in_i_2 * C_i[1];
-    phi_q[6] = f_j_in_i_2 * C_i[7] - f_j_in_i_1 * C_i[8];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    /* f_j_cross_f_i_in_i = f_j x f_i, axes of body i */
+    const jg_real f_j_cross_f_i_in_i_0 = f_j_in_i_1 * C_i[2] - f_j_in_i_2 * C_i[1];
     const jg_real h_i_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
     const jg_real h_i_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[14] = -e_ij_in_i_0;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    phi_q[6] = f_j_in_i_2 * C_i[7] - f_j_in_i_1 * C_i[8];
+    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     phi_q[5] = -f_j_cross_f_i_in_i_0;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     /* h_j_cross_h_i_in_j = h_j x h_i, axes of body j */
     const jg_real h_j_cross_h_i_in_j_0 = h_i_in_j_2 * C_j[7] - h_i_in_j_1 * C_j[8];
-    phi_q[32] = h_j_cross_h_i_in_j_0;
     const jg_real h_j_cross_h_i_in_j_1 = h_i_in_j_0 * C_j[8] - h_i_in_j_2 * C_j[6];
-    phi_q[38] = h_j_cross_h_i_in_j_1;
     const jg_real h_j_cross_h_i_in_j_2 = h_i_in_j_1 * C_j[6] - h_i_in_j_0 * C_j[7];
-    phi_q[44] = h_j_cross_h_i_in_j_2;
     const jg_real f_j_cross_f_i_in_i_1 = f_j_in_i_2 * C_i[0] - f_j_in_i_0 * C_i[2];
-    phi_q[11] = f_j_in_i_0 * C_i[8] - f_j_in_i_2 * C_i[6];
     const jg_real f_j_cross_f_i_in_i_2 = f_j_in_i_0 * C_i[1] - f_j_in_i_1 * C_i[0];
+    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q[32] = h_j_cross_h_i_in_j_0;
+    phi_q[38] = h_j_cross_h_i_in_j_1;
+    phi_q[44] = h_j_cross_h_i_in_j_2;
+    phi_q[11] = f_j_in_i_0 * C_i[8] - f_j_in_i_2 * C_i[6];
     phi_q[16] = f_j_in_i_1 * C_i[6] - f_j_in_i_0 * C_i[7];
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    phi_q[31] = f_j_cross_h_i_in_j_0;
     const jg_real f_j_cross_h_i_in_j_1 = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
-    phi_q[37] = f_j_cross_h_i_in_j_1;
-    const jg_real f_j_cross_h_i_in_j_2 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
-    phi_q[43] = f_j_cross_h_i_in_j_2;
-    phi_q[10] = -f_j_cross_f_i_in_i_1;
-    phi_q[15] = -f_j_cross_f_i_in_i_2;
     /* h_j_cross_h_i_in_i = h_j x h_i, axes of body i */
     const jg_real h_j_cross_h_i_in_i_0 = A_ji_0 * h_j_cross_h_i_in_j_0 + A_ji_1 * h_j_cross_h_i_in_j_1 + A_ji_2 *
         h_j_cross_h_i_in_j_2;
+    jg_real sine_2;
+    jg_real cosine_2;
+    jg_sincos(alpha[2], &sine_2, &cosine_2);
     const jg_real h_j_cross_h_i_in_i_1 = A_ji_3 * h_j_cross_h_i_in_j_0 + A_ji_4 * h_j_cross_h_i_in_j_1 + A_ji_5 *
         h_j_cross_h_i_in_j_2;
     const jg_real h_j_cross_h_i_in_i_2 = A_ji_6 * h_j_cross_h_i_in_j_0 + A_ji_7 * h_j_cross_h_i_in_j_1 + A_ji_8 *
@@ -197,15 +183,23 @@ void jg_ball_parametric_table4_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
     /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
     const jg_real f_j_cross_f_i_in_j_0 = A_ji_0 * f_j_cross_f_i_in_i_0 + A_ji_3 * f_j_cross_f_i_in_i_1 + A_ji_6 *
         f_j_cross_f_i_in_i_2;
+    phi_q[31] = f_j_cross_h_i_in_j_0;
+    phi_q[37] = f_j_cross_h_i_in_j_1;
+    phi_q[10] = -f_j_cross_f_i_in_i_1;
+    phi_q[15] = -f_j_cross_f_i_in_i_2;
+    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     phi_q[30] = f_j_cross_f_i_in_j_0;
+    phi_q[7] = -h_j_cross_h_i_in_i_0;
     const jg_real f_j_cross_f_i_in_j_1 = A_ji_1 * f_j_cross_f_i_in_i_0 + A_ji_4 * f_j_cross_f_i_in_i_1 + A_ji_7 *
         f_j_cross_f_i_in_i_2;
-    phi_q[36] = f_j_cross_f_i_in_j_1;
+    const jg_real f_j_cross_h_i_in_j_2 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
     const jg_real f_j_cross_f_i_in_j_2 = A_ji_2 * f_j_cross_f_i_in_i_0 + A_ji_5 * f_j_cross_f_i_in_i_1 + A_ji_8 *
         f_j_cross_f_i_in_i_2;
-    phi_q[42] = f_j_cross_f_i_in_j_2;
-    phi_q[7] = -h_j_cross_h_i_in_i_0;
+    phi_q[36] = f_j_cross_f_i_in_j_1;
+    phi_q[43] = f_j_cross_h_i_in_j_2;
     phi_q[12] = -h_j_cross_h_i_in_i_1;
+    phi_q[42] = f_j_cross_f_i_in_j_2;
     phi_q[17] = -h_j_cross_h_i_in_i_2;
     phi_q[47] = cosine_0;
     phi_q[45] = cosine_0 * sine_1;
@@ -223,167 +217,168 @@ void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
     jg_scatter(jg_ball_parametric_table4_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    /* v_1_in_i = lambda_3 f_i, axes of body i */
+    const jg_real v_1_in_i_1 = lambda[3] * C_i[1];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    /* v_3_in_j = lambda_5 h_j, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[5] * C_j[6];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real v_3_in_j_1 = lambda[5] * C_j[7];
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real v_3_in_j_2 = lambda[5] * C_j[8];
+    /* v_2_in_i = lambda_3 f_i + lambda_4 h_i, axes of body i */
+    const jg_real v_2_in_i_1 = v_1_in_i_1 + lambda[4] * C_i[7];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real v_1_in_i_2 = lambda[3] * C_i[2];
+    const jg_real v_1_in_i_0 = lambda[3] * C_i[0];
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
+    const jg_real v_2_in_i_2 = v_1_in_i_2 + lambda[4] * C_i[8];
+    const jg_real v_2_in_i_0 = v_1_in_i_0 + lambda[4] * C_i[6];
+    const jg_real t22 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_1_in_i = lambda_3 f_i, axes of body i */
-    const jg_real v_1_in_i_1 = lambda[3] * C_i[1];
-    /* v_3_in_j = lambda_5 h_j, axes of body j */
-    const jg_real v_3_in_j_0 = lambda[5] * C_j[6];
-    const jg_real v_3_in_j_1 = lambda[5] * C_j[7];
-    const jg_real v_3_in_j_2 = lambda[5] * C_j[8];
-    const jg_real v_1_in_i_2 = lambda[3] * C_i[2];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    /* v_2_in_i = lambda_3 f_i + lambda_4 h_i, axes of body i */
-    const jg_real v_2_in_i_1 = v_1_in_i_1 + lambda[4] * C_i[7];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real v_1_in_i_0 = lambda[3] * C_i[0];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real v_2_in_i_2 = v_1_in_i_2 + lambda[4] * C_i[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real v_2_in_i_0 = v_1_in_i_0 + lambda[4] * C_i[6];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    const jg_real t22 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[10] = t22;
     phi_q_t_lambda_q[36] = t22;
     const jg_real t23 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t23;
-    phi_q_t_lambda_q[39] = t23;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
-    const jg_real t26 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t26;
-    phi_q_t_lambda_q[33] = t26;
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     /* v_3_in_i = lambda_5 h_j, axes of body i */
     const jg_real v_3_in_i_1 = A_ij_1 * v_3_in_j_0 + A_ij_4 * v_3_in_j_1 + A_ij_7 * v_3_in_j_2;
-    /* v_2_in_j = lambda_3 f_i + lambda_4 h_i, axes of body j */
-    const jg_real v_2_in_j_1 = A_ij_3 * v_2_in_i_0 + A_ij_4 * v_2_in_i_1 + A_ij_5 * v_2_in_i_2;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real t27 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real v_3_in_i_2 = A_ij_2 * v_3_in_j_0 + A_ij_5 * v_3_in_j_1 + A_ij_8 * v_3_in_j_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
-    const jg_real v_2_in_j_0 = A_ij_0 * v_2_in_i_0 + A_ij_1 * v_2_in_i_1 + A_ij_2 * v_2_in_i_2;
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    const jg_real v_3_in_i_2 = A_ij_2 * v_3_in_j_0 + A_ij_5 * v_3_in_j_1 + A_ij_8 * v_3_in_j_2;
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real v_2_in_j_2 = A_ij_6 * v_2_in_i_0 + A_ij_7 * v_2_in_i_1 + A_ij_8 * v_2_in_i_2;
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
-    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_3 f_j) f_i^T + (lambda_4 f_j + lambda_5 h_j) h_i^T; rows in ... */
-    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_2_in_j_1 + v_3_in_j_1 * h_i_in_j_1;
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    /* v_2_in_j = lambda_3 f_i + lambda_4 h_i, axes of body j */
+    const jg_real v_2_in_j_0 = A_ij_0 * v_2_in_i_0 + A_ij_1 * v_2_in_i_1 + A_ij_2 * v_2_in_i_2;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_3 f_j) f_i^T + (lambda_4 f_j + lambda_5 h_j) h_i^T; rows in ... */
     const jg_real M_0_i_i_4 = lambda[1] * e_ij_in_i_1 + f_j_in_i_1 * v_2_in_i_1 + C_i[7] * v_3_in_i_1;
     const jg_real M_0_i_i_3 = lambda[0] * e_ij_in_i_1 + f_j_in_i_1 * v_2_in_i_0 + C_i[6] * v_3_in_i_1;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_2_in_j_0 + v_3_in_j_2 * h_i_in_j_0;
-    phi_q_t_lambda_q[63] = M_1_j_j_6;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_2_in_j_0 + v_3_in_j_1 * h_i_in_j_0;
-    phi_q_t_lambda_q[55] = M_1_j_j_3;
+    const jg_real v_2_in_j_1 = A_ij_3 * v_2_in_i_0 + A_ij_4 * v_2_in_i_1 + A_ij_5 * v_2_in_i_2;
     const jg_real M_0_i_i_8 = lambda[2] * e_ij_in_i_2 + f_j_in_i_2 * v_2_in_i_2 + C_i[8] * v_3_in_i_2;
     const jg_real M_0_i_i_6 = lambda[0] * e_ij_in_i_2 + f_j_in_i_2 * v_2_in_i_0 + C_i[6] * v_3_in_i_2;
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    phi_q_t_lambda_q[11] = t23;
+    phi_q_t_lambda_q[39] = t23;
+    phi_q_t_lambda_q[9] = t27;
+    phi_q_t_lambda_q[33] = t27;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_3 f_j) f_i^T + (lambda_4 f_j + lambda_5 h_j) h_i^T; rows in ... */
+    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_2_in_j_0 + v_3_in_j_2 * h_i_in_j_0;
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_2_in_j_0 + v_3_in_j_1 * h_i_in_j_0;
+    const jg_real v_2_in_j_2 = A_ij_6 * v_2_in_i_0 + A_ij_7 * v_2_in_i_1 + A_ij_8 * v_2_in_i_2;
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_2_in_j_1 + v_3_in_j_1 * h_i_in_j_1;
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_2_in_j_0 + v_3_in_j_0 * h_i_in_j_0;
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_2_in_j_1 + v_3_in_j_0 * h_i_in_j_1;
-    phi_q_t_lambda_q[48] = M_1_j_j_1;
+    const jg_real t52 = M_1_j_j_0 + M_1_j_j_4;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_2_in_j_1 + v_3_in_j_2 * h_i_in_j_1;
-    phi_q_t_lambda_q[64] = M_1_j_j_7;
     const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_2_in_j_2 + v_3_in_j_2 * h_i_in_j_2;
-    const jg_real t54 = M_1_j_j_0 + M_1_j_j_4;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_2_in_j_2 + v_3_in_j_0 * h_i_in_j_2;
-    phi_q_t_lambda_q[49] = M_1_j_j_2;
     const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_2_in_j_2 + v_3_in_j_1 * h_i_in_j_2;
+    phi_q_t_lambda_q[63] = M_1_j_j_6;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q_t_lambda_q[55] = M_1_j_j_3;
+    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[48] = M_1_j_j_1;
+    phi_q_t_lambda_q[64] = M_1_j_j_7;
+    phi_q_t_lambda_q[49] = M_1_j_j_2;
     phi_q_t_lambda_q[57] = M_1_j_j_5;
     const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     const jg_real t58 = M_1_j_j_4 + M_1_j_j_8;
     const jg_real t59 = M_1_j_j_0 + M_1_j_j_8;
     const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real v_3_in_i_0 = A_ij_0 * v_3_in_j_0 + A_ij_3 * v_3_in_j_1 + A_ij_6 * v_3_in_j_2;
-    const jg_real t63 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t63;
-    phi_q_t_lambda_q[34] = t63;
     const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
+    const jg_real v_3_in_i_0 = A_ij_0 * v_3_in_j_0 + A_ij_3 * v_3_in_j_1 + A_ij_6 * v_3_in_j_2;
+    const jg_real t64 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
     const jg_real t65 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    const jg_real t66 = A_ij_6 * t52 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + f_j_in_i_2 * v_2_in_i_1 + C_i[7] * v_3_in_i_2;
+    const jg_real t68 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    phi_q_t_lambda_q[18] = t64;
+    phi_q_t_lambda_q[34] = t64;
     phi_q_t_lambda_q[19] = t65;
     phi_q_t_lambda_q[37] = t65;
-    const jg_real t66 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t66;
-    phi_q_t_lambda_q[40] = t66;
-    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + f_j_in_i_2 * v_2_in_i_1 + C_i[7] * v_3_in_i_2;
+    phi_q_t_lambda_q[14] = t66;
+    phi_q_t_lambda_q[58] = t66;
     phi_q_t_lambda_q[17] = M_0_i_i_7;
-    const jg_real t68 = A_ij_6 * t54 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t68;
-    phi_q_t_lambda_q[58] = t68;
+    phi_q_t_lambda_q[20] = t68;
+    phi_q_t_lambda_q[40] = t68;
     const jg_real t69 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t58 + A_ij_6 * M_1_j_j_6);
+    const jg_real t70 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t59 + A_ij_6 * M_1_j_j_7);
+    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + f_j_in_i_0 * v_2_in_i_1 + C_i[7] * v_3_in_i_0;
+    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + f_j_in_i_0 * v_2_in_i_0 + C_i[6] * v_3_in_i_0;
+    const jg_real t73 = A_ij_7 * t52 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t74 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
     phi_q_t_lambda_q[12] = t69;
     phi_q_t_lambda_q[42] = t69;
-    const jg_real t70 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t59 + A_ij_6 * M_1_j_j_7);
     phi_q_t_lambda_q[13] = t70;
     phi_q_t_lambda_q[50] = t70;
-    const jg_real t71 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t58 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[21] = t71;
-    phi_q_t_lambda_q[43] = t71;
-    const jg_real t72 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t72;
-    phi_q_t_lambda_q[35] = t72;
-    const jg_real t73 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t59 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[22] = t73;
-    phi_q_t_lambda_q[51] = t73;
-    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + f_j_in_i_0 * v_2_in_i_1 + C_i[7] * v_3_in_i_0;
     phi_q_t_lambda_q[15] = M_0_i_i_1;
-    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + f_j_in_i_0 * v_2_in_i_0 + C_i[6] * v_3_in_i_0;
-    const jg_real t76 = A_ij_7 * t54 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[23] = t76;
-    phi_q_t_lambda_q[59] = t76;
-    const jg_real t77 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t77;
-    phi_q_t_lambda_q[38] = t77;
+    phi_q_t_lambda_q[23] = t73;
+    phi_q_t_lambda_q[59] = t73;
+    phi_q_t_lambda_q[27] = t74;
+    phi_q_t_lambda_q[35] = t74;
+    const jg_real t75 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t58 + A_ij_7 * M_1_j_j_6);
     const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + f_j_in_i_0 * v_2_in_i_2 + C_i[8] * v_3_in_i_0;
+    const jg_real t77 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t59 + A_ij_7 * M_1_j_j_7);
+    const jg_real t78 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    phi_q_t_lambda_q[21] = t75;
+    phi_q_t_lambda_q[43] = t75;
     phi_q_t_lambda_q[24] = M_0_i_i_2;
-    const jg_real t79 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t79;
-    phi_q_t_lambda_q[41] = t79;
+    phi_q_t_lambda_q[22] = t77;
+    phi_q_t_lambda_q[51] = t77;
+    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
+    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
+    phi_q_t_lambda_q[28] = t78;
+    phi_q_t_lambda_q[38] = t78;
     const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + f_j_in_i_1 * v_2_in_i_2 + C_i[8] * v_3_in_i_1;
+    const jg_real t80 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
     phi_q_t_lambda_q[25] = M_0_i_i_5;
+    phi_q_t_lambda_q[29] = t80;
+    phi_q_t_lambda_q[41] = t80;
     phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[47] = -t58;
     phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[56] = -t59;
     phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[65] = -t54;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -393,25 +388,24 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t87 = A_ij_8 * t54 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t87 = A_ij_8 * t52 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t88 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t58 + A_ij_8 * M_1_j_j_6);
+    const jg_real t89 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t59 + A_ij_8 * M_1_j_j_7);
+    const jg_real t90 = cosine_0 * cosine_1 * lambda[3];
+    phi_q_t_lambda_q[65] = -t52;
     phi_q_t_lambda_q[32] = t87;
     phi_q_t_lambda_q[60] = t87;
-    const jg_real t88 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t58 + A_ij_8 * M_1_j_j_6);
     phi_q_t_lambda_q[30] = t88;
     phi_q_t_lambda_q[44] = t88;
-    const jg_real t89 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t59 + A_ij_8 * M_1_j_j_7);
     phi_q_t_lambda_q[31] = t89;
     phi_q_t_lambda_q[52] = t89;
-    const jg_real t90 = cosine_0 * cosine_1 * lambda[3];
     phi_q_t_lambda_q[66] = t90;
     const jg_real t91 = cosine_1 * cosine_2 * lambda[5];
-    phi_q_t_lambda_q[72] = t91;
     const jg_real t92 = -(sine_0 * sine_1 * lambda[3]);
+    const jg_real t93 = -(sine_1 * sine_2 * lambda[5]);
+    phi_q_t_lambda_q[72] = t91;
     phi_q_t_lambda_q[67] = t92;
     phi_q_t_lambda_q[68] = t92;
-    const jg_real t93 = -(sine_1 * sine_2 * lambda[5]);
     phi_q_t_lambda_q[70] = t93;
     phi_q_t_lambda_q[71] = t93;
     phi_q_t_lambda_q[69] = t90 - lambda[4] * sine_1 + t91;
@@ -427,9 +421,8 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
     jg_scatter(jg_ball_parametric_table4_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_table4_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -443,132 +436,132 @@ void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real v_0_in_i_1 = JG_REAL(2.0) * omega_i[1];
     const jg_real v_0_in_i_0 = JG_REAL(2.0) * omega_i[0];
     const jg_real v_0_in_i_2 = JG_REAL(2.0) * omega_i[2];
-    /* v_3_world = r_j - r_i, world axes */
-    const jg_real v_3_world_0 = r_j[0] - r_i[0];
-    const jg_real v_3_world_1 = r_j[1] - r_i[1];
-    const jg_real v_3_world_2 = r_j[2] - r_i[2];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t7 = alphadot[1] * alphadot[1];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    /* v_3_world = r_j - r_i, world axes */
+    const jg_real v_3_world_0 = r_j[0] - r_i[0];
+    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real v_3_world_1 = r_j[1] - r_i[1];
+    const jg_real v_3_world_2 = r_j[2] - r_i[2];
+    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
+    /* omega_j_in_i = omega_j, axes of body i */
+    const jg_real omega_j_in_i_0 = A_ji_0 * omega_j[0] + A_ji_1 * omega_j[1] + A_ji_2 * omega_j[2];
+    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
+    const jg_real omega_j_in_i_2 = A_ji_6 * omega_j[0] + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
+    /* v_3_in_i = r_j - r_i, axes of body i */
+    const jg_real v_3_in_i_0 = A_i[0] * v_3_world_0 + A_i[1] * v_3_world_1 + A_i[2] * v_3_world_2;
+    /* v_4_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_4_in_i_0 = v_0_in_i_0 - omega_j_in_i_0;
+    const jg_real v_4_in_i_2 = v_0_in_i_2 - omega_j_in_i_2;
+    const jg_real v_3_in_i_1 = v_3_world_0 * A_i[3] + v_3_world_1 * A_i[4] + v_3_world_2 * A_i[5];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_3_in_i_0;
+    const jg_real s_j_in_i_1 = A_ji_3 * s_j[0] + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
+    const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_3_in_i_1;
+    const jg_real v_3_in_i_2 = A_i[6] * v_3_world_0 + A_i[7] * v_3_world_1 + A_i[8] * v_3_world_2;
+    const jg_real v_4_in_i_1 = v_0_in_i_1 - omega_j_in_i_1;
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_3_in_i_2;
+    /* v_1_in_i = v_j - v_i, axes of body i */
+    const jg_real v_1_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j_in_i_1 * omega_j_in_i_1 + omega_j_in_i_0 * omega_j_in_i_0 +
+        omega_j_in_i_2 * omega_j_in_i_2;
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_1 * omega_i[1] + omega_j_in_i_0 * omega_i[0] + omega_j_in_i_2 *
+        omega_i[2];
+    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
+    const jg_real v_1_in_i_2 = v_j_in_i_2 - v_i[2];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real t39 = omega_i[1] * e_ij_in_i_1 + omega_i[0] * e_ij_in_i_0 + omega_i[2] * e_ij_in_i_2;
+    const jg_real t40 = s_j_in_i_1 * v_4_in_i_1 + s_j_in_i_0 * v_4_in_i_0 + s_j_in_i_2 * v_4_in_i_2;
+    const jg_real v_1_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    /* v_2_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_2_in_i_0 = v_0_in_i_1 * v_1_in_i_2 - v_0_in_i_2 * v_1_in_i_1;
+    const jg_real t44 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
+    const jg_real v_2_in_i_1 = v_0_in_i_2 * v_1_in_i_0 - v_0_in_i_0 * v_1_in_i_2;
+    const jg_real t46 = alphadot[1] * alphadot[1];
+    const jg_real v_2_in_i_2 = v_0_in_i_0 * v_1_in_i_1 - v_0_in_i_1 * v_1_in_i_0;
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    /* v_3_in_i = r_j - r_i, axes of body i */
-    const jg_real v_3_in_i_0 = A_i[0] * v_3_world_0 + A_i[1] * v_3_world_1 + A_i[2] * v_3_world_2;
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
-    /* omega_j_in_i = omega_j, axes of body i */
-    const jg_real omega_j_in_i_0 = A_ji_0 * omega_j[0] + A_ji_1 * omega_j[1] + A_ji_2 * omega_j[2];
-    const jg_real s_j_in_i_2 = A_ji_6 * s_j[0] + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
-    const jg_real omega_j_in_i_2 = A_ji_6 * omega_j[0] + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
-    const jg_real v_3_in_i_1 = v_3_world_0 * A_i[3] + v_3_world_1 * A_i[4] + v_3_world_2 * A_i[5];
-    const jg_real v_3_in_i_2 = A_i[6] * v_3_world_0 + A_i[7] * v_3_world_1 + A_i[8] * v_3_world_2;
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = v_j[0] * A_ji_6 + v_j[1] * A_ji_7 + v_j[2] * A_ji_8;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_3_in_i_0 + s_j_in_i_0;
-    /* v_4_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_4_in_i_0 = v_0_in_i_0 - omega_j_in_i_0;
-    const jg_real v_4_in_i_2 = v_0_in_i_2 - omega_j_in_i_2;
-    const jg_real e_ij_in_i_2 = v_3_in_i_2 + s_j_in_i_2;
-    /* v_1_in_i = v_j - v_i, axes of body i */
-    const jg_real v_1_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_j_in_i_0 = v_j[0] * A_ji_0 + v_j[1] * A_ji_1 + v_j[2] * A_ji_2;
-    const jg_real s_j_in_i_1 = A_ji_3 * s_j[0] + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
-    const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
-    const jg_real v_j_in_i_1 = v_j[0] * A_ji_3 + v_j[1] * A_ji_4 + v_j[2] * A_ji_5;
-    const jg_real v_1_in_i_0 = v_j_in_i_0 - v_i[0];
-    const jg_real e_ij_in_i_1 = v_3_in_i_1 + s_j_in_i_1;
-    const jg_real v_4_in_i_1 = v_0_in_i_1 - omega_j_in_i_1;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real v_1_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    /* v_2_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_2_in_i_1 = v_0_in_i_2 * v_1_in_i_0 - v_0_in_i_0 * v_1_in_i_2;
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j_in_i_0 * omega_j_in_i_0 + omega_j_in_i_1 * omega_j_in_i_1 +
-        omega_j_in_i_2 * omega_j_in_i_2;
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
     /* omega_j_dot_f_i = omega_j . f_i */
-    const jg_real omega_j_dot_f_i = omega_j_in_i_0 * C_i[0] + omega_j_in_i_1 * C_i[1] + omega_j_in_i_2 * C_i[2];
-    const jg_real v_2_in_i_0 = v_0_in_i_1 * v_1_in_i_2 - v_0_in_i_2 * v_1_in_i_1;
-    const jg_real v_2_in_i_2 = v_0_in_i_0 * v_1_in_i_1 - v_0_in_i_1 * v_1_in_i_0;
-    const jg_real t52 = omega_i[0] * e_ij_in_i_0 + omega_i[1] * e_ij_in_i_1 + omega_i[2] * e_ij_in_i_2;
-    const jg_real t53 = s_j_in_i_0 * v_4_in_i_0 + s_j_in_i_1 * v_4_in_i_1 + s_j_in_i_2 * v_4_in_i_2;
+    const jg_real omega_j_dot_f_i = omega_j_in_i_1 * C_i[1] + omega_j_in_i_0 * C_i[0] + omega_j_in_i_2 * C_i[2];
     /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j_in_i_0 * f_j_in_i_0 + omega_j_in_i_1 * f_j_in_i_1 + omega_j_in_i_2 *
+    const jg_real omega_j_dot_f_j = omega_j_in_i_1 * f_j_in_i_1 + omega_j_in_i_0 * f_j_in_i_0 + omega_j_in_i_2 *
         f_j_in_i_2;
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i[0] * f_j_in_i_0 + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
+    const jg_real omega_i_dot_f_j = omega_i[1] * f_j_in_i_1 + omega_i[0] * f_j_in_i_0 + omega_i[2] * f_j_in_i_2;
     /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_j_in_i_0 * C_i[0] + f_j_in_i_1 * C_i[1] + f_j_in_i_2 * C_i[2];
+    const jg_real f_i_dot_f_j = f_j_in_i_1 * C_i[1] + f_j_in_i_0 * C_i[0] + f_j_in_i_2 * C_i[2];
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
+    /* v_5_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_5_in_i_0 = s_j_in_i_0 * t44 + omega_i_dot_omega_i * v_3_in_i_0 - omega_i[0] * t39 +
+        omega_j_in_i_0 * t40;
+    const jg_real v_5_in_i_1 = s_j_in_i_1 * t44 + omega_i_dot_omega_i * v_3_in_i_1 - omega_i[1] * t39 +
+        omega_j_in_i_1 * t40;
+    const jg_real v_5_in_i_2 = s_j_in_i_2 * t44 + omega_i_dot_omega_i * v_3_in_i_2 - omega_i[2] * t39 +
+        omega_j_in_i_2 * t40;
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = f_j_in_i_1 * C_i[7] + f_j_in_i_0 * C_i[6] + f_j_in_i_2 * C_i[8];
+    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_6_in_i_0 = v_5_in_i_0 + v_2_in_i_0;
+    const jg_real v_6_in_i_1 = v_5_in_i_1 + v_2_in_i_1;
+    const jg_real v_6_in_i_2 = v_5_in_i_2 + v_2_in_i_2;
     /* omega_j_dot_h_i = omega_j . h_i */
-    const jg_real omega_j_dot_h_i = omega_j_in_i_0 * C_i[6] + omega_j_in_i_1 * C_i[7] + omega_j_in_i_2 * C_i[8];
-    const jg_real t58 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
+    const jg_real omega_j_dot_h_i = omega_j_in_i_1 * C_i[7] + omega_j_in_i_0 * C_i[6] + omega_j_in_i_2 * C_i[8];
+    /* omega_i_dot_h_i = omega_i . h_i */
+    const jg_real omega_i_dot_h_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = f_j_in_i_0 * C_i[6] + f_j_in_i_1 * C_i[7] + f_j_in_i_2 * C_i[8];
-    /* omega_i_dot_h_i = omega_i . h_i */
-    const jg_real omega_i_dot_h_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    /* v_5_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_5_in_i_0 = omega_i_dot_omega_i * v_3_in_i_0 + t58 * s_j_in_i_0 - omega_i[0] * t52 +
-        omega_j_in_i_0 * t53;
-    const jg_real v_5_in_i_1 = omega_i_dot_omega_i * v_3_in_i_1 + t58 * s_j_in_i_1 - omega_i[1] * t52 +
-        omega_j_in_i_1 * t53;
-    const jg_real v_5_in_i_2 = omega_i_dot_omega_i * v_3_in_i_2 + t58 * s_j_in_i_2 - omega_i[2] * t52 +
-        omega_j_in_i_2 * t53;
     /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j_in_i_0 * h_j_in_i_0 + omega_j_in_i_1 * h_j_in_i_1 + omega_j_in_i_2 *
+    const jg_real omega_j_dot_h_j = omega_j_in_i_1 * h_j_in_i_1 + omega_j_in_i_0 * h_j_in_i_0 + omega_j_in_i_2 *
         h_j_in_i_2;
     /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i[0] * h_j_in_i_0 + omega_i[1] * h_j_in_i_1 + omega_i[2] * h_j_in_i_2;
+    const jg_real omega_i_dot_h_j = omega_i[1] * h_j_in_i_1 + omega_i[0] * h_j_in_i_0 + omega_i[2] * h_j_in_i_2;
     /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
-    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_6_in_i_0 = v_2_in_i_0 + v_5_in_i_0;
+    const jg_real h_i_dot_h_j = C_i[7] * h_j_in_i_1 + C_i[6] * h_j_in_i_0 + C_i[8] * h_j_in_i_2;
+    const jg_real t75 = JG_REAL(2.0) * sine_1;
     gamma[0] = v_6_in_i_0;
-    const jg_real v_6_in_i_1 = v_2_in_i_1 + v_5_in_i_1;
     gamma[1] = v_6_in_i_1;
-    const jg_real v_6_in_i_2 = v_2_in_i_2 + v_5_in_i_2;
     gamma[2] = v_6_in_i_2;
-    gamma[4] = t58 * h_i_dot_f_j + omega_i_dot_f_j * (JG_REAL(2.0) * omega_j_dot_h_i - omega_i_dot_h_i) + sine_1 *
-        alphadot[1] * alphadot[1] - omega_j_dot_f_j * omega_j_dot_h_i;
-    gamma[3] = -((alphadot[0] * alphadot[0] + t7) * (cosine_0 * cosine_1) - t58 * f_i_dot_f_j + omega_j_dot_f_i *
-        (omega_j_dot_f_j - JG_REAL(2.0) * omega_i_dot_f_j) - JG_REAL(2.0) * sine_0 * sine_1 * alphadot[0] *
-        alphadot[1] + omega_i_dot_f_j * omega_i_dot_f_i);
-    gamma[5] = -((t7 + alphadot[2] * alphadot[2]) * (cosine_1 * cosine_2) - t58 * h_i_dot_h_j + omega_j_dot_h_i *
-        (omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j) - JG_REAL(2.0) * sine_1 * sine_2 * alphadot[1] *
-        alphadot[2] + omega_i_dot_h_i * omega_i_dot_h_j);
+    gamma[4] = t44 * h_i_dot_f_j + omega_i_dot_f_j * (JG_REAL(2.0) * omega_j_dot_h_i - omega_i_dot_h_i) + t46 *
+        sine_1 - omega_j_dot_f_j * omega_j_dot_h_i;
+    gamma[3] = -((alphadot[0] * alphadot[0] + t46) * (cosine_0 * cosine_1) - t44 * f_i_dot_f_j + (omega_j_dot_f_j -
+        JG_REAL(2.0) * omega_i_dot_f_j) * omega_j_dot_f_i - sine_0 * t75 * alphadot[0] * alphadot[1] +
+        omega_i_dot_f_j * omega_i_dot_f_i);
+    gamma[5] = -((t46 + alphadot[2] * alphadot[2]) * (cosine_1 * cosine_2) - t44 * h_i_dot_h_j + omega_j_dot_h_i *
+        (omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j) - t75 * sine_2 * alphadot[1] * alphadot[2] +
+        omega_i_dot_h_i * omega_i_dot_h_j);
 }
 
-void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_ball_parametric_table4_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -582,26 +575,25 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
     /* omega_j_in_i = omega_j, axes of body i */
@@ -609,57 +601,58 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + s_j[1] * A_ji_7 + s_j[2] * A_ji_8;
     const jg_real omega_j_in_i_0 = A_ji_0 * omega_j[0] + A_ji_1 * omega_j[1] + A_ji_2 * omega_j[2];
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
-    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
     /* v_2_in_i = v_j - v_i, axes of body i */
     const jg_real v_2_in_i_0 = v_j_in_i_0 - v_i[0];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    const jg_real v_2_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
     const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    /* omega_i_cross_h_i_in_i = omega_i x h_i, axes of body i */
-    const jg_real omega_i_cross_h_i_in_i_1 = omega_i[2] * C_i[6] - omega_i[0] * C_i[8];
     const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
-    const jg_real omega_i_cross_h_i_in_i_0 = omega_i[1] * C_i[8] - omega_i[2] * C_i[7];
     const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
+    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
+    const jg_real v_2_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_1 = s_j_in_i_2 * omega_j_in_i_0 - s_j_in_i_0 * omega_j_in_i_2;
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    /* omega_j_cross_h_i_in_i = omega_j x h_i, axes of body i */
-    const jg_real omega_j_cross_h_i_in_i_1 = omega_j_in_i_2 * C_i[6] - omega_j_in_i_0 * C_i[8];
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real v_2_in_i_1 = v_j_in_i_1 - v_i[1];
-    /* v_1_in_i = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body i */
-    const jg_real v_1_in_i_1 = omega_i[0] * e_ij_in_i_2 - omega_i[2] * e_ij_in_i_0;
-    const jg_real omega_i_cross_h_i_in_i_2 = omega_i[0] * C_i[7] - omega_i[1] * C_i[6];
+    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     const jg_real s_j_cross_omega_j_in_i_0 = s_j_in_i_1 * omega_j_in_i_2 - s_j_in_i_2 * omega_j_in_i_1;
     const jg_real s_j_cross_omega_j_in_i_2 = s_j_in_i_0 * omega_j_in_i_1 - s_j_in_i_1 * omega_j_in_i_0;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real v_2_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    /* v_1_in_i = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body i */
+    const jg_real v_1_in_i_0 = omega_i[2] * e_ij_in_i_1 - omega_i[1] * e_ij_in_i_2;
+    const jg_real v_1_in_i_1 = omega_i[0] * e_ij_in_i_2 - omega_i[2] * e_ij_in_i_0;
+    const jg_real v_1_in_i_2 = omega_i[1] * e_ij_in_i_0 - omega_i[0] * e_ij_in_i_1;
+    /* omega_j_cross_h_i_in_i = omega_j x h_i, axes of body i */
     const jg_real omega_j_cross_h_i_in_i_0 = omega_j_in_i_1 * C_i[8] - omega_j_in_i_2 * C_i[7];
+    const jg_real omega_j_cross_h_i_in_i_1 = omega_j_in_i_2 * C_i[6] - omega_j_in_i_0 * C_i[8];
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
     const jg_real omega_j_cross_h_i_in_i_2 = omega_j_in_i_0 * C_i[7] - omega_j_in_i_1 * C_i[6];
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_2 = C_i[0] * f_j_in_i_1 - C_i[1] * f_j_in_i_0;
-    const jg_real v_1_in_i_0 = omega_i[2] * e_ij_in_i_1 - omega_i[1] * e_ij_in_i_2;
-    const jg_real v_1_in_i_2 = omega_i[1] * e_ij_in_i_0 - omega_i[0] * e_ij_in_i_1;
+    /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
+    const jg_real v_3_in_i_0 = v_1_in_i_0 - s_j_cross_omega_j_in_i_0 + v_2_in_i_0;
+    /* omega_i_cross_h_i_in_i = omega_i x h_i, axes of body i */
+    const jg_real omega_i_cross_h_i_in_i_1 = omega_i[2] * C_i[6] - omega_i[0] * C_i[8];
+    const jg_real omega_i_cross_h_i_in_i_0 = omega_i[1] * C_i[8] - omega_i[2] * C_i[7];
+    const jg_real v_3_in_i_1 = v_1_in_i_1 - s_j_cross_omega_j_in_i_1 + v_2_in_i_1;
+    const jg_real v_3_in_i_2 = v_1_in_i_2 - s_j_cross_omega_j_in_i_2 + v_2_in_i_2;
     const jg_real f_i_cross_f_j_in_i_0 = C_i[1] * f_j_in_i_2 - C_i[2] * f_j_in_i_1;
     const jg_real f_i_cross_f_j_in_i_1 = C_i[2] * f_j_in_i_0 - C_i[0] * f_j_in_i_2;
-    /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
-    const jg_real v_3_in_i_1 = v_1_in_i_1 - s_j_cross_omega_j_in_i_1 + v_2_in_i_1;
-    phi_q_v[1] = v_3_in_i_1;
+    const jg_real omega_i_cross_h_i_in_i_2 = omega_i[0] * C_i[7] - omega_i[1] * C_i[6];
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    const jg_real v_3_in_i_0 = v_1_in_i_0 - s_j_cross_omega_j_in_i_0 + v_2_in_i_0;
-    phi_q_v[0] = v_3_in_i_0;
-    const jg_real v_3_in_i_2 = v_1_in_i_2 - s_j_cross_omega_j_in_i_2 + v_2_in_i_2;
-    phi_q_v[2] = v_3_in_i_2;
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    phi_q_v[0] = v_3_in_i_0;
+    phi_q_v[1] = v_3_in_i_1;
+    phi_q_v[2] = v_3_in_i_2;
     phi_q_v[4] = f_j_in_i_0 * omega_i_cross_h_i_in_i_0 + f_j_in_i_1 * omega_i_cross_h_i_in_i_1 + f_j_in_i_2 *
         omega_i_cross_h_i_in_i_2 + cosine_1 * alphadot[1] - (f_j_in_i_0 * omega_j_cross_h_i_in_i_0 + f_j_in_i_1 *
         omega_j_cross_h_i_in_i_1 + f_j_in_i_2 * omega_j_cross_h_i_in_i_2);
@@ -672,33 +665,30 @@ void jg_ball_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
         * h_j_in_i_2);
 }
 
-void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
+    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
@@ -708,33 +698,28 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
-    /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
-    const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
-    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
     const jg_real h_i_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
-    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
     const jg_real h_i_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     /* v_2_in_j = lambda_3 f_i + lambda_4 h_i, axes of body j */
     const jg_real v_2_in_j_2 = lambda[3] * f_i_in_j_2 + lambda[4] * h_i_in_j_2;
     const jg_real v_2_in_j_1 = lambda[3] * f_i_in_j_1 + lambda[4] * h_i_in_j_1;
-    /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
-    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* h_j_cross_h_i_in_j = h_j x h_i, axes of body j */
     const jg_real h_j_cross_h_i_in_j_0 = h_i_in_j_2 * C_j[7] - h_i_in_j_1 * C_j[8];
+    /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
+    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
+    /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
+    const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     const jg_real v_2_in_j_0 = lambda[3] * f_i_in_j_0 + lambda[4] * h_i_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real h_j_cross_h_i_in_j_1 = h_i_in_j_0 * C_j[8] - h_i_in_j_2 * C_j[6];
@@ -746,15 +731,22 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     const jg_real v_4_in_j_2 = lambda[5] * h_j_cross_h_i_in_j_2;
     /* v_3_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body j */
     const jg_real v_3_in_j_0 = C_j[1] * v_2_in_j_2 - C_j[2] * v_2_in_j_1;
+    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     const jg_real v_3_in_j_1 = C_j[2] * v_2_in_j_0 - C_j[0] * v_2_in_j_2;
     const jg_real v_3_in_j_2 = C_j[0] * v_2_in_j_1 - C_j[1] * v_2_in_j_0;
+    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 f_j x f_i + lambda_4 f_j x h_i + lambda_5 h_j x h_i, axes of ... */
     const jg_real v_5_in_j_0 = v_3_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 + v_4_in_j_0;
-    phi_q_t_lambda[9] = v_5_in_j_0;
     const jg_real v_5_in_j_1 = v_3_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 + v_4_in_j_1;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[9] = v_5_in_j_0;
     phi_q_t_lambda[10] = v_5_in_j_1;
     const jg_real v_5_in_j_2 = v_3_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 + v_4_in_j_2;
-    phi_q_t_lambda[11] = v_5_in_j_2;
     /* v_5_in_i = s_j x lambda_0_1_2 + lambda_3 f_j x f_i + lambda_4 f_j x h_i + lambda_5 h_j x h_i, axes of ... */
     const jg_real v_5_in_i_0 = A_ji_0 * v_5_in_j_0 + A_ji_1 * v_5_in_j_1 + A_ji_2 * v_5_in_j_2;
     const jg_real v_5_in_i_1 = A_ji_3 * v_5_in_j_0 + A_ji_4 * v_5_in_j_1 + A_ji_5 * v_5_in_j_2;
@@ -763,6 +755,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     const jg_real v_6_in_i_0 = v_1_in_i_0 + v_5_in_i_0;
     const jg_real v_6_in_i_1 = v_1_in_i_1 + v_5_in_i_1;
     const jg_real v_6_in_i_2 = v_1_in_i_2 + v_5_in_i_2;
+    phi_q_t_lambda[11] = v_5_in_j_2;
     phi_q_t_lambda[3] = -v_6_in_i_0;
     phi_q_t_lambda[4] = -v_6_in_i_1;
     phi_q_t_lambda[5] = -v_6_in_i_2;
@@ -771,11 +764,9 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     phi_q_t_lambda[13] = sine_0 * (lambda[3] * cosine_1 + lambda[5] * cosine_2) + lambda[4] * cosine_0;
 }
 
-void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_table4_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -790,347 +781,353 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q_t_lambda_q[2] = lambda[2];
-    phi_q_t_lambda_q[0] = -lambda[2];
-    phi_q_t_lambda_q[1] = lambda[1];
-    phi_q_t_lambda_q[5] = lambda[0];
-    phi_q_t_lambda_q[3] = -lambda[0];
-    phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ij_4;
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[26] = A_ij_8;
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    phi_q[23] = A_ij_5;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ij_7;
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    phi_q[21] = A_ij_3;
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    phi_q[24] = A_ij_6;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    phi_q[22] = A_ij_4;
+    phi_q[26] = A_ij_8;
+    phi_q[23] = A_ij_5;
+    phi_q[25] = A_ij_7;
+    phi_q[21] = A_ij_3;
+    phi_q[24] = A_ij_6;
     phi_q[18] = A_ij_0;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    phi_q[20] = A_ij_2;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    /* v_1_in_i = lambda_3 f_i + lambda_4 h_i, axes of body i */
-    const jg_real v_1_in_i_1 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
-    const jg_real v_1_in_i_2 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
+    const jg_real s_j_in_i_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real v_1_in_i_0 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
+    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
+    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
     const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    const jg_real t29 = C_i[6] * h_j_in_i_0;
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    phi_q[9] = e_ij_in_i_0;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    phi_q[13] = e_ij_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    phi_q[3] = e_ij_in_i_2;
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    phi_q[20] = A_ij_2;
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[3] = e_ij_in_i_2;
     phi[0] = d_ij_in_i_0;
+    const jg_real t35 = C_i[8] * h_j_in_i_0;
+    const jg_real t36 = C_i[7] * h_j_in_i_1;
+    const jg_real t37 = C_i[8] * h_j_in_i_2;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
-    phi_q[4] = -e_ij_in_i_1;
-    phi_q[8] = -e_ij_in_i_2;
-    phi_q[14] = -e_ij_in_i_0;
+    const jg_real t40 = C_i[7] * h_j_in_i_2;
+    const jg_real t41 = C_i[8] * h_j_in_i_1;
+    const jg_real t42 = C_i[6] * h_j_in_i_2;
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
-    const jg_real f_i_cross_f_j_in_i_0 = f_j_in_i_2 * C_i[1] - f_j_in_i_1 * C_i[2];
-    phi_q[5] = f_i_cross_f_j_in_i_0;
-    /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
-    const jg_real h_i_cross_f_j_in_i_0 = f_j_in_i_2 * C_i[7] - f_j_in_i_1 * C_i[8];
-    phi_q[6] = h_i_cross_f_j_in_i_0;
-    /* h_i_cross_h_j_in_i = h_i x h_j, axes of body i */
-    const jg_real h_i_cross_h_j_in_i_0 = C_i[7] * h_j_in_i_2 - C_i[8] * h_j_in_i_1;
-    phi_q[7] = h_i_cross_h_j_in_i_0;
-    const jg_real f_i_cross_f_j_in_i_1 = f_j_in_i_0 * C_i[2] - f_j_in_i_2 * C_i[0];
-    phi_q[10] = f_i_cross_f_j_in_i_1;
+    const jg_real f_i_cross_f_j_in_i_0 = C_i[1] * f_j_in_i_2 - f_j_in_i_1 * C_i[2];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_j_in_i_0 * C_i[0] + f_j_in_i_1 * C_i[1] + f_j_in_i_2 * C_i[2];
+    /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
+    const jg_real h_i_cross_f_j_in_i_0 = f_j_in_i_2 * C_i[7] - f_j_in_i_1 * C_i[8];
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = f_j_in_i_0 * C_i[6] + f_j_in_i_1 * C_i[7] + f_j_in_i_2 * C_i[8];
     /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
+    const jg_real h_i_dot_h_j = t29 + t36 + t37;
+    /* h_i_cross_h_j_in_i = h_i x h_j, axes of body i */
+    const jg_real h_i_cross_h_j_in_i_0 = t40 - t41;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[8] = -e_ij_in_i_2;
+    phi_q[5] = f_i_cross_f_j_in_i_0;
+    phi_q[14] = -e_ij_in_i_0;
+    phi_q[6] = h_i_cross_f_j_in_i_0;
+    phi_q[7] = h_i_cross_h_j_in_i_0;
+    const jg_real f_i_cross_f_j_in_i_1 = f_j_in_i_0 * C_i[2] - C_i[0] * f_j_in_i_2;
     const jg_real h_i_cross_f_j_in_i_1 = f_j_in_i_0 * C_i[8] - f_j_in_i_2 * C_i[6];
-    phi_q[11] = h_i_cross_f_j_in_i_1;
-    const jg_real h_i_cross_h_j_in_i_1 = C_i[8] * h_j_in_i_0 - C_i[6] * h_j_in_i_2;
-    phi_q[12] = h_i_cross_h_j_in_i_1;
-    const jg_real f_i_cross_f_j_in_i_2 = f_j_in_i_1 * C_i[0] - f_j_in_i_0 * C_i[1];
-    phi_q[15] = f_i_cross_f_j_in_i_2;
+    const jg_real h_i_cross_h_j_in_i_1 = t35 - t42;
+    const jg_real t52 = C_i[6] * h_j_in_i_1;
+    const jg_real t53 = C_i[7] * h_j_in_i_0;
+    const jg_real f_i_cross_f_j_in_i_2 = C_i[0] * f_j_in_i_1 - f_j_in_i_0 * C_i[1];
     const jg_real h_i_cross_f_j_in_i_2 = f_j_in_i_1 * C_i[6] - f_j_in_i_0 * C_i[7];
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real h_i_cross_h_j_in_i_2 = t52 - t53;
+    phi_q[10] = f_i_cross_f_j_in_i_1;
+    phi_q[11] = h_i_cross_f_j_in_i_1;
+    phi_q[12] = h_i_cross_h_j_in_i_1;
+    phi_q[15] = f_i_cross_f_j_in_i_2;
     phi_q[16] = h_i_cross_f_j_in_i_2;
-    phi_q[31] = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    phi_q[32] = C_j[7] * h_i_in_j_2 - C_j[8] * h_i_in_j_1;
-    const jg_real h_i_cross_h_j_in_i_2 = C_i[6] * h_j_in_i_1 - C_i[7] * h_j_in_i_0;
     phi_q[17] = h_i_cross_h_j_in_i_2;
-    phi_q[27] = A_ij_1 * s_j_in_i_2 - A_ij_2 * s_j_in_i_1;
-    phi_q[28] = A_ij_2 * s_j_in_i_0 - A_ij_0 * s_j_in_i_2;
-    phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
-    phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
-    phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
+    phi_q[27] = A_ij_1 * s_j_in_i_2 - s_j_in_i_1 * A_ij_2;
+    phi_q[28] = s_j_in_i_0 * A_ij_2 - A_ij_0 * s_j_in_i_2;
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = A_ij_0 * f_i_cross_f_j_in_i_0 + A_ij_1 * f_i_cross_f_j_in_i_1 + A_ij_2 *
         f_i_cross_f_j_in_i_2;
-    phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
-    phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
-    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
-    /* v_2_in_i = lambda_5 h_j, axes of body i */
-    const jg_real v_2_in_i_1 = h_j_in_i_1 * lambda[5];
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
     const jg_real f_i_cross_f_j_in_j_1 = A_ij_3 * f_i_cross_f_j_in_i_0 + A_ij_4 * f_i_cross_f_j_in_i_1 + A_ij_5 *
         f_i_cross_f_j_in_i_2;
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    phi_q[29] = A_ij_0 * s_j_in_i_1 - s_j_in_i_0 * A_ij_1;
+    phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
+    phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
+    phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
     phi_q[30] = -f_i_cross_f_j_in_j_0;
+    phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
+    phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
+    phi_q[31] = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
+    phi_q[32] = C_j[7] * h_i_in_j_2 - C_j[8] * h_i_in_j_1;
+    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
+    phi_q_t_lambda_q[2] = lambda[2];
+    phi_q_t_lambda_q[0] = -lambda[2];
+    phi_q[36] = -f_i_cross_f_j_in_j_1;
+    phi_q_t_lambda_q[1] = lambda[1];
+    phi_q_t_lambda_q[5] = lambda[0];
+    phi_q_t_lambda_q[3] = -lambda[0];
+    const jg_real f_i_cross_f_j_in_j_2 = A_ij_6 * f_i_cross_f_j_in_i_0 + A_ij_7 * f_i_cross_f_j_in_i_1 + A_ij_8 *
+        f_i_cross_f_j_in_i_2;
+    /* v_1_in_i = lambda_3 f_i + lambda_4 h_i, axes of body i */
+    const jg_real v_1_in_i_1 = C_i[1] * lambda[3] + C_i[7] * lambda[4];
+    const jg_real v_1_in_i_2 = C_i[2] * lambda[3] + C_i[8] * lambda[4];
+    const jg_real v_1_in_i_0 = C_i[0] * lambda[3] + C_i[6] * lambda[4];
+    const jg_real t66 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q_t_lambda_q[4] = -lambda[1];
     phi_q[37] = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
     phi_q[38] = C_j[8] * h_i_in_j_0 - C_j[6] * h_i_in_j_2;
     phi_q[43] = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
-    const jg_real v_2_in_i_2 = h_j_in_i_2 * lambda[5];
     phi_q[44] = C_j[6] * h_i_in_j_1 - C_j[7] * h_i_in_j_0;
-    phi_q[36] = -f_i_cross_f_j_in_j_1;
-    const jg_real f_i_cross_f_j_in_j_2 = A_ij_6 * f_i_cross_f_j_in_i_0 + A_ij_7 * f_i_cross_f_j_in_i_1 + A_ij_8 *
-        f_i_cross_f_j_in_i_2;
-    const jg_real t59 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t59;
-    phi_q_t_lambda_q[33] = t59;
-    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_3 f_j) f_i^T + (lambda_4 f_j + lambda_5 h_j) h_i^T; rows in ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + f_j_in_i_1 * v_1_in_i_1 + C_i[7] * v_2_in_i_1;
     phi_q[42] = -f_i_cross_f_j_in_j_2;
-    const jg_real t61 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t61;
-    phi_q_t_lambda_q[36] = t61;
-    /* v_3_in_j = lambda_5 h_i, axes of body j */
-    const jg_real v_3_in_j_0 = h_i_in_j_0 * lambda[5];
-    const jg_real t63 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t63;
-    phi_q_t_lambda_q[39] = t63;
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + f_j_in_i_2 * v_1_in_i_2 + C_i[8] * v_2_in_i_2;
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + f_j_in_i_1 * v_1_in_i_0 + C_i[6] * v_2_in_i_1;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + f_j_in_i_2 * v_1_in_i_0 + C_i[6] * v_2_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
-    const jg_real v_3_in_j_1 = h_i_in_j_1 * lambda[5];
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
-    const jg_real v_3_in_j_2 = h_i_in_j_2 * lambda[5];
-    /* v_1_in_j = lambda_3 f_i + lambda_4 h_i, axes of body j */
-    const jg_real v_1_in_j_0 = A_ij_0 * v_1_in_i_0 + A_ij_1 * v_1_in_i_1 + A_ij_2 * v_1_in_i_2;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real v_1_in_j_1 = A_ij_3 * v_1_in_i_0 + A_ij_4 * v_1_in_i_1 + A_ij_5 * v_1_in_i_2;
-    const jg_real v_2_in_i_0 = h_j_in_i_0 * lambda[5];
-    const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
-    const jg_real v_1_in_j_2 = A_ij_6 * v_1_in_i_0 + A_ij_7 * v_1_in_i_1 + A_ij_8 * v_1_in_i_2;
-    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[9] = t66;
+    phi_q_t_lambda_q[33] = t66;
+    const jg_real t67 = cosine_0 * cosine_1;
+    const jg_real t68 = cosine_1 * cosine_2;
+    const jg_real t69 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
     phi_q[47] = cosine_1;
-    const jg_real t76 = cosine_0 * cosine_1;
-    phi[4] = sine_1 + h_i_dot_f_j;
-    const jg_real t77 = cosine_1 * cosine_2;
+    phi[4] = h_i_dot_f_j + sine_1;
     phi_q[45] = cosine_1 * sine_0;
     phi_q[46] = cosine_0 * sine_1;
     phi_q[48] = sine_1 * cosine_2;
     phi_q[49] = cosine_1 * sine_2;
+    phi[3] = f_i_dot_f_j - t67;
+    phi_q_t_lambda_q[10] = t69;
+    phi_q_t_lambda_q[36] = t69;
+    const jg_real t70 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    /* v_3_in_j = lambda_5 h_i, axes of body j */
+    const jg_real v_3_in_j_0 = h_i_in_j_0 * lambda[5];
+    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_3 f_j) f_i^T + (lambda_4 f_j + lambda_5 h_j) h_i^T; rows in ... */
+    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + f_j_in_i_1 * v_1_in_i_1 + t36 * lambda[5];
+    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + f_j_in_i_2 * v_1_in_i_2 + t37 * lambda[5];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + f_j_in_i_1 * v_1_in_i_0 + t52 * lambda[5];
+    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + f_j_in_i_2 * v_1_in_i_0 + t42 * lambda[5];
+    const jg_real v_3_in_j_1 = h_i_in_j_1 * lambda[5];
+    /* v_1_in_j = lambda_3 f_i + lambda_4 h_i, axes of body j */
+    const jg_real v_1_in_j_0 = A_ij_0 * v_1_in_i_0 + A_ij_1 * v_1_in_i_1 + A_ij_2 * v_1_in_i_2;
+    const jg_real v_1_in_j_1 = A_ij_3 * v_1_in_i_0 + A_ij_4 * v_1_in_i_1 + A_ij_5 * v_1_in_i_2;
+    const jg_real v_3_in_j_2 = h_i_in_j_2 * lambda[5];
+    const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    phi[5] = h_i_dot_h_j - t68;
+    phi_q_t_lambda_q[11] = t70;
+    phi_q_t_lambda_q[39] = t70;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    const jg_real v_1_in_j_2 = A_ij_6 * v_1_in_i_0 + A_ij_7 * v_1_in_i_1 + A_ij_8 * v_1_in_i_2;
+    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_3 f_j) f_i^T + (lambda_4 f_j + lambda_5 h_j) h_i^T; rows in ... */
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_1_in_j_0 + C_j[8] * v_3_in_j_0;
-    phi_q_t_lambda_q[63] = M_1_j_j_6;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_1_in_j_0 + C_j[7] * v_3_in_j_0;
-    phi_q_t_lambda_q[55] = M_1_j_j_3;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_1_in_j_0 + C_j[6] * v_3_in_j_0;
-    phi[3] = f_i_dot_f_j - t76;
-    phi[5] = h_i_dot_h_j - t77;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + f_j_in_i_0 * v_1_in_i_1 + C_i[7] * v_2_in_i_0;
-    phi_q_t_lambda_q[15] = M_0_i_i_1;
-    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_1_in_j_1 + C_j[7] * v_3_in_j_1;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_1_in_j_1 + C_j[6] * v_3_in_j_1;
+    const jg_real M_1_j_j_4 = C_j[1] * v_1_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[7] * v_3_in_j_1;
+    const jg_real M_1_j_j_1 = C_j[0] * v_1_in_j_1 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[6] * v_3_in_j_1;
+    const jg_real M_1_j_j_7 = C_j[2] * v_1_in_j_1 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[8] * v_3_in_j_1;
+    const jg_real t90 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_1_j_j_8 = C_j[2] * v_1_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + C_j[8] * v_3_in_j_2;
+    const jg_real M_1_j_j_2 = C_j[0] * v_1_in_j_2 + s_j[0] * lambda_0_1_2_in_j_2 + C_j[6] * v_3_in_j_2;
+    const jg_real M_1_j_j_5 = C_j[1] * v_1_in_j_2 + s_j[1] * lambda_0_1_2_in_j_2 + C_j[7] * v_3_in_j_2;
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + f_j_in_i_0 * v_1_in_i_1 + t53 * lambda[5];
+    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[63] = M_1_j_j_6;
+    phi_q_t_lambda_q[55] = M_1_j_j_3;
     phi_q_t_lambda_q[48] = M_1_j_j_1;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_1_in_j_1 + C_j[8] * v_3_in_j_1;
     phi_q_t_lambda_q[64] = M_1_j_j_7;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + f_j_in_i_0 * v_1_in_i_0 + C_i[6] * v_2_in_i_0;
-    const jg_real t86 = M_1_j_j_0 + M_1_j_j_4;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_1_in_j_2 + C_j[8] * v_3_in_j_2;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_1_in_j_2 + C_j[6] * v_3_in_j_2;
     phi_q_t_lambda_q[49] = M_1_j_j_2;
-    const jg_real t89 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t89;
-    phi_q_t_lambda_q[34] = t89;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_1_in_j_2 + C_j[7] * v_3_in_j_2;
     phi_q_t_lambda_q[57] = M_1_j_j_5;
-    const jg_real t91 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t91;
-    phi_q_t_lambda_q[37] = t91;
-    const jg_real t92 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t92;
-    phi_q_t_lambda_q[40] = t92;
-    const jg_real t93 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t94 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + f_j_in_i_2 * v_1_in_i_1 + C_i[7] * v_2_in_i_2;
+    phi_q_t_lambda_q[15] = M_0_i_i_1;
+    const jg_real t95 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t96 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + f_j_in_i_0 * v_1_in_i_0 + t29 * lambda[5];
+    const jg_real t98 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + f_j_in_i_2 * v_1_in_i_1 + t40 * lambda[5];
+    const jg_real t100 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    const jg_real t101 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    const jg_real t102 = A_ij_6 * t90 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    phi_q_t_lambda_q[18] = t98;
+    phi_q_t_lambda_q[34] = t98;
     phi_q_t_lambda_q[17] = M_0_i_i_7;
-    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + f_j_in_i_0 * v_1_in_i_2 + C_i[8] * v_2_in_i_0;
+    phi_q_t_lambda_q[19] = t100;
+    phi_q_t_lambda_q[37] = t100;
+    phi_q_t_lambda_q[20] = t101;
+    phi_q_t_lambda_q[40] = t101;
+    phi_q_t_lambda_q[14] = t102;
+    phi_q_t_lambda_q[58] = t102;
+    const jg_real t103 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t95 + A_ij_6 * M_1_j_j_6);
+    const jg_real t104 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t96 + A_ij_6 * M_1_j_j_7);
+    const jg_real t105 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t95 + A_ij_7 * M_1_j_j_6);
+    const jg_real t106 = A_ij_7 * t90 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    phi_q_t_lambda_q[16] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[12] = t103;
+    phi_q_t_lambda_q[42] = t103;
+    phi_q_t_lambda_q[13] = t104;
+    phi_q_t_lambda_q[50] = t104;
+    phi_q_t_lambda_q[21] = t105;
+    phi_q_t_lambda_q[43] = t105;
+    phi_q_t_lambda_q[23] = t106;
+    phi_q_t_lambda_q[59] = t106;
+    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + f_j_in_i_0 * v_1_in_i_2 + t35 * lambda[5];
+    const jg_real t108 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t96 + A_ij_7 * M_1_j_j_7);
+    const jg_real t109 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + f_j_in_i_1 * v_1_in_i_2 + t41 * lambda[5];
+    const jg_real t111 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[26] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[24] = M_0_i_i_2;
-    const jg_real t97 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t97;
-    phi_q_t_lambda_q[35] = t97;
-    const jg_real t98 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t98;
-    phi_q_t_lambda_q[38] = t98;
-    const jg_real t99 = A_ij_6 * t86 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t99;
-    phi_q_t_lambda_q[58] = t99;
-    const jg_real t100 = A_ij_7 * t86 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[23] = t100;
-    phi_q_t_lambda_q[59] = t100;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + f_j_in_i_1 * v_1_in_i_2 + C_i[8] * v_2_in_i_1;
+    phi_q_t_lambda_q[22] = t108;
+    phi_q_t_lambda_q[51] = t108;
+    phi_q_t_lambda_q[27] = t109;
+    phi_q_t_lambda_q[35] = t109;
     phi_q_t_lambda_q[25] = M_0_i_i_5;
-    const jg_real t102 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t102;
-    phi_q_t_lambda_q[41] = t102;
+    phi_q_t_lambda_q[28] = t111;
+    phi_q_t_lambda_q[38] = t111;
+    const jg_real t112 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[29] = t112;
+    phi_q_t_lambda_q[41] = t112;
     phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[47] = -t93;
+    phi_q_t_lambda_q[47] = -t95;
     phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[56] = -t94;
+    phi_q_t_lambda_q[56] = -t96;
     phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[65] = -t86;
-    const jg_real t103 = t76 * lambda[3];
-    phi_q_t_lambda_q[66] = t103;
-    const jg_real t104 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t93 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t104;
-    phi_q_t_lambda_q[42] = t104;
-    const jg_real t105 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t94 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t105;
-    phi_q_t_lambda_q[50] = t105;
-    const jg_real t106 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t93 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[21] = t106;
-    phi_q_t_lambda_q[43] = t106;
-    const jg_real t107 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t94 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[22] = t107;
-    phi_q_t_lambda_q[51] = t107;
-    const jg_real t108 = t77 * lambda[5];
-    phi_q_t_lambda_q[72] = t108;
+    phi_q_t_lambda_q[65] = -t90;
+    const jg_real t113 = t67 * lambda[3];
+    const jg_real t114 = t68 * lambda[5];
     /* v_4_in_i = 2 omega_i, axes of body i */
     const jg_real v_4_in_i_0 = JG_REAL(2.0) * omega_i[0];
+    const jg_real t116 = A_ij_8 * t90 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t117 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t95 + A_ij_8 * M_1_j_j_6);
     const jg_real v_4_in_i_1 = JG_REAL(2.0) * omega_i[1];
-    const jg_real t111 = A_ij_8 * t86 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t111;
-    phi_q_t_lambda_q[60] = t111;
-    const jg_real t112 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t93 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t112;
-    phi_q_t_lambda_q[44] = t112;
+    const jg_real t119 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t96 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[66] = t113;
+    phi_q_t_lambda_q[72] = t114;
+    phi_q_t_lambda_q[32] = t116;
+    phi_q_t_lambda_q[60] = t116;
+    phi_q_t_lambda_q[30] = t117;
+    phi_q_t_lambda_q[44] = t117;
+    phi_q_t_lambda_q[31] = t119;
+    phi_q_t_lambda_q[52] = t119;
+    const jg_real t120 = -(sine_1 * sine_0 * lambda[3]);
+    const jg_real t121 = -(sine_1 * sine_2 * lambda[5]);
     const jg_real v_4_in_i_2 = JG_REAL(2.0) * omega_i[2];
-    const jg_real t114 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t94 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[31] = t114;
-    phi_q_t_lambda_q[52] = t114;
-    const jg_real t115 = -(sine_1 * sine_0 * lambda[3]);
-    phi_q_t_lambda_q[67] = t115;
-    phi_q_t_lambda_q[68] = t115;
-    phi_q_t_lambda_q[69] = t103 - sine_1 * lambda[4] + t108;
-    const jg_real t116 = -(sine_1 * sine_2 * lambda[5]);
-    phi_q_t_lambda_q[70] = t116;
-    phi_q_t_lambda_q[71] = t116;
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = A_ij_0 * omega_j[0] + A_ij_3 * omega_j[1] + A_ij_6 * omega_j[2];
     const jg_real omega_j_in_i_1 = A_ij_1 * omega_j[0] + A_ij_4 * omega_j[1] + A_ij_7 * omega_j[2];
-    const jg_real omega_j_in_i_2 = A_ij_2 * omega_j[0] + A_ij_5 * omega_j[1] + A_ij_8 * omega_j[2];
     /* v_7_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_7_in_i_0 = v_4_in_i_0 - omega_j_in_i_0;
+    const jg_real omega_j_in_i_2 = A_ij_2 * omega_j[0] + A_ij_5 * omega_j[1] + A_ij_8 * omega_j[2];
+    const jg_real v_7_in_i_1 = v_4_in_i_1 - omega_j_in_i_1;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real v_7_in_i_1 = v_4_in_i_1 - omega_j_in_i_1;
+    const jg_real v_7_in_i_2 = v_4_in_i_2 - omega_j_in_i_2;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
-    const jg_real v_7_in_i_2 = v_4_in_i_2 - omega_j_in_i_2;
-    const jg_real t125 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    const jg_real t131 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
     const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
-    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* v_5_in_i = v_j - v_i, axes of body i */
     const jg_real v_5_in_i_2 = v_j_in_i_2 - v_i[2];
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
+    const jg_real t136 = s_j_in_i_0 * v_7_in_i_0 + s_j_in_i_1 * v_7_in_i_1 + s_j_in_i_2 * v_7_in_i_2;
     const jg_real v_5_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real t132 = alphadot[1] * alphadot[1];
+    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real v_5_in_i_0 = v_j_in_i_0 - v_i[0];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = C_i[0] * omega_j_in_i_0 + C_i[1] * omega_j_in_i_1 + C_i[2] * omega_j_in_i_2;
+    const jg_real t141 = alphadot[1] * alphadot[1];
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    const jg_real v_5_in_i_0 = v_j_in_i_0 - v_i[0];
-    const jg_real t136 = s_j_in_i_0 * v_7_in_i_0 + s_j_in_i_1 * v_7_in_i_1 + s_j_in_i_2 * v_7_in_i_2;
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real t143 = sine_1 * JG_REAL(2.0);
+    const jg_real t144 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
     /* v_6_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
     const jg_real v_6_in_i_0 = v_4_in_i_1 * v_5_in_i_2 - v_4_in_i_2 * v_5_in_i_1;
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     const jg_real v_6_in_i_1 = v_4_in_i_2 * v_5_in_i_0 - v_4_in_i_0 * v_5_in_i_2;
     const jg_real v_6_in_i_2 = v_4_in_i_0 * v_5_in_i_1 - v_4_in_i_1 * v_5_in_i_0;
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = C_i[6] * omega_j_in_i_0 + C_i[7] * omega_j_in_i_1 + C_i[8] * omega_j_in_i_2;
-    const jg_real t143 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
+    /* v_8_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_8_in_i_0 = s_j_in_i_0 * t144 + v_0_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t131 +
+        omega_j_in_i_0 * t136;
+    const jg_real v_8_in_i_1 = s_j_in_i_1 * t144 + v_0_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t131 +
+        omega_j_in_i_1 * t136;
+    const jg_real v_8_in_i_2 = s_j_in_i_2 * t144 + v_0_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t131 +
+        omega_j_in_i_2 * t136;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_9_in_i_0 = v_8_in_i_0 + v_6_in_i_0;
+    const jg_real v_9_in_i_1 = v_8_in_i_1 + v_6_in_i_1;
+    const jg_real v_9_in_i_2 = v_8_in_i_2 + v_6_in_i_2;
+    phi_q_t_lambda_q[67] = t120;
+    phi_q_t_lambda_q[68] = t120;
+    phi_q_t_lambda_q[69] = t113 - sine_1 * lambda[4] + t114;
+    phi_q_t_lambda_q[70] = t121;
+    phi_q_t_lambda_q[71] = t121;
+    gamma[0] = v_9_in_i_0;
+    gamma[1] = v_9_in_i_1;
+    gamma[2] = v_9_in_i_2;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* v_8_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_8_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i + s_j_in_i_0 * t143 - omega_i[0] * t125 +
-        omega_j_in_i_0 * t136;
-    const jg_real v_8_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i + s_j_in_i_1 * t143 - omega_i[1] * t125 +
-        omega_j_in_i_1 * t136;
-    const jg_real v_8_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i + s_j_in_i_2 * t143 - omega_i[2] * t125 +
-        omega_j_in_i_2 * t136;
-    /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_9_in_i_0 = v_6_in_i_0 + v_8_in_i_0;
-    gamma[0] = v_9_in_i_0;
-    const jg_real v_9_in_i_1 = v_6_in_i_1 + v_8_in_i_1;
-    gamma[1] = v_9_in_i_1;
-    const jg_real v_9_in_i_2 = v_6_in_i_2 + v_8_in_i_2;
-    gamma[2] = v_9_in_i_2;
-    gamma[4] = h_i_dot_f_j * t143 + f_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j - h_i_dot_omega_i) + sine_1 *
-        alphadot[1] * alphadot[1] - f_j_dot_omega_j * h_i_dot_omega_j;
-    gamma[3] = -(t76 * (alphadot[0] * alphadot[0] + t132) - f_i_dot_f_j * t143 + f_i_dot_omega_j * (f_j_dot_omega_j
-        - JG_REAL(2.0) * f_j_dot_omega_i) - sine_0 * JG_REAL(2.0) * sine_1 * alphadot[0] * alphadot[1] +
-        f_j_dot_omega_i * f_i_dot_omega_i);
-    gamma[5] = -(t77 * (t132 + alphadot[2] * alphadot[2]) - h_i_dot_h_j * t143 + h_i_dot_omega_j * (h_j_dot_omega_j
-        - JG_REAL(2.0) * h_j_dot_omega_i) - sine_1 * JG_REAL(2.0) * sine_2 * alphadot[1] * alphadot[2] +
-        h_i_dot_omega_i * h_j_dot_omega_i);
+    gamma[3] = -(t67 * (alphadot[0] * alphadot[0] + t141) - f_i_dot_f_j * t144 + f_i_dot_omega_j * (f_j_dot_omega_j
+        - JG_REAL(2.0) * f_j_dot_omega_i) - sine_0 * t143 * alphadot[0] * alphadot[1] + f_j_dot_omega_i *
+        f_i_dot_omega_i);
+    gamma[4] = h_i_dot_f_j * t144 + f_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j - h_i_dot_omega_i) + sine_1 *
+        t141 - f_j_dot_omega_j * h_i_dot_omega_j;
+    gamma[5] = -(t68 * (t141 + alphadot[2] * alphadot[2]) - h_i_dot_h_j * t144 + h_i_dot_omega_j * (h_j_dot_omega_j
+        - JG_REAL(2.0) * h_j_dot_omega_i) - sine_2 * t143 * alphadot[1] * alphadot[2] + h_i_dot_omega_i *
+        h_j_dot_omega_i);
 }
 
 void jg_ball_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

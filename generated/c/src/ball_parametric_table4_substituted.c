@@ -4,10 +4,6 @@
  * joint ball, form parametric, rows table4, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/ball.h"
 
 const int *jg_ball_parametric_table4_substituted_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_ball_parametric_table4_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -40,68 +35,61 @@ void jg_ball_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, c
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = f_j_world_0 * h_i_world_0 + f_j_world_1 * h_i_world_1 + f_j_world_2 * h_i_world_2;
-    /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = C_i[0] * f_j_in_i_0 + C_i[1] * f_j_in_i_1 + C_i[2] * f_j_in_i_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* h_i_dot_h_j = h_i . h_j */
+    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
     phi[4] = sine_0 + h_i_dot_f_j;
     phi[3] = f_i_dot_f_j - jg_cos(alpha[0]) * cosine_0;
     phi[5] = h_i_dot_h_j - cosine_0 * jg_cos(alpha[2]);
 }
 
-void jg_ball_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_ball_parametric_table4_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q[3] = s_i[2];
-    phi_q[13] = s_i[1];
-    phi_q[4] = -s_i[1];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -111,93 +99,99 @@ void jg_ball_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT a
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[3] = s_i[2];
+    phi_q[13] = s_i[1];
+    phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[9] = s_i[0];
-    phi_q[14] = -s_i[0];
-    phi_q[47] = cosine_0;
     /* H_10 =  */
     const jg_real H_10 = cosine_0 * sine_1;
-    phi_q[45] = H_10;
     /* H_00 =  */
     const jg_real H_00 = cosine_1 * cosine_0;
     const jg_real t8 = cosine_1 * sine_2;
     const jg_real t9 = cosine_2 * sine_0;
-    phi_q[48] = t9;
     const jg_real t10 = sine_1 * sine_2;
-    /* H_21 =  */
-    const jg_real H_21 = cosine_0 * sine_2;
-    phi_q[49] = H_21;
-    /* H_22 =  */
-    const jg_real H_22 = cosine_0 * cosine_2;
+    phi_q[14] = -s_i[0];
+    phi_q[47] = cosine_0;
+    phi_q[45] = H_10;
+    phi_q[48] = t9;
     phi_q[5] = sine_0 * C_i[3] + H_10 * C_i[6];
     phi_q[6] = H_00 * C_i[3] - H_10 * C_i[0];
     phi_q[10] = sine_0 * C_i[4] + H_10 * C_i[7];
     phi_q[11] = H_00 * C_i[4] - H_10 * C_i[1];
-    const jg_real t13 = t8 - sine_1 * t9;
+    const jg_real t11 = t8 - sine_1 * t9;
     /* H_02 =  */
     const jg_real H_02 = t10 + cosine_1 * t9;
-    phi_q[15] = sine_0 * C_i[5] + H_10 * C_i[8];
-    phi_q[16] = H_00 * C_i[5] - H_10 * C_i[2];
     /* H_01 =  */
     const jg_real H_01 = t8 * sine_0 - sine_1 * cosine_2;
+    /* H_21 =  */
+    const jg_real H_21 = cosine_0 * sine_2;
+    /* H_22 =  */
+    const jg_real H_22 = cosine_0 * cosine_2;
     /* H_11 =  */
     const jg_real H_11 = cosine_1 * cosine_2 + sine_0 * t10;
     /* A_joint_i_j = turns j axes to joint i axes */
+    const jg_real A_joint_i_j_3 = C_j[1] * H_00 + C_j[4] * H_01 + C_j[7] * H_02;
     const jg_real A_joint_i_j_5 = C_j[4] * H_21 - C_j[1] * sine_0 + C_j[7] * H_22;
-    phi_q[7] = t13 * C_i[0] + H_02 * C_i[3];
-    phi_q[12] = t13 * C_i[1] + H_02 * C_i[4];
-    /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
-    const jg_real f_j_cross_h_i_in_j_0 = H_21 * C_j[6] - H_22 * C_j[3];
-    phi_q[31] = f_j_cross_h_i_in_j_0;
-    phi_q[17] = t13 * C_i[2] + H_02 * C_i[5];
-    const jg_real A_joint_i_j_8 = H_21 * C_j[5] - sine_0 * C_j[2] + H_22 * C_j[8];
-    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * H_21 - C_j[4] * H_22;
-    phi_q[37] = f_j_cross_h_i_in_j_1;
+    const jg_real A_joint_i_j_4 = C_j[1] * H_10 + C_j[4] * H_11 - C_j[7] * t11;
+    const jg_real A_joint_i_j_6 = H_00 * C_j[2] + H_01 * C_j[5] + H_02 * C_j[8];
     /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
     const jg_real f_j_cross_f_i_in_j_0 = H_01 * C_j[6] - H_02 * C_j[3];
+    const jg_real A_joint_i_j_7 = H_10 * C_j[2] + H_11 * C_j[5] - t11 * C_j[8];
+    /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
+    const jg_real f_j_cross_h_i_in_j_0 = H_21 * C_j[6] - H_22 * C_j[3];
+    phi_q[15] = sine_0 * C_i[5] + H_10 * C_i[8];
+    phi_q[16] = H_00 * C_i[5] - H_10 * C_i[2];
+    phi_q[49] = H_21;
+    phi_q[7] = t11 * C_i[0] + H_02 * C_i[3];
+    phi_q[12] = t11 * C_i[1] + H_02 * C_i[4];
+    phi_q[17] = t11 * C_i[2] + H_02 * C_i[5];
     phi_q[30] = f_j_cross_f_i_in_j_0;
-    phi_q[32] = -(H_21 * C_j[0] + sine_0 * C_j[3]);
-    const jg_real A_joint_i_j_3 = C_j[1] * H_00 + C_j[4] * H_01 + C_j[7] * H_02;
-    const jg_real A_joint_i_j_4 = C_j[1] * H_10 + C_j[4] * H_11 - C_j[7] * t13;
-    const jg_real A_joint_i_j_6 = H_00 * C_j[2] + H_01 * C_j[5] + H_02 * C_j[8];
-    const jg_real A_joint_i_j_7 = H_10 * C_j[2] + H_11 * C_j[5] - t13 * C_j[8];
+    phi_q[31] = f_j_cross_h_i_in_j_0;
+    const jg_real A_joint_i_j_8 = H_21 * C_j[5] - sine_0 * C_j[2] + H_22 * C_j[8];
     const jg_real f_j_cross_f_i_in_j_1 = C_j[7] * H_01 - C_j[4] * H_02;
-    phi_q[36] = f_j_cross_f_i_in_j_1;
-    phi_q[46] = cosine_1 * sine_0;
-    const jg_real f_j_cross_f_i_in_j_2 = H_01 * C_j[8] - H_02 * C_j[5];
-    phi_q[42] = f_j_cross_f_i_in_j_2;
-    phi_q[38] = -(C_j[1] * H_21 + C_j[4] * sine_0);
-    const jg_real f_j_cross_h_i_in_j_2 = H_21 * C_j[8] - H_22 * C_j[5];
-    phi_q[43] = f_j_cross_h_i_in_j_2;
-    phi_q[44] = -(H_21 * C_j[2] + sine_0 * C_j[5]);
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_joint_i_j_3 * C_i[1] + A_joint_i_j_4 * C_i[4] + A_joint_i_j_5 * C_i[7];
-    phi_q[22] = A_ij_4;
     const jg_real A_ij_5 = A_joint_i_j_3 * C_i[2] + A_joint_i_j_4 * C_i[5] + A_joint_i_j_5 * C_i[8];
-    phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * A_joint_i_j_8;
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * A_joint_i_j_8;
-    phi_q[25] = A_ij_7;
     const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * A_joint_i_j_8;
-    phi_q[24] = A_ij_6;
     const jg_real A_ij_3 = A_joint_i_j_3 * C_i[0] + A_joint_i_j_4 * C_i[3] + A_joint_i_j_5 * C_i[6];
+    phi_q[36] = f_j_cross_f_i_in_j_1;
+    phi_q[22] = A_ij_4;
+    phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
+    phi_q[25] = A_ij_7;
+    phi_q[32] = -(H_21 * C_j[0] + sine_0 * C_j[3]);
+    phi_q[24] = A_ij_6;
     phi_q[21] = A_ij_3;
-    phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
+    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * H_21 - C_j[4] * H_22;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    phi_q[37] = f_j_cross_h_i_in_j_1;
     phi_q[18] = A_ij_0;
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    phi_q[38] = -(C_j[1] * H_21 + C_j[4] * sine_0);
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
+    phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
+    const jg_real f_j_cross_f_i_in_j_2 = H_01 * C_j[8] - H_02 * C_j[5];
+    const jg_real f_j_cross_h_i_in_j_2 = H_21 * C_j[8] - H_22 * C_j[5];
+    phi_q[46] = cosine_1 * sine_0;
+    phi_q[42] = f_j_cross_f_i_in_j_2;
+    phi_q[43] = f_j_cross_h_i_in_j_2;
     phi_q[33] = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
     phi_q[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
     phi_q[34] = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
-    phi_q[40] = A_ij_4 * s_j[0] - A_ij_1 * s_j[1];
     phi_q[35] = A_ij_2 * s_j[2] - A_ij_8 * s_j[0];
+    phi_q[40] = A_ij_4 * s_j[0] - A_ij_1 * s_j[1];
     phi_q[41] = A_ij_5 * s_j[0] - A_ij_2 * s_j[1];
+    phi_q[44] = -(H_21 * C_j[2] + sine_0 * C_j[5]);
 }
 
 void jg_ball_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -208,8 +202,8 @@ void jg_ball_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRIC
     jg_scatter(jg_ball_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -240,72 +234,57 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
     const jg_real t14 = sine_1 * sine_0;
     /* H_22 =  */
     const jg_real H_22 = cosine_0 * cosine_2;
+    const jg_real t16 = sine_0 * lambda[5];
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
-    const jg_real t17 = sine_2 * lambda[4];
-    const jg_real t18 = lambda[3] * sine_2;
-    const jg_real t19 = H_21 * lambda[4];
-    const jg_real t20 = lambda[3] * H_21;
-    const jg_real t21 = H_21 * lambda[5];
-    const jg_real t22 = H_22 * lambda[4];
-    const jg_real t23 = H_22 * lambda[3];
-    const jg_real t24 = lambda[3] * H_00;
-    phi_q_t_lambda_q[9] = t24;
-    const jg_real t25 = H_22 * lambda[5];
-    phi_q_t_lambda_q[33] = t25;
+    const jg_real t18 = H_21 * lambda[4];
+    const jg_real t19 = H_21 * lambda[3];
+    const jg_real t20 = H_21 * lambda[5];
+    const jg_real t21 = lambda[4] * H_22;
+    const jg_real t22 = H_22 * lambda[3];
     /* H_11 =  */
     const jg_real H_11 = cosine_2 * cosine_1 + sine_2 * t14;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
-    const jg_real h_j_cross_f_i_in_joint_i_2 = cosine_1 * sine_2 - cosine_2 * t14;
-    const jg_real t28 = t22 + sine_0 * lambda[5];
-    const jg_real t29 = cosine_2 * lambda[3];
-    const jg_real t30 = cosine_2 * lambda[4];
-    const jg_real t31 = t24 - sine_0 * lambda[4];
-    const jg_real t32 = cosine_2 * lambda[5];
-    const jg_real t33 = -(lambda[3] * t14);
-    phi_q_t_lambda_q[10] = t33;
-    phi_q_t_lambda_q[20] = t33;
+    const jg_real h_j_cross_f_i_in_joint_i_2 = sine_2 * cosine_1 - cosine_2 * t14;
+    const jg_real t25 = t21 + t16;
+    const jg_real t26 = lambda[3] * H_00;
+    const jg_real t27 = H_22 * lambda[5];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
         sine_0 * lambda_0_1_2_in_joint_i_2;
-    const jg_real t35 = sine_0 * s_j_dot_f_j - H_21 * s_j_dot_g_j - H_22 * s_j_dot_h_j;
-    const jg_real t36 = t25 + t31;
-    phi_q_t_lambda_q[21] = t36;
+    const jg_real t29 = sine_0 * s_j_dot_f_j - H_21 * s_j_dot_g_j - H_22 * s_j_dot_h_j;
+    const jg_real t30 = t26 - sine_0 * lambda[4];
+    const jg_real t31 = -(t14 * lambda[3]);
     /* H_02 =  */
     const jg_real H_02 = H_10 * H_21 + sine_0 * H_11;
+    const jg_real t33 = sine_2 * lambda[4];
     /* g_j_cross_h_i_in_joint_i = g_j x h_i, axes of joint i */
-    const jg_real g_j_cross_h_i_in_joint_i_1 = H_22 * H_10 - sine_0 * h_j_cross_f_i_in_joint_i_2;
-    const jg_real t39 = t23 * H_11 + h_j_cross_f_i_in_joint_i_2 * t20;
-    const jg_real t40 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
-    const jg_real t41 = lambda_0_1_2_in_joint_j_0 * s_j_dot_f_j;
+    const jg_real g_j_cross_h_i_in_joint_i_1 = H_10 * H_22 - sine_0 * h_j_cross_f_i_in_joint_i_2;
+    const jg_real t35 = sine_2 * lambda[3];
+    const jg_real t36 = H_11 * t22 + h_j_cross_f_i_in_joint_i_2 * t19;
+    const jg_real t37 = cosine_2 * lambda[3];
+    const jg_real t38 = cosine_2 * lambda[4];
     /* v_0_in_joint_i = cos(alpha_1) cos(alpha_2) lambda_3 g_j x f_i + (cos(alpha_1) cos(alpha_2) lambda_4 + ... */
-    const jg_real v_0_in_joint_i_0 = H_11 * t28 + h_j_cross_f_i_in_joint_i_2 * t19 + H_10 * t21;
-    /* v_1_in_joint_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3
-        ... */
-    const jg_real v_1_in_joint_i_2 = h_j_cross_f_i_in_joint_i_2 * t29 - H_11 * t18;
-    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_2_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * lambda[5];
-    const jg_real v_2_in_joint_i_0 = H_11 * lambda[5];
-    const jg_real t46 = t19 - lambda[3] * g_j_cross_h_i_in_joint_i_1;
-    const jg_real t47 = t22 + lambda[3] * H_02;
-    const jg_real v_1_in_joint_i_0 = H_11 * t17 - h_j_cross_f_i_in_joint_i_2 * t30 - H_10 * t32;
-    const jg_real t49 = sine_0 * sine_2 * lambda[5];
+    const jg_real v_0_in_joint_i_0 = H_11 * t25 + t18 * h_j_cross_f_i_in_joint_i_2 + H_10 * t20;
+    const jg_real t40 = lambda_0_1_2_in_joint_j_0 * s_j_dot_f_j;
+    const jg_real t41 = t30 + t27;
     const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - h_j_cross_f_i_in_joint_i_2 *
         lambda_0_1_2_in_joint_i_1 + H_22 * lambda_0_1_2_in_joint_i_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - g_j_cross_h_i_in_joint_i_1 *
         lambda_0_1_2_in_joint_i_0 + H_21 * lambda_0_1_2_in_joint_i_2;
-    /* v_7_in_joint_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
-    const jg_real v_7_in_joint_j_0 = t49 + lambda_0_1_2_in_joint_j_0 * t40;
-    const jg_real v_0_in_joint_i_1 = t23 * H_21 + g_j_cross_h_i_in_joint_i_1 * t28 - H_22 * t20 + H_02 * t19 - H_00
-        * t21;
+    const jg_real t44 = cosine_2 * lambda[5];
+    const jg_real t45 = t18 - g_j_cross_h_i_in_joint_i_1 * lambda[3];
+    const jg_real t46 = t21 + H_02 * lambda[3];
+    const jg_real v_0_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * t25 + H_21 * t22 - H_22 * t19 + H_02 * t18 - H_00
+        * t20;
     /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
     const jg_real f_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[6] - lambda_0_1_2_in_joint_j_2 *
         C_j[3];
     /* g_j_cross_lambda_0_1_2_in_j = g_j x lambda_0_1_2, axes of body j */
-    const jg_real g_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_2 * C_j[0] - lambda_0_1_2_in_joint_j_0 *
-        C_j[6];
+    const jg_real g_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_2 * C_j[0] - C_j[6] *
+        lambda_0_1_2_in_joint_j_0;
     /* h_j_cross_lambda_0_1_2_in_j = h_j x lambda_0_1_2, axes of body j */
-    const jg_real h_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[3] - lambda_0_1_2_in_joint_j_1 *
+    const jg_real h_j_cross_lambda_0_1_2_in_j_0 = C_j[3] * lambda_0_1_2_in_joint_j_0 - lambda_0_1_2_in_joint_j_1 *
         C_j[0];
     const jg_real f_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_1 * C_j[7] - lambda_0_1_2_in_joint_j_2 *
         C_j[4];
@@ -319,78 +298,94 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
         C_j[8];
     const jg_real h_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[5] - lambda_0_1_2_in_joint_j_1 *
         C_j[2];
-    const jg_real v_1_in_joint_i_1 = H_21 * t18 + g_j_cross_h_i_in_joint_i_1 * t17 + H_22 * t29 - H_02 * t30 + H_00
-        * t32;
+    phi_q_t_lambda_q[9] = t26;
+    phi_q_t_lambda_q[33] = t27;
+    phi_q_t_lambda_q[10] = t31;
+    phi_q_t_lambda_q[20] = t31;
+    phi_q_t_lambda_q[21] = t41;
+    phi_q_t_lambda_q[0] = t36 * C_i[6] - (v_0_in_joint_i_1 * C_i[3] + v_0_in_joint_i_0 * C_i[0]);
+    phi_q_t_lambda_q[1] = t36 * C_i[7] - (v_0_in_joint_i_1 * C_i[4] + v_0_in_joint_i_0 * C_i[1]);
+    phi_q_t_lambda_q[2] = t36 * C_i[8] - (v_0_in_joint_i_1 * C_i[5] + v_0_in_joint_i_0 * C_i[2]);
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
-    const jg_real s_j_dot_lambda_0_1_2 = t41 + lambda_0_1_2_in_joint_j_1 * s_j_dot_g_j + lambda_0_1_2_in_joint_j_2 *
+    const jg_real s_j_dot_lambda_0_1_2 = lambda_0_1_2_in_joint_j_1 * s_j_dot_g_j + t40 + lambda_0_1_2_in_joint_j_2 *
         s_j_dot_h_j;
-    const jg_real t65 = -t49;
-    phi_q_t_lambda_q[22] = t65;
-    phi_q_t_lambda_q[32] = t65;
-    const jg_real t66 = s_j_dot_lambda_0_1_2 + t36;
-    const jg_real t67 = s_j_dot_lambda_0_1_2 + t31;
-    phi_q_t_lambda_q[0] = t39 * C_i[6] - (v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3]);
-    phi_q_t_lambda_q[1] = t39 * C_i[7] - (v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4]);
-    phi_q_t_lambda_q[2] = t39 * C_i[8] - (v_0_in_joint_i_0 * C_i[2] + v_0_in_joint_i_1 * C_i[5]);
     /* v_3_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
     const jg_real v_3_in_j_0 = sine_0 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
         * h_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[3] = v_3_in_j_0;
-    phi_q_t_lambda_q[14] = sine_2 * h_j_cross_lambda_0_1_2_in_j_0 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_0;
     const jg_real v_3_in_j_1 = sine_0 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
         * h_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[4] = v_3_in_j_1;
-    phi_q_t_lambda_q[15] = sine_2 * h_j_cross_lambda_0_1_2_in_j_1 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[16] = sine_2 * h_j_cross_lambda_0_1_2_in_j_2 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_2;
+    /* v_1_in_joint_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3
+        ... */
+    const jg_real v_1_in_joint_i_2 = h_j_cross_f_i_in_joint_i_2 * t37 - H_11 * t35;
     const jg_real v_3_in_j_2 = sine_0 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
         * h_j_cross_lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[5] = v_3_in_j_2;
-    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i_0 + C_i[3] * v_2_in_joint_i_1;
-    phi_q_t_lambda_q[23] = v_2_in_i_0;
+    const jg_real t62 = s_j_dot_lambda_0_1_2 + t41;
+    const jg_real t63 = s_j_dot_lambda_0_1_2 + t30;
+    const jg_real v_1_in_joint_i_0 = H_11 * t33 - h_j_cross_f_i_in_joint_i_2 * t38 - H_10 * t44;
+    const jg_real v_1_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * t33 + H_21 * t35 + H_22 * t37 - H_02 * t38 + H_00
+        * t44;
     /* v_6_in_joint_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
-    const jg_real v_6_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t35 - sine_0 * s_j_dot_lambda_0_1_2;
-    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i_0 + C_i[4] * v_2_in_joint_i_1;
-    phi_q_t_lambda_q[24] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i_0 + C_i[5] * v_2_in_joint_i_1;
-    phi_q_t_lambda_q[25] = v_2_in_i_2;
+    const jg_real v_6_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t29 - sine_0 * s_j_dot_lambda_0_1_2;
+    const jg_real t67 = sine_2 * t16;
+    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_2_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * lambda[5];
+    const jg_real v_6_in_joint_j_2 = H_22 * t63 + sine_0 * t46 + lambda_0_1_2_in_joint_j_2 * t29;
+    const jg_real v_2_in_joint_i_0 = H_11 * lambda[5];
+    const jg_real t71 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
+    phi_q_t_lambda_q[3] = v_3_in_j_0;
+    phi_q_t_lambda_q[4] = v_3_in_j_1;
+    phi_q_t_lambda_q[5] = v_3_in_j_2;
+    phi_q_t_lambda_q[14] = sine_2 * h_j_cross_lambda_0_1_2_in_j_0 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[15] = sine_2 * h_j_cross_lambda_0_1_2_in_j_1 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[16] = sine_2 * h_j_cross_lambda_0_1_2_in_j_2 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[26] = -f_j_cross_lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[27] = -f_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[28] = -f_j_cross_lambda_0_1_2_in_j_2;
     /* v_1_in_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3 ... */
-    const jg_real v_1_in_i_0 = C_i[0] * v_1_in_joint_i_0 + C_i[3] * v_1_in_joint_i_1 + C_i[6] * v_1_in_joint_i_2;
+    const jg_real v_1_in_i_0 = C_i[3] * v_1_in_joint_i_1 + C_i[0] * v_1_in_joint_i_0 + C_i[6] * v_1_in_joint_i_2;
+    const jg_real v_1_in_i_1 = C_i[4] * v_1_in_joint_i_1 + C_i[1] * v_1_in_joint_i_0 + C_i[7] * v_1_in_joint_i_2;
+    const jg_real v_1_in_i_2 = C_i[5] * v_1_in_joint_i_1 + C_i[2] * v_1_in_joint_i_0 + C_i[8] * v_1_in_joint_i_2;
+    const jg_real t75 = -t67;
+    const jg_real v_6_in_joint_j_1 = cosine_0 * (sine_2 * t62 - cosine_2 * t20) + sine_0 * t45 +
+        lambda_0_1_2_in_joint_j_1 * t29;
+    /* v_7_in_joint_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
+    const jg_real v_7_in_joint_j_2 = sine_2 * t63 + lambda_0_1_2_in_joint_j_2 * t71;
+    const jg_real v_7_in_joint_j_1 = lambda_0_1_2_in_joint_j_1 * t71 - (cosine_2 * t62 + sine_2 * t20);
+    const jg_real v_7_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t71 + t67;
+    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_2_in_i_0 = C_i[3] * v_2_in_joint_i_1 + C_i[0] * v_2_in_joint_i_0;
+    const jg_real v_2_in_i_1 = C_i[4] * v_2_in_joint_i_1 + C_i[1] * v_2_in_joint_i_0;
     phi_q_t_lambda_q[11] = v_1_in_i_0;
-    const jg_real v_7_in_joint_j_2 = sine_2 * t67 + lambda_0_1_2_in_joint_j_2 * t40;
-    const jg_real v_1_in_i_1 = C_i[1] * v_1_in_joint_i_0 + C_i[4] * v_1_in_joint_i_1 + C_i[7] * v_1_in_joint_i_2;
     phi_q_t_lambda_q[12] = v_1_in_i_1;
-    const jg_real v_1_in_i_2 = C_i[2] * v_1_in_joint_i_0 + C_i[5] * v_1_in_joint_i_1 + C_i[8] * v_1_in_joint_i_2;
     phi_q_t_lambda_q[13] = v_1_in_i_2;
+    phi_q_t_lambda_q[22] = t75;
+    phi_q_t_lambda_q[32] = t75;
+    phi_q_t_lambda_q[28] = -f_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[23] = v_2_in_i_0;
+    phi_q_t_lambda_q[24] = v_2_in_i_1;
+    const jg_real v_2_in_i_2 = C_i[5] * v_2_in_joint_i_1 + C_i[2] * v_2_in_joint_i_0;
     /* v_8_in_joint_j = (H_22 lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_3 - H_21 lambda_4) g_j + (-H_02
         ... */
-    const jg_real v_8_in_joint_j = s_j_dot_lambda_0_1_2 + t25 - t41;
-    const jg_real t80 = t46 + lambda_0_1_2_in_joint_j_1 * s_j_dot_f_j;
-    const jg_real t81 = t47 + lambda_0_1_2_in_joint_j_2 * s_j_dot_f_j;
-    const jg_real v_6_in_joint_j_2 = H_22 * t67 + sine_0 * t47 + lambda_0_1_2_in_joint_j_2 * t35;
-    const jg_real v_7_in_joint_j_1 = lambda_0_1_2_in_joint_j_1 * t40 - (cosine_2 * t66 + sine_2 * H_21 * lambda[5]);
-    const jg_real v_6_in_joint_j_1 = cosine_0 * (sine_2 * t66 - cosine_2 * H_21 * lambda[5]) + sine_0 * t46 +
-        lambda_0_1_2_in_joint_j_1 * t35;
-    phi_q_t_lambda_q[29] = C_j[6] * t81 - (C_j[0] * v_8_in_joint_j - C_j[3] * t80);
-    phi_q_t_lambda_q[30] = C_j[7] * t81 - (C_j[1] * v_8_in_joint_j - C_j[4] * t80);
-    /* v_7_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
-    const jg_real v_7_in_j_0 = C_j[0] * v_7_in_joint_j_0 + C_j[3] * v_7_in_joint_j_1 + C_j[6] * v_7_in_joint_j_2;
-    phi_q_t_lambda_q[17] = v_7_in_j_0;
-    const jg_real v_7_in_j_1 = C_j[1] * v_7_in_joint_j_0 + C_j[4] * v_7_in_joint_j_1 + C_j[7] * v_7_in_joint_j_2;
-    phi_q_t_lambda_q[18] = v_7_in_j_1;
-    const jg_real v_7_in_j_2 = C_j[2] * v_7_in_joint_j_0 + C_j[5] * v_7_in_joint_j_1 + C_j[8] * v_7_in_joint_j_2;
-    phi_q_t_lambda_q[19] = v_7_in_j_2;
-    phi_q_t_lambda_q[31] = C_j[8] * t81 - (C_j[2] * v_8_in_joint_j - C_j[5] * t80);
+    const jg_real v_8_in_joint_j = s_j_dot_lambda_0_1_2 + t27 - t40;
+    const jg_real t84 = t45 + lambda_0_1_2_in_joint_j_1 * s_j_dot_f_j;
+    const jg_real t85 = t46 + lambda_0_1_2_in_joint_j_2 * s_j_dot_f_j;
     /* v_6_in_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
     const jg_real v_6_in_j_0 = C_j[0] * v_6_in_joint_j_0 + C_j[3] * v_6_in_joint_j_1 + C_j[6] * v_6_in_joint_j_2;
     const jg_real v_6_in_j_1 = C_j[1] * v_6_in_joint_j_0 + C_j[4] * v_6_in_joint_j_1 + C_j[7] * v_6_in_joint_j_2;
     const jg_real v_6_in_j_2 = C_j[2] * v_6_in_joint_j_0 + C_j[5] * v_6_in_joint_j_1 + C_j[8] * v_6_in_joint_j_2;
+    /* v_7_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
+    const jg_real v_7_in_j_0 = C_j[3] * v_7_in_joint_j_1 + C_j[0] * v_7_in_joint_j_0 + C_j[6] * v_7_in_joint_j_2;
+    const jg_real v_7_in_j_1 = C_j[4] * v_7_in_joint_j_1 + C_j[1] * v_7_in_joint_j_0 + C_j[7] * v_7_in_joint_j_2;
+    const jg_real v_7_in_j_2 = C_j[5] * v_7_in_joint_j_1 + C_j[2] * v_7_in_joint_j_0 + C_j[8] * v_7_in_joint_j_2;
+    phi_q_t_lambda_q[25] = v_2_in_i_2;
+    phi_q_t_lambda_q[17] = v_7_in_j_0;
+    phi_q_t_lambda_q[18] = v_7_in_j_1;
     phi_q_t_lambda_q[6] = -v_6_in_j_0;
     phi_q_t_lambda_q[7] = -v_6_in_j_1;
     phi_q_t_lambda_q[8] = -v_6_in_j_2;
+    phi_q_t_lambda_q[19] = v_7_in_j_2;
+    phi_q_t_lambda_q[29] = C_j[6] * t85 - (C_j[0] * v_8_in_joint_j - C_j[3] * t84);
+    phi_q_t_lambda_q[30] = C_j[7] * t85 - (C_j[1] * v_8_in_joint_j - C_j[4] * t84);
+    phi_q_t_lambda_q[31] = C_j[8] * t85 - (C_j[2] * v_8_in_joint_j - C_j[5] * t84);
 }
 
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -401,8 +396,8 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real 
     jg_scatter(jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -431,12 +426,12 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alph
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
@@ -451,86 +446,86 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alph
     const jg_real t24 = H_21 * g_j_dot_omega_j;
     /* v_2_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
     const jg_real v_2_in_joint_j = t22 - alphadot[2];
+    const jg_real t26 = H_22 * h_j_dot_omega_j;
+    const jg_real t27 = cosine_1 * h_j_dot_omega_j + sine_1 * g_j_dot_omega_j;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_2;
-    const jg_real t27 = sine_0 * cosine_2;
+    const jg_real t29 = sine_0 * cosine_2;
+    const jg_real t30 = alphadot[0] * H_21 + cosine_1 * alphadot[1];
+    const jg_real t31 = alphadot[0] * H_22 - sine_1 * alphadot[1];
     /* H_10 =  */
     const jg_real H_10 = cosine_0 * sine_2;
-    const jg_real t29 = cosine_1 * h_j_dot_omega_j + sine_1 * g_j_dot_omega_j;
-    const jg_real t30 = alphadot[0] * H_21 + cosine_1 * alphadot[1];
-    const jg_real t31 = sine_1 * h_j_dot_omega_j - cosine_1 * g_j_dot_omega_j;
-    const jg_real t32 = H_22 * h_j_dot_omega_j;
-    const jg_real t33 = alphadot[0] * H_22 - sine_1 * alphadot[1];
     /* v_0_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
     const jg_real v_0_in_joint_j_0 = v_2_in_joint_j + f_j_dot_omega_j;
     const jg_real v_0_in_joint_j_1 = g_j_dot_omega_j - t30;
+    const jg_real v_0_in_joint_j_2 = h_j_dot_omega_j - t31;
     /* H_01 =  */
-    const jg_real H_01 = sine_1 * t27 - cosine_1 * sine_2;
+    const jg_real H_01 = sine_1 * t29 - cosine_1 * sine_2;
     /* H_02 =  */
-    const jg_real H_02 = cosine_1 * t27 + sine_1 * sine_2;
-    const jg_real v_0_in_joint_j_2 = h_j_dot_omega_j - t33;
-    const jg_real t39 = h_j_dot_omega_j * H_02;
-    const jg_real t40 = g_j_dot_omega_j * H_01;
-    const jg_real t41 = v_2_in_joint_j * s_j_in_joint_j_0 - t30 * s_j_in_joint_j_1 - t33 * s_j_in_joint_j_2;
-    const jg_real t42 = v_2_in_joint_j * f_j_dot_omega_j - t30 * g_j_dot_omega_j - t33 * h_j_dot_omega_j;
+    const jg_real H_02 = cosine_1 * t29 + sine_1 * sine_2;
+    const jg_real t38 = sine_1 * h_j_dot_omega_j - cosine_1 * g_j_dot_omega_j;
+    const jg_real t39 = v_2_in_joint_j * s_j_in_joint_j_0 - t30 * s_j_in_joint_j_1 - t31 * s_j_in_joint_j_2;
+    const jg_real t40 = v_2_in_joint_j * f_j_dot_omega_j - t30 * g_j_dot_omega_j - t31 * h_j_dot_omega_j;
+    const jg_real t41 = h_j_dot_omega_j * H_02;
+    const jg_real t42 = g_j_dot_omega_j * H_01;
     /* v_1_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
         ... */
     const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_1 * v_0_in_joint_j_0 - v_j_in_joint_j_0 * v_0_in_joint_j_1;
+    const jg_real v_1_in_joint_j_0 = v_j_in_joint_j_2 * v_0_in_joint_j_1 - v_j_in_joint_j_1 * v_0_in_joint_j_2;
+    const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_0 * v_0_in_joint_j_2 - v_j_in_joint_j_2 * v_0_in_joint_j_0;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
     const jg_real h_j_cross_f_i_in_joint_i_2 = H_21 * H_00 + sine_0 * H_01;
     /* H_11 =  */
     const jg_real H_11 = H_22 * H_00 + sine_0 * H_02;
-    const jg_real v_1_in_joint_j_0 = v_j_in_joint_j_2 * v_0_in_joint_j_1 - v_j_in_joint_j_1 * v_0_in_joint_j_2;
-    const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_0 * v_0_in_joint_j_2 - v_j_in_joint_j_2 * v_0_in_joint_j_0;
     /* v_3_in_joint_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_3_in_joint_j_0 = f_j_dot_omega_j * t41 - t42 * s_j_in_joint_j_0;
-    const jg_real v_3_in_joint_j_1 = g_j_dot_omega_j * t41 - t42 * s_j_in_joint_j_1;
-    const jg_real v_3_in_joint_j_2 = h_j_dot_omega_j * t41 - t42 * s_j_in_joint_j_2;
-    const jg_real t51 = H_11 * omega_i_in_joint_i_2 - H_21 * omega_i_in_joint_i_1;
-    const jg_real t52 = H_22 * omega_i_in_joint_i_1 + h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2;
+    const jg_real v_3_in_joint_j_0 = f_j_dot_omega_j * t39 - t40 * s_j_in_joint_j_0;
+    const jg_real v_3_in_joint_j_1 = g_j_dot_omega_j * t39 - t40 * s_j_in_joint_j_1;
+    const jg_real v_3_in_joint_j_2 = h_j_dot_omega_j * t39 - t40 * s_j_in_joint_j_2;
     /* v_1_in_joint_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
         ... */
     const jg_real v_1_in_joint_i_0 = v_1_in_joint_j_0 * H_00 + v_1_in_joint_j_1 * H_01 + v_1_in_joint_j_2 * H_02;
+    const jg_real t52 = H_11 * omega_i_in_joint_i_2 - H_21 * omega_i_in_joint_i_1;
+    const jg_real t53 = H_22 * omega_i_in_joint_i_1 + h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2;
     const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_0 * H_10 + v_1_in_joint_j_1 * H_11 - v_1_in_joint_j_2 *
         h_j_cross_f_i_in_joint_i_2;
-    const jg_real t55 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
     const jg_real v_1_in_joint_i_2 = H_21 * v_1_in_joint_j_1 - sine_0 * v_1_in_joint_j_0 + H_22 * v_1_in_joint_j_2;
-    const jg_real t57 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
-    const jg_real t58 = H_22 * g_j_dot_omega_j - (H_00 * omega_i_in_joint_i_1 - H_10 * omega_i_in_joint_i_0);
     /* v_3_in_joint_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_3_in_joint_i_0 = H_00 * v_3_in_joint_j_0 + H_01 * v_3_in_joint_j_1 + H_02 * v_3_in_joint_j_2;
     const jg_real v_3_in_joint_i_1 = H_10 * v_3_in_joint_j_0 + H_11 * v_3_in_joint_j_1 - h_j_cross_f_i_in_joint_i_2
         * v_3_in_joint_j_2;
     const jg_real v_3_in_joint_i_2 = H_21 * v_3_in_joint_j_1 - sine_0 * v_3_in_joint_j_0 + H_22 * v_3_in_joint_j_2;
-    const jg_real t62 = t55 - H_22 * f_j_dot_omega_j;
+    const jg_real t59 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
     /* v_1_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
     const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + v_1_in_joint_i_1 * C_i[3] + v_1_in_joint_i_2 * C_i[6];
     const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + v_1_in_joint_i_1 * C_i[4] + v_1_in_joint_i_2 * C_i[7];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_i_2 * C_i[8];
     /* v_3_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1 + C_i[6] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1 + C_i[7] * v_3_in_joint_i_2;
+    const jg_real t64 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
     const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1 + C_i[8] * v_3_in_joint_i_2;
+    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_i_2 * C_i[8];
     /* v_4_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_4_in_i_0 = v_1_in_i_0 - omega_i_cross_v_i_in_i_0 + v_3_in_i_0;
-    gamma[0] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = v_1_in_i_1 - omega_i_cross_v_i_in_i_1 + v_3_in_i_1;
-    gamma[1] = v_4_in_i_1;
     const jg_real v_4_in_i_2 = v_1_in_i_2 - omega_i_cross_v_i_in_i_2 + v_3_in_i_2;
+    const jg_real t70 = t59 - H_22 * f_j_dot_omega_j;
+    const jg_real t71 = H_22 * g_j_dot_omega_j - (H_00 * omega_i_in_joint_i_1 - H_10 * omega_i_in_joint_i_0);
+    gamma[0] = v_4_in_i_0;
+    gamma[1] = v_4_in_i_1;
     gamma[2] = v_4_in_i_2;
+    gamma[3] = -(alphadot[0] * (cosine_0 * (alphadot[0] * cosine_2 - H_00 * t27 + cosine_1 * t52 + sine_1 * t53) -
+        sine_0 * (sine_2 * JG_REAL(2.0) * alphadot[1] + t42 + t41)) + alphadot[1] * (H_00 * t38 + alphadot[1] * H_00
+        + cosine_1 * t53 - sine_1 * t52) + alphadot[2] * (t42 + t41));
+    gamma[4] = -(sine_0 * (alphadot[0] * (cosine_0 * t27 - t24 - t26) - alphadot[1] * (alphadot[1] + t38)) -
+        (cosine_1 * t59 + sine_1 * t64) * (alphadot[0] * cosine_0) + alphadot[1] * (sine_1 * t59 - cosine_1 * t64) +
+        alphadot[2] * (t24 + t26));
     gamma[5] = cosine_0 * (cosine_1 * (alphadot[0] * (sine_0 * f_j_dot_omega_j - t24) - alphadot[1] * alphadot[1] -
-        alphadot[2] * alphadot[2]) + alphadot[0] * sine_1 * t58) + alphadot[1] * (sine_1 * (t24 + sine_0 *
-        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_1 * t58) + t22 * t62 - alphadot[2] * t62;
-    gamma[4] = -(sine_0 * (alphadot[0] * (cosine_0 * t29 - t24 - t32) - alphadot[1] * (alphadot[1] + t31)) -
-        (cosine_1 * t55 + sine_1 * t57) * (alphadot[0] * cosine_0) + alphadot[1] * (sine_1 * t55 - cosine_1 * t57) +
-        alphadot[2] * (t24 + t32));
-    gamma[3] = -(alphadot[0] * (cosine_0 * (alphadot[0] * cosine_2 - H_00 * t29 + cosine_1 * t51 + sine_1 * t52) -
-        sine_0 * (sine_2 * JG_REAL(2.0) * alphadot[1] + t40 + t39)) + alphadot[1] * (H_00 * t31 + alphadot[1] * H_00
-        + cosine_1 * t52 - sine_1 * t51) + alphadot[2] * (t40 + t39));
+        alphadot[2] * alphadot[2]) + alphadot[0] * sine_1 * t71) + alphadot[1] * (sine_1 * (t24 + sine_0 *
+        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_1 * t71) + t22 * t70 - alphadot[2] * t70;
 }
 
-void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -558,19 +553,19 @@ void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT al
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
     const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
-    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
-    /* omega_j_in_joint_j = omega_j, axes of joint j */
-    const jg_real omega_j_in_joint_j_2 = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    /* omega_j_in_joint_j = omega_j, axes of joint j */
+    const jg_real omega_j_in_joint_j_2 = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     const jg_real omega_j_in_joint_j_1 = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
@@ -607,10 +602,6 @@ void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT al
     const jg_real s_j_cross_omega_j_in_joint_i_1 = H_10 * s_j_cross_omega_j_in_joint_j_0 + H_11 *
         s_j_cross_omega_j_in_joint_j_1 - t33 * s_j_cross_omega_j_in_joint_j_2;
     const jg_real v_j_in_joint_i_1 = v_j_in_joint_j_0 * H_10 + v_j_in_joint_j_1 * H_11 - v_j_in_joint_j_2 * t33;
-    phi_q_v[3] = H_01 * omega_j_in_joint_j_2 - H_02 * omega_j_in_joint_j_1 + (sine_1 * omega_i_in_joint_i_1 + H_10 *
-        omega_i_in_joint_i_2 + H_10 * alphadot[0] + cosine_0 * sine_1 * alphadot[1]);
-    phi_q_v[4] = H_21 * omega_j_in_joint_j_2 - H_22 * omega_j_in_joint_j_1 + (cosine_1 * alphadot[1] - (H_10 *
-        omega_i_in_joint_i_0 - H_00 * omega_i_in_joint_i_1));
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = C_i[0] * s_j_cross_omega_j_in_joint_i_0 + C_i[3] *
         s_j_cross_omega_j_in_joint_i_1 + C_i[6] * s_j_cross_omega_j_in_joint_i_2;
@@ -622,27 +613,28 @@ void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT al
     const jg_real v_j_in_i_0 = v_j_in_joint_i_0 * C_i[0] + v_j_in_joint_i_1 * C_i[3] + v_j_in_joint_i_2 * C_i[6];
     const jg_real v_j_in_i_1 = v_j_in_joint_i_0 * C_i[1] + v_j_in_joint_i_1 * C_i[4] + v_j_in_joint_i_2 * C_i[7];
     const jg_real v_j_in_i_2 = v_j_in_joint_i_0 * C_i[2] + v_j_in_joint_i_1 * C_i[5] + v_j_in_joint_i_2 * C_i[8];
-    phi_q_v[5] = t33 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1 + sine_1 * cosine_2 * alphadot[1] + H_21 *
-        alphadot[2] - (sine_1 * omega_j_in_joint_j_1 + H_21 * omega_j_in_joint_j_0);
     /* v_0_in_i = v_i - v_j - s_i x omega_i + s_j x omega_j, axes of body i */
     const jg_real v_0_in_i_0 = v_i[0] - v_j_in_i_0 - s_i_cross_omega_i_in_i_0 + s_j_cross_omega_j_in_i_0;
     const jg_real v_0_in_i_1 = v_i[1] - v_j_in_i_1 - s_i_cross_omega_i_in_i_1 + s_j_cross_omega_j_in_i_1;
     const jg_real v_0_in_i_2 = v_i[2] - v_j_in_i_2 - s_i_cross_omega_i_in_i_2 + s_j_cross_omega_j_in_i_2;
+    phi_q_v[3] = H_01 * omega_j_in_joint_j_2 - H_02 * omega_j_in_joint_j_1 + (sine_1 * omega_i_in_joint_i_1 + H_10 *
+        omega_i_in_joint_i_2 + H_10 * alphadot[0] + cosine_0 * sine_1 * alphadot[1]);
+    phi_q_v[4] = H_21 * omega_j_in_joint_j_2 - H_22 * omega_j_in_joint_j_1 + (cosine_1 * alphadot[1] - (H_10 *
+        omega_i_in_joint_i_0 - H_00 * omega_i_in_joint_i_1));
+    phi_q_v[5] = t33 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1 + sine_1 * cosine_2 * alphadot[1] + H_21 *
+        alphadot[2] - (sine_1 * omega_j_in_joint_j_1 + H_21 * omega_j_in_joint_j_0);
     phi_q_v[0] = -v_0_in_i_0;
     phi_q_v[1] = -v_0_in_i_1;
     phi_q_v[2] = -v_0_in_i_2;
 }
 
-void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -669,73 +661,74 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_REST
     const jg_real H_00 = cosine_1 * cosine_0;
     /* H_22 =  */
     const jg_real H_22 = cosine_0 * cosine_2;
-    const jg_real t17 = sine_0 * lambda[5];
     /* v_1_in_joint_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint i */
     const jg_real v_1_in_joint_i = H_10 * lambda[4];
-    const jg_real t19 = H_10 * lambda[3];
-    phi_q_t_lambda[12] = t19;
-    const jg_real t20 = lambda[5] * H_21;
-    phi_q_t_lambda[14] = t20;
+    const jg_real t18 = H_10 * lambda[3];
+    const jg_real t19 = lambda[5] * H_21;
     /* H_11 =  */
     const jg_real H_11 = cosine_1 * cosine_2 + sine_2 * t14;
-    const jg_real t22 = cosine_1 * sine_2 - cosine_2 * t14;
-    const jg_real t23 = sine_0 * lambda[3] + H_00 * lambda[4];
-    const jg_real t24 = lambda[5] * t22;
-    /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
-        sine_0 * lambda_0_1_2_in_joint_i_2;
+    const jg_real t21 = cosine_1 * sine_2 - cosine_2 * t14;
+    const jg_real t22 = sine_0 * lambda[3] + H_00 * lambda[4];
+    const jg_real t23 = sine_0 * lambda[5];
+    const jg_real t24 = lambda[5] * t21;
     /* H_02 =  */
     const jg_real H_02 = H_10 * H_21 + sine_0 * H_11;
     /* H_01 =  */
-    const jg_real H_01 = sine_0 * t22 - H_10 * H_22;
-    phi_q_t_lambda[13] = sine_0 * (cosine_1 * lambda[3] + lambda[5] * cosine_2) + cosine_0 * lambda[4];
+    const jg_real H_01 = sine_0 * t21 - H_10 * H_22;
+    /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
+    const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
+        sine_0 * lambda_0_1_2_in_joint_i_2;
     const jg_real t28 = lambda[5] * H_02;
     /* v_1_in_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body i */
-    const jg_real v_1_in_i_0 = v_1_in_joint_i * C_i[0] - t23 * C_i[3] - t19 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i * C_i[1] - t23 * C_i[4] - t19 * C_i[7];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i * C_i[2] - t23 * C_i[5] - t19 * C_i[8];
+    const jg_real v_1_in_i_0 = v_1_in_joint_i * C_i[0] - t22 * C_i[3] - t18 * C_i[6];
+    const jg_real v_1_in_i_1 = v_1_in_joint_i * C_i[1] - t22 * C_i[4] - t18 * C_i[7];
+    const jg_real v_1_in_i_2 = v_1_in_joint_i * C_i[2] - t22 * C_i[5] - t18 * C_i[8];
+    const jg_real t32 = lambda[3] * H_02 + lambda[4] * H_22;
     /* v_1_in_joint_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint j */
     const jg_real v_1_in_joint_j_2 = lambda[3] * H_01 + lambda[4] * H_21;
-    const jg_real t33 = lambda[3] * H_02 + lambda[4] * H_22;
-    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - t22 * lambda_0_1_2_in_joint_i_1 +
+    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - t21 * lambda_0_1_2_in_joint_i_1 +
         H_22 * lambda_0_1_2_in_joint_i_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_0 * H_01 + H_11 * lambda_0_1_2_in_joint_i_1 +
         H_21 * lambda_0_1_2_in_joint_i_2;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[12] = t18;
+    phi_q_t_lambda[14] = t19;
     phi_q_t_lambda[3] = C_i[0] * t24 + C_i[3] * t28 - (v_1_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
     phi_q_t_lambda[4] = C_i[1] * t24 + C_i[4] * t28 - (v_1_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
     phi_q_t_lambda[5] = C_i[2] * t24 + C_i[5] * t28 - (v_1_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
     /* v_1_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body j */
-    const jg_real v_1_in_j_0 = C_j[6] * v_1_in_joint_j_2 - C_j[3] * t33;
-    const jg_real v_1_in_j_1 = C_j[7] * v_1_in_joint_j_2 - C_j[4] * t33;
-    const jg_real v_1_in_j_2 = C_j[8] * v_1_in_joint_j_2 - C_j[5] * t33;
+    const jg_real v_1_in_j_0 = C_j[6] * v_1_in_joint_j_2 - C_j[3] * t32;
+    const jg_real v_1_in_j_1 = C_j[7] * v_1_in_joint_j_2 - C_j[4] * t32;
+    const jg_real v_1_in_j_2 = C_j[8] * v_1_in_joint_j_2 - C_j[5] * t32;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_in_joint_j_2 * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
         lambda_0_1_2_in_joint_j_2 * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_in_joint_j_2 * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     /* v_5_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i + lambda_5 h_j x h_i + s_j x lambda_0_1_2, axes of ... */
-    const jg_real v_5_in_j_0 = v_1_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 - (C_j[0] * t20 + C_j[3] * t17);
+    const jg_real v_5_in_j_0 = v_1_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 - (C_j[0] * t19 + C_j[3] * t23);
+    const jg_real v_5_in_j_1 = v_1_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 - (C_j[1] * t19 + C_j[4] * t23);
+    const jg_real v_5_in_j_2 = v_1_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - (C_j[2] * t19 + C_j[5] * t23);
+    phi_q_t_lambda[13] = sine_0 * (cosine_1 * lambda[3] + lambda[5] * cosine_2) + cosine_0 * lambda[4];
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda[9] = v_5_in_j_0;
-    const jg_real v_5_in_j_1 = v_1_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 - (C_j[1] * t20 + C_j[4] * t17);
     phi_q_t_lambda[10] = v_5_in_j_1;
-    const jg_real v_5_in_j_2 = v_1_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - (C_j[2] * t20 + C_j[5] * t17);
     phi_q_t_lambda[11] = v_5_in_j_2;
 }
 
-void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_ball_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -750,339 +743,347 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    phi_q[9] = s_i[0];
-    phi_q[13] = s_i[1];
-    phi_q[3] = s_i[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
+    phi_q[9] = s_i[0];
+    phi_q[13] = s_i[1];
+    phi_q[3] = s_i[2];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    phi_q[4] = -s_i[1];
-    phi_q[8] = -s_i[2];
-    phi_q[14] = -s_i[0];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
-    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
-    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = f_j_world_0 * h_i_world_0 + f_j_world_1 * h_i_world_1 + f_j_world_2 * h_i_world_2;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* f_i_dot_f_j = f_i . f_j */
+    const jg_real f_i_dot_f_j = f_j_in_i_0 * C_i[0] + f_j_in_i_1 * C_i[1] + f_j_in_i_2 * C_i[2];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* s_j_dot_g_j = s_j . g_j */
     const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
     /* s_j_dot_h_j = s_j . h_j */
     const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
     /* s_j_dot_f_j = s_j . f_j */
     const jg_real s_j_dot_f_j = s_j[0] * C_j[0] + s_j[1] * C_j[1] + s_j[2] * C_j[2];
-    /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
-    /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = C_i[0] * f_j_in_i_0 + C_i[1] * f_j_in_i_1 + C_i[2] * f_j_in_i_2;
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    /* h_i_dot_h_j = h_i . h_j */
+    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
+    const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
-    phi_q[47] = cosine_1;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
-    phi[4] = sine_1 + h_i_dot_f_j;
     /* H_10 =  */
     const jg_real H_10 = cosine_1 * sine_0;
-    phi_q[45] = H_10;
     const jg_real t50 = cosine_0 * sine_1;
+    const jg_real t51 = C_j[1] * sine_1;
+    const jg_real t52 = C_j[2] * sine_1;
+    phi_q[4] = -s_i[1];
+    phi_q[8] = -s_i[2];
+    phi_q[14] = -s_i[0];
+    phi_q[47] = cosine_1;
+    phi[4] = h_i_dot_f_j + sine_1;
+    phi_q[45] = H_10;
     phi_q[46] = t50;
     phi[3] = f_i_dot_f_j - H_00;
-    const jg_real t51 = H_00 * lambda[3];
-    phi_q_t_lambda_q[9] = t51;
-    const jg_real t52 = sine_1 * alphadot[0];
+    const jg_real t53 = sine_1 * lambda[5];
+    const jg_real t54 = C_j[0] * sine_1;
+    const jg_real t55 = H_00 * lambda[3];
+    const jg_real t56 = sine_1 * alphadot[0];
+    const jg_real t57 = t55 - sine_1 * lambda[4];
+    /* v_12_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
+        */
+    const jg_real v_12_in_joint_j = t56 - alphadot[2];
+    const jg_real t59 = -(sine_1 * sine_0 * lambda[3]);
     phi_q[5] = sine_1 * C_i[3] + C_i[6] * H_10;
     phi_q[6] = H_00 * C_i[3] - C_i[0] * H_10;
     phi_q[10] = sine_1 * C_i[4] + C_i[7] * H_10;
     phi_q[11] = H_00 * C_i[4] - C_i[1] * H_10;
     phi_q[15] = sine_1 * C_i[5] + C_i[8] * H_10;
     phi_q[16] = H_00 * C_i[5] - C_i[2] * H_10;
-    const jg_real t53 = t51 - sine_1 * lambda[4];
-    /* v_12_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
-        */
-    const jg_real v_12_in_joint_j = t52 - alphadot[2];
-    const jg_real t55 = -(sine_1 * sine_0 * lambda[3]);
-    phi_q_t_lambda_q[10] = t55;
-    phi_q_t_lambda_q[20] = t55;
+    phi_q_t_lambda_q[9] = t55;
+    phi_q_t_lambda_q[10] = t59;
+    phi_q_t_lambda_q[20] = t59;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
     /* H_21 =  */
     const jg_real H_21 = cosine_1 * sine_2;
-    phi_q[49] = H_21;
-    phi_q[48] = sine_1 * cosine_2;
-    const jg_real t58 = sine_2 * lambda[3];
-    const jg_real t59 = cosine_2 * lambda[3];
-    const jg_real t60 = cosine_2 * lambda[4];
-    const jg_real t61 = cosine_2 * lambda[5];
-    const jg_real t62 = sine_2 * lambda[4];
-    phi[5] = h_i_dot_h_j - H_22;
+    const jg_real t62 = sine_2 * lambda[3];
+    const jg_real t63 = cosine_2 * lambda[3];
+    const jg_real t64 = cosine_2 * lambda[4];
+    const jg_real t65 = cosine_2 * lambda[5];
     /* H_01 =  */
     const jg_real H_01 = t50 * sine_2 - cosine_2 * sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_2 + cosine_2 * t50;
-    const jg_real t65 = H_22 * lambda[4];
-    /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
-    const jg_real f_j_cross_h_i_in_j_0 = C_j[6] * H_21 - H_22 * C_j[3];
-    phi_q[31] = f_j_cross_h_i_in_j_0;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
     const jg_real h_j_cross_f_i_in_joint_i_2 = sine_1 * H_01 + H_00 * H_21;
     /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_5 = C_j[4] * H_21 - C_j[1] * sine_1 + H_22 * C_j[7];
-    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * H_21 - H_22 * C_j[4];
-    phi_q[37] = f_j_cross_h_i_in_j_1;
+    const jg_real A_joint_i_j_5 = H_21 * C_j[4] - t51 + C_j[7] * H_22;
+    /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
+    const jg_real f_j_cross_h_i_in_j_0 = C_j[6] * H_21 - H_22 * C_j[3];
     /* H_11 =  */
     const jg_real H_11 = H_00 * H_22 + sine_1 * H_02;
-    const jg_real A_joint_i_j_8 = H_21 * C_j[5] - C_j[2] * sine_1 + H_22 * C_j[8];
-    const jg_real f_j_cross_h_i_in_j_2 = C_j[8] * H_21 - H_22 * C_j[5];
-    phi_q[43] = f_j_cross_h_i_in_j_2;
-    /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
-    const jg_real f_j_cross_f_i_in_j_0 = C_j[6] * H_01 - H_02 * C_j[3];
-    phi_q[30] = f_j_cross_f_i_in_j_0;
-    phi_q[32] = -(C_j[0] * H_21 + sine_1 * C_j[3]);
-    const jg_real t74 = t65 + sine_1 * lambda[5];
-    const jg_real A_joint_i_j_3 = H_00 * C_j[1] + C_j[4] * H_01 + C_j[7] * H_02;
-    const jg_real A_joint_i_j_6 = H_00 * C_j[2] + H_01 * C_j[5] + C_j[8] * H_02;
-    const jg_real f_j_cross_f_i_in_j_1 = C_j[7] * H_01 - C_j[4] * H_02;
-    phi_q[36] = f_j_cross_f_i_in_j_1;
-    phi_q[7] = C_i[0] * h_j_cross_f_i_in_joint_i_2 + H_02 * C_i[3];
+    const jg_real A_joint_i_j_8 = H_21 * C_j[5] - t52 + C_j[8] * H_22;
+    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * H_21 - H_22 * C_j[4];
+    const jg_real A_joint_i_j_3 = H_01 * C_j[4] + C_j[1] * H_00 + C_j[7] * H_02;
+    const jg_real A_joint_i_j_6 = H_01 * C_j[5] + C_j[2] * H_00 + C_j[8] * H_02;
+    phi_q[49] = H_21;
+    phi_q[48] = sine_1 * cosine_2;
+    phi[5] = h_i_dot_h_j - H_22;
+    phi_q[31] = f_j_cross_h_i_in_j_0;
+    phi_q[37] = f_j_cross_h_i_in_j_1;
+    phi_q[7] = C_i[0] * h_j_cross_f_i_in_joint_i_2 + C_i[3] * H_02;
     phi_q[12] = C_i[1] * h_j_cross_f_i_in_joint_i_2 + H_02 * C_i[4];
     phi_q[17] = C_i[2] * h_j_cross_f_i_in_joint_i_2 + H_02 * C_i[5];
-    phi_q[38] = -(C_j[1] * H_21 + sine_1 * C_j[4]);
+    /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
+    const jg_real f_j_cross_f_i_in_j_0 = C_j[6] * H_01 - H_02 * C_j[3];
+    const jg_real f_j_cross_f_i_in_j_1 = C_j[7] * H_01 - H_02 * C_j[4];
+    const jg_real A_joint_i_j_4 = H_11 * C_j[4] + C_j[1] * H_10 - C_j[7] * h_j_cross_f_i_in_joint_i_2;
+    const jg_real A_joint_i_j_7 = H_11 * C_j[5] + C_j[2] * H_10 - C_j[8] * h_j_cross_f_i_in_joint_i_2;
+    const jg_real t80 = H_22 * lambda[4];
+    const jg_real t81 = H_21 * lambda[4];
+    const jg_real t82 = H_21 * lambda[5];
+    const jg_real t83 = H_22 * lambda[3];
     const jg_real f_j_cross_f_i_in_j_2 = C_j[8] * H_01 - H_02 * C_j[5];
+    const jg_real f_j_cross_h_i_in_j_2 = C_j[8] * H_21 - H_22 * C_j[5];
+    const jg_real t86 = t80 + t53;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = C_i[4] * A_joint_i_j_4 + C_i[1] * A_joint_i_j_3 + C_i[7] * A_joint_i_j_5;
+    phi_q[30] = f_j_cross_f_i_in_j_0;
+    phi_q[32] = -(C_j[0] * H_21 + sine_1 * C_j[3]);
+    phi_q[36] = f_j_cross_f_i_in_j_1;
+    phi_q[38] = -(C_j[1] * H_21 + sine_1 * C_j[4]);
     phi_q[42] = f_j_cross_f_i_in_j_2;
+    phi_q[43] = f_j_cross_h_i_in_j_2;
     phi_q[44] = -(C_j[2] * H_21 + sine_1 * C_j[5]);
-    const jg_real t79 = H_21 * lambda[4];
-    const jg_real t80 = H_21 * lambda[5];
-    const jg_real t81 = H_22 * lambda[3];
-    const jg_real t82 = H_21 * lambda[3];
-    const jg_real A_joint_i_j_4 = C_j[1] * H_10 + C_j[4] * H_11 - C_j[7] * h_j_cross_f_i_in_joint_i_2;
-    const jg_real A_joint_i_j_7 = C_j[2] * H_10 + H_11 * C_j[5] - C_j[8] * h_j_cross_f_i_in_joint_i_2;
-    const jg_real t85 = H_22 * lambda[5];
-    phi_q_t_lambda_q[33] = t85;
-    const jg_real t86 = t85 + t53;
-    phi_q_t_lambda_q[21] = t86;
-    const jg_real t87 = t79 + H_01 * lambda[3];
-    const jg_real t88 = t65 + H_02 * lambda[3];
-    const jg_real t89 = H_11 * t81 + h_j_cross_f_i_in_joint_i_2 * t82;
-    /* v_3_in_j = sin(alpha_1) f_j - cos(alpha_1) sin(alpha_2) g_j - cos(alpha_1) cos(alpha_2) h_j, axes of body j
-        */
-    const jg_real v_3_in_j = C_j[0] * sine_1 - H_21 * C_j[3] - H_22 * C_j[6];
+    phi_q[22] = A_ij_4;
+    const jg_real A_ij_8 = C_i[5] * A_joint_i_j_7 + C_i[2] * A_joint_i_j_6 + C_i[8] * A_joint_i_j_8;
+    const jg_real A_ij_5 = C_i[5] * A_joint_i_j_4 + C_i[2] * A_joint_i_j_3 + C_i[8] * A_joint_i_j_5;
+    const jg_real A_ij_7 = C_i[4] * A_joint_i_j_7 + C_i[1] * A_joint_i_j_6 + C_i[7] * A_joint_i_j_8;
+    const jg_real A_ij_6 = C_i[3] * A_joint_i_j_7 + C_i[0] * A_joint_i_j_6 + C_i[6] * A_joint_i_j_8;
+    const jg_real A_ij_3 = C_i[3] * A_joint_i_j_4 + C_i[0] * A_joint_i_j_3 + C_i[6] * A_joint_i_j_5;
+    const jg_real t93 = H_21 * lambda[3];
     /* v_0_in_joint_i = cos(alpha_1) sin(alpha_2) lambda_5 f_j x h_i - cos(alpha_1) sin(alpha_2) lambda_4 h_j x h_i
         ... */
-    const jg_real v_0_in_joint_i_0 = H_10 * t80 + h_j_cross_f_i_in_joint_i_2 * t79 + H_11 * t74;
-    /* v_1_in_joint_i = cos(alpha_2) lambda_5 f_j x h_i - cos(alpha_2) lambda_4 h_j x h_i - sin(alpha_2) lambda_3
-        ... */
-    const jg_real v_1_in_joint_i_2 = H_11 * t58 - h_j_cross_f_i_in_joint_i_2 * t59;
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = C_i[1] * A_joint_i_j_3 + A_joint_i_j_4 * C_i[4] + C_i[7] * A_joint_i_j_5;
-    phi_q[22] = A_ij_4;
-    const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * A_joint_i_j_8;
-    phi_q[26] = A_ij_8;
-    const jg_real A_ij_5 = C_i[2] * A_joint_i_j_3 + A_joint_i_j_4 * C_i[5] + C_i[8] * A_joint_i_j_5;
-    phi_q[23] = A_ij_5;
-    const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * A_joint_i_j_8;
-    phi_q[25] = A_ij_7;
-    const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * A_joint_i_j_8;
-    phi_q[24] = A_ij_6;
-    const jg_real A_ij_3 = C_i[0] * A_joint_i_j_3 + A_joint_i_j_4 * C_i[3] + C_i[6] * A_joint_i_j_5;
-    phi_q[21] = A_ij_3;
-    const jg_real v_0_in_joint_i_1 = H_02 * t79 - H_00 * t80 + H_21 * t81 - H_01 * t74 - H_22 * t82;
+    const jg_real v_0_in_joint_i_0 = h_j_cross_f_i_in_joint_i_2 * t81 + H_10 * t82 + H_11 * t86;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    phi_q[26] = A_ij_8;
+    phi_q[23] = A_ij_5;
+    phi_q[25] = A_ij_7;
+    phi_q[24] = A_ij_6;
+    phi_q[21] = A_ij_3;
     phi_q[18] = A_ij_0;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    const jg_real v_1_in_joint_i_0 = H_10 * t61 + h_j_cross_f_i_in_joint_i_2 * t60 - H_11 * t62;
-    const jg_real t104 = s_j[0] * v_3_in_j - s_j[1] * A_joint_i_j_5 - s_j[2] * A_joint_i_j_8;
     phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    const jg_real t98 = H_11 * t83 + h_j_cross_f_i_in_joint_i_2 * t93;
+    const jg_real v_0_in_joint_i_1 = H_02 * t81 - H_00 * t82 + H_21 * t83 - H_01 * t86 - H_22 * t93;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
+    const jg_real t101 = H_22 * lambda[5];
+    /* v_3_in_j = sin(alpha_1) f_j - cos(alpha_1) sin(alpha_2) g_j - cos(alpha_1) cos(alpha_2) h_j, axes of body j
+        */
+    const jg_real v_3_in_j = t54 - H_21 * C_j[3] - C_j[6] * H_22;
     const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[0] = C_i[6] * t89 - (C_i[0] * v_0_in_joint_i_0 + C_i[3] * v_0_in_joint_i_1);
-    /* v_5_in_j = cos(alpha_2) g_j - sin(alpha_2) h_j, axes of body j */
-    const jg_real v_5_in_j_2 = cosine_2 * C_j[5] - C_j[8] * sine_2;
-    phi_q_t_lambda_q[1] = C_i[7] * t89 - (C_i[1] * v_0_in_joint_i_0 + C_i[4] * v_0_in_joint_i_1);
-    phi_q_t_lambda_q[2] = C_i[8] * t89 - (C_i[2] * v_0_in_joint_i_0 + C_i[5] * v_0_in_joint_i_1);
     const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    const jg_real v_5_in_j_1 = cosine_2 * C_j[4] - C_j[7] * sine_2;
+    const jg_real t105 = t57 + t101;
+    const jg_real t106 = t81 + H_01 * lambda[3];
+    const jg_real t107 = t80 + H_02 * lambda[3];
     /* v_4_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
     const jg_real v_4_in_j_0 = A_joint_i_j_8 * lambda_0_1_2_in_j_1 - A_joint_i_j_5 * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[3] = v_4_in_j_0;
-    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_2_in_joint_i = H_11 * lambda[5];
-    const jg_real t112 = H_01 * lambda[5];
-    const jg_real v_5_in_j_0 = cosine_2 * C_j[3] - C_j[6] * sine_2;
-    const jg_real t114 = sine_1 * sine_2 * lambda[5];
-    const jg_real t115 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
     const jg_real v_4_in_j_2 = A_joint_i_j_5 * lambda_0_1_2_in_j_0 + lambda_0_1_2_in_j_1 * v_3_in_j;
+    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    phi_q_t_lambda_q[33] = t101;
+    phi_q_t_lambda_q[21] = t105;
+    phi_q_t_lambda_q[0] = C_i[6] * t98 - (C_i[0] * v_0_in_joint_i_0 + C_i[3] * v_0_in_joint_i_1);
+    phi_q_t_lambda_q[1] = C_i[7] * t98 - (C_i[1] * v_0_in_joint_i_0 + C_i[4] * v_0_in_joint_i_1);
+    phi_q_t_lambda_q[2] = C_i[8] * t98 - (C_i[2] * v_0_in_joint_i_0 + C_i[5] * v_0_in_joint_i_1);
+    phi_q_t_lambda_q[3] = v_4_in_j_0;
     phi_q_t_lambda_q[5] = v_4_in_j_2;
-    const jg_real v_1_in_joint_i_1 = H_02 * t60 - H_00 * t61 - H_21 * t58 + H_01 * t62 - H_22 * t59;
-    phi_q_t_lambda_q[14] = lambda_0_1_2_in_j_1 * v_5_in_j_2 - lambda_0_1_2_in_j_2 * v_5_in_j_1;
-    phi_q_t_lambda_q[4] = -(lambda_0_1_2_in_j_2 * v_3_in_j + A_joint_i_j_8 * lambda_0_1_2_in_j_0);
+    const jg_real t110 = sine_2 * lambda[4];
+    const jg_real t111 = s_j[0] * v_3_in_j - s_j[1] * A_joint_i_j_5 - s_j[2] * A_joint_i_j_8;
+    /* v_1_in_joint_i = cos(alpha_2) lambda_5 f_j x h_i - cos(alpha_2) lambda_4 h_j x h_i - sin(alpha_2) lambda_3
+        ... */
+    const jg_real v_1_in_joint_i_2 = H_11 * t62 - h_j_cross_f_i_in_joint_i_2 * t63;
+    const jg_real t113 = C_j[8] * sine_2;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
-    const jg_real t119 = -t114;
-    phi_q_t_lambda_q[22] = t119;
-    phi_q_t_lambda_q[32] = t119;
-    phi_q_t_lambda_q[15] = lambda_0_1_2_in_j_2 * v_5_in_j_0 - lambda_0_1_2_in_j_0 * v_5_in_j_2;
-    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * v_5_in_j_1 - lambda_0_1_2_in_j_1 * v_5_in_j_0;
-    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i - C_i[3] * t112;
-    phi_q_t_lambda_q[23] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i - C_i[4] * t112;
-    phi_q_t_lambda_q[24] = v_2_in_i_1;
-    phi_q_t_lambda_q[26] = C_j[2] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[27] = C_j[0] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_0;
-    const jg_real t122 = s_j_dot_lambda_0_1_2 + t86;
-    const jg_real t123 = sine_1 * s_j_dot_lambda_0_1_2;
-    const jg_real t124 = s_j_dot_lambda_0_1_2 + t53;
-    const jg_real t125 = s_j_dot_lambda_0_1_2 + t85;
-    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i - C_i[5] * t112;
-    phi_q_t_lambda_q[25] = v_2_in_i_2;
+    const jg_real t115 = s_j_dot_lambda_0_1_2 + t105;
+    const jg_real t116 = s_j_dot_lambda_0_1_2 + t57;
+    const jg_real v_1_in_joint_i_0 = h_j_cross_f_i_in_joint_i_2 * t64 + H_10 * t65 - H_11 * t110;
+    /* v_5_in_j = cos(alpha_2) g_j - sin(alpha_2) h_j, axes of body j */
+    const jg_real v_5_in_j_2 = cosine_2 * C_j[5] - t113;
+    const jg_real t119 = C_j[7] * sine_2;
+    const jg_real t120 = C_j[6] * sine_2;
+    const jg_real t121 = sine_2 * t53;
+    const jg_real v_5_in_j_1 = cosine_2 * C_j[4] - t119;
+    const jg_real v_5_in_j_0 = cosine_2 * C_j[3] - t120;
+    const jg_real t124 = H_22 * t116 + sine_1 * t107;
+    const jg_real t125 = cosine_2 * t115 + sine_2 * t82;
+    const jg_real v_1_in_joint_i_1 = H_02 * t64 - H_00 * t65 - H_21 * t62 + H_01 * t110 - H_22 * t63;
+    const jg_real t127 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
+    const jg_real t128 = cosine_1 * (sine_2 * t115 - cosine_2 * t82) + sine_1 * t106;
     /* v_1_in_i = cos(alpha_2) lambda_5 f_j x h_i - cos(alpha_2) lambda_4 h_j x h_i - sin(alpha_2) lambda_3 ... */
     const jg_real v_1_in_i_0 = C_i[0] * v_1_in_joint_i_0 + C_i[3] * v_1_in_joint_i_1 + C_i[6] * v_1_in_joint_i_2;
     const jg_real v_1_in_i_1 = C_i[1] * v_1_in_joint_i_0 + C_i[4] * v_1_in_joint_i_1 + C_i[7] * v_1_in_joint_i_2;
     const jg_real v_1_in_i_2 = C_i[2] * v_1_in_joint_i_0 + C_i[5] * v_1_in_joint_i_1 + C_i[8] * v_1_in_joint_i_2;
-    const jg_real t130 = sine_2 * t124;
-    phi_q_t_lambda_q[28] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
-    const jg_real t131 = H_22 * t124 + sine_1 * t88;
+    const jg_real t132 = -t121;
+    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_2_in_joint_i = H_11 * lambda[5];
+    const jg_real t134 = H_01 * lambda[5];
+    phi_q_t_lambda_q[4] = -(A_joint_i_j_8 * lambda_0_1_2_in_j_0 + lambda_0_1_2_in_j_2 * v_3_in_j);
+    phi_q_t_lambda_q[14] = lambda_0_1_2_in_j_1 * v_5_in_j_2 - lambda_0_1_2_in_j_2 * v_5_in_j_1;
+    phi_q_t_lambda_q[15] = lambda_0_1_2_in_j_2 * v_5_in_j_0 - lambda_0_1_2_in_j_0 * v_5_in_j_2;
+    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * v_5_in_j_1 - lambda_0_1_2_in_j_1 * v_5_in_j_0;
+    phi_q_t_lambda_q[22] = t132;
+    phi_q_t_lambda_q[32] = t132;
     phi_q_t_lambda_q[11] = -v_1_in_i_0;
     phi_q_t_lambda_q[12] = -v_1_in_i_1;
-    phi_q_t_lambda_q[13] = -v_1_in_i_2;
-    const jg_real t132 = cosine_2 * t122 + sine_2 * H_21 * lambda[5];
-    const jg_real t133 = H_21 * alphadot[0] + cosine_2 * alphadot[1];
-    const jg_real t134 = cosine_1 * (sine_2 * t122 - cosine_2 * H_21 * lambda[5]) + sine_1 * t87;
-    const jg_real t135 = H_22 * alphadot[0] - sine_2 * alphadot[1];
-    phi_q_t_lambda_q[29] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t125 - C_j[3] * t87 - C_j[6] * t88);
-    phi_q_t_lambda_q[30] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t125 - C_j[4] * t87 - C_j[7] * t88);
-    phi_q_t_lambda_q[31] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t125 - C_j[5] * t87 - C_j[8] * t88);
-    const jg_real t136 = cosine_2 * h_j_dot_omega_j + sine_2 * g_j_dot_omega_j;
-    const jg_real t137 = s_j_dot_f_j * v_12_in_joint_j - s_j_dot_g_j * t133 - s_j_dot_h_j * t135;
-    const jg_real t138 = v_12_in_joint_j * f_j_dot_omega_j - t133 * g_j_dot_omega_j - t135 * h_j_dot_omega_j;
     /* v_8_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
-    const jg_real v_8_in_j_0 = C_j[0] * t114 - C_j[3] * t132 + C_j[6] * t130 + lambda_0_1_2_in_j_0 * t115;
-    phi_q_t_lambda_q[17] = v_8_in_j_0;
-    const jg_real v_8_in_j_1 = C_j[1] * t114 - C_j[4] * t132 + C_j[7] * t130 + lambda_0_1_2_in_j_1 * t115;
-    phi_q_t_lambda_q[18] = v_8_in_j_1;
-    const jg_real v_8_in_j_2 = C_j[2] * t114 - C_j[5] * t132 + C_j[8] * t130 + lambda_0_1_2_in_j_2 * t115;
-    phi_q_t_lambda_q[19] = v_8_in_j_2;
-    const jg_real t142 = H_02 * h_j_dot_omega_j;
-    const jg_real t143 = H_21 * omega_i_in_joint_i_1 - H_11 * omega_i_in_joint_i_2;
-    /* v_10_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_10_in_j_1 = C_j[1] * v_12_in_joint_j - C_j[4] * t133 - C_j[7] * t135 + omega_j[1];
-    const jg_real t145 = H_22 * omega_i_in_joint_i_1 + h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2;
-    const jg_real v_10_in_j_2 = C_j[2] * v_12_in_joint_j - C_j[5] * t133 - C_j[8] * t135 + omega_j[2];
-    const jg_real t147 = H_01 * g_j_dot_omega_j;
-    const jg_real v_10_in_j_0 = C_j[0] * v_12_in_joint_j - C_j[3] * t133 - C_j[6] * t135 + omega_j[0];
+    const jg_real v_8_in_j_0 = C_j[0] * t121 - C_j[3] * t125 + t116 * t120 + lambda_0_1_2_in_j_0 * t127;
+    const jg_real v_8_in_j_1 = C_j[1] * t121 - C_j[4] * t125 + t116 * t119 + lambda_0_1_2_in_j_1 * t127;
+    const jg_real v_8_in_j_2 = C_j[2] * t121 - C_j[5] * t125 + t116 * t113 + lambda_0_1_2_in_j_2 * t127;
     /* v_7_in_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
-    const jg_real v_7_in_j_0 = C_j[3] * t134 - C_j[0] * t123 + C_j[6] * t131 + lambda_0_1_2_in_j_0 * t104;
-    const jg_real v_7_in_j_1 = C_j[4] * t134 - C_j[1] * t123 + C_j[7] * t131 + lambda_0_1_2_in_j_1 * t104;
-    const jg_real v_7_in_j_2 = C_j[5] * t134 - C_j[2] * t123 + C_j[8] * t131 + lambda_0_1_2_in_j_2 * t104;
-    /* v_13_in_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_13_in_j_0 = omega_j[0] * t137 - s_j[0] * t138;
-    const jg_real v_13_in_j_1 = omega_j[1] * t137 - s_j[1] * t138;
-    const jg_real v_13_in_j_2 = omega_j[2] * t137 - s_j[2] * t138;
+    const jg_real v_7_in_j_0 = C_j[3] * t128 - t54 * s_j_dot_lambda_0_1_2 + C_j[6] * t124 + lambda_0_1_2_in_j_0 *
+        t111;
+    const jg_real v_7_in_j_1 = C_j[4] * t128 - t51 * s_j_dot_lambda_0_1_2 + C_j[7] * t124 + lambda_0_1_2_in_j_1 *
+        t111;
+    const jg_real v_7_in_j_2 = C_j[5] * t128 - t52 * s_j_dot_lambda_0_1_2 + C_j[8] * t124 + lambda_0_1_2_in_j_2 *
+        t111;
+    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i - C_i[3] * t134;
+    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i - C_i[4] * t134;
+    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i - C_i[5] * t134;
+    phi_q_t_lambda_q[13] = -v_1_in_i_2;
+    phi_q_t_lambda_q[17] = v_8_in_j_0;
+    phi_q_t_lambda_q[18] = v_8_in_j_1;
+    phi_q_t_lambda_q[19] = v_8_in_j_2;
+    phi_q_t_lambda_q[23] = v_2_in_i_0;
+    phi_q_t_lambda_q[24] = v_2_in_i_1;
+    phi_q_t_lambda_q[25] = v_2_in_i_2;
+    phi_q_t_lambda_q[26] = C_j[2] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_2;
+    const jg_real t144 = s_j_dot_lambda_0_1_2 + t101;
+    const jg_real t145 = H_21 * alphadot[0] + cosine_2 * alphadot[1];
+    const jg_real t146 = H_02 * h_j_dot_omega_j;
+    const jg_real t147 = H_22 * alphadot[0] - sine_2 * alphadot[1];
+    const jg_real t148 = H_01 * g_j_dot_omega_j;
+    const jg_real t149 = cosine_2 * h_j_dot_omega_j + sine_2 * g_j_dot_omega_j;
+    const jg_real t150 = H_21 * omega_i_in_joint_i_1 - H_11 * omega_i_in_joint_i_2;
+    const jg_real t151 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2 + H_22 * omega_i_in_joint_i_1;
     phi_q_t_lambda_q[6] = -v_7_in_j_0;
     phi_q_t_lambda_q[7] = -v_7_in_j_1;
     phi_q_t_lambda_q[8] = -v_7_in_j_2;
+    phi_q_t_lambda_q[27] = C_j[0] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[28] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[29] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t144 - C_j[3] * t106 - C_j[6] * t107);
+    phi_q_t_lambda_q[30] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t144 - C_j[4] * t106 - C_j[7] * t107);
+    phi_q_t_lambda_q[31] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t144 - C_j[5] * t106 - C_j[8] * t107);
+    const jg_real t152 = sine_2 * h_j_dot_omega_j - cosine_2 * g_j_dot_omega_j;
+    const jg_real t153 = s_j_dot_f_j * v_12_in_joint_j - s_j_dot_g_j * t145 - s_j_dot_h_j * t147;
+    const jg_real t154 = v_12_in_joint_j * f_j_dot_omega_j - t145 * g_j_dot_omega_j - t147 * h_j_dot_omega_j;
+    /* v_10_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_10_in_j_1 = C_j[1] * v_12_in_joint_j - C_j[4] * t145 - C_j[7] * t147 + omega_j[1];
+    const jg_real v_10_in_j_2 = C_j[2] * v_12_in_joint_j - C_j[5] * t145 - C_j[8] * t147 + omega_j[2];
+    const jg_real v_10_in_j_0 = C_j[0] * v_12_in_joint_j - C_j[3] * t145 - C_j[6] * t147 + omega_j[0];
+    /* v_13_in_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
+    const jg_real v_13_in_j_0 = t153 * omega_j[0] - s_j[0] * t154;
+    const jg_real t159 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
+    const jg_real v_13_in_j_1 = t153 * omega_j[1] - s_j[1] * t154;
+    const jg_real v_13_in_j_2 = t153 * omega_j[2] - s_j[2] * t154;
     /* v_11_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
-    const jg_real v_11_in_j_0 = v_j[2] * v_10_in_j_1 - v_j[1] * v_10_in_j_2;
-    const jg_real v_11_in_j_1 = v_j[0] * v_10_in_j_2 - v_j[2] * v_10_in_j_0;
-    const jg_real v_11_in_j_2 = v_j[1] * v_10_in_j_0 - v_j[0] * v_10_in_j_1;
-    const jg_real t158 = sine_2 * h_j_dot_omega_j - cosine_2 * g_j_dot_omega_j;
+    const jg_real v_11_in_j_0 = v_10_in_j_1 * v_j[2] - v_10_in_j_2 * v_j[1];
+    const jg_real v_11_in_j_1 = v_10_in_j_2 * v_j[0] - v_j[2] * v_10_in_j_0;
+    const jg_real v_11_in_j_2 = v_j[1] * v_10_in_j_0 - v_10_in_j_1 * v_j[0];
     /* v_13_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_13_in_i_0 = A_ij_0 * v_13_in_j_0 + A_ij_3 * v_13_in_j_1 + A_ij_6 * v_13_in_j_2;
     const jg_real v_13_in_i_1 = A_ij_1 * v_13_in_j_0 + A_ij_4 * v_13_in_j_1 + A_ij_7 * v_13_in_j_2;
-    const jg_real t161 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
-    const jg_real t162 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
+    const jg_real t167 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
     const jg_real v_13_in_i_2 = A_ij_2 * v_13_in_j_0 + A_ij_5 * v_13_in_j_1 + A_ij_8 * v_13_in_j_2;
-    const jg_real t164 = H_21 * g_j_dot_omega_j;
-    const jg_real t165 = H_22 * h_j_dot_omega_j;
+    const jg_real t169 = H_21 * g_j_dot_omega_j;
+    const jg_real t170 = H_22 * h_j_dot_omega_j;
     /* v_11_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
     const jg_real v_11_in_i_0 = A_ij_0 * v_11_in_j_0 + A_ij_3 * v_11_in_j_1 + A_ij_6 * v_11_in_j_2;
     const jg_real v_11_in_i_1 = A_ij_1 * v_11_in_j_0 + A_ij_4 * v_11_in_j_1 + A_ij_7 * v_11_in_j_2;
     const jg_real v_11_in_i_2 = A_ij_2 * v_11_in_j_0 + A_ij_5 * v_11_in_j_1 + A_ij_8 * v_11_in_j_2;
-    const jg_real t169 = H_10 * omega_i_in_joint_i_0 - H_00 * omega_i_in_joint_i_1 + H_22 * g_j_dot_omega_j;
-    const jg_real t170 = t161 - H_22 * f_j_dot_omega_j;
+    const jg_real t174 = H_10 * omega_i_in_joint_i_0 - H_00 * omega_i_in_joint_i_1 + H_22 * g_j_dot_omega_j;
     /* v_14_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_14_in_i_0 = v_11_in_i_0 - omega_i_cross_v_i_in_i_0 + v_13_in_i_0;
-    gamma[0] = v_14_in_i_0;
     const jg_real v_14_in_i_1 = v_11_in_i_1 - omega_i_cross_v_i_in_i_1 + v_13_in_i_1;
-    gamma[1] = v_14_in_i_1;
     const jg_real v_14_in_i_2 = v_11_in_i_2 - omega_i_cross_v_i_in_i_2 + v_13_in_i_2;
+    const jg_real t178 = t159 - H_22 * f_j_dot_omega_j;
+    gamma[0] = v_14_in_i_0;
+    gamma[1] = v_14_in_i_1;
     gamma[2] = v_14_in_i_2;
-    gamma[3] = -(alphadot[0] * (cosine_1 * (cosine_0 * alphadot[0] - H_00 * t136 - cosine_2 * t143 + sine_2 * t145)
-        - sine_1 * (sine_0 * JG_REAL(2.0) * alphadot[1] + t147 + t142)) + alphadot[1] * (H_00 * t158 + H_00 *
-        alphadot[1] + cosine_2 * t145 + sine_2 * t143) + alphadot[2] * (t147 + t142));
-    gamma[4] = -(sine_1 * (alphadot[0] * (cosine_1 * t136 - t164 - t165) - alphadot[1] * (alphadot[1] + t158)) -
-        (cosine_2 * t161 + sine_2 * t162) * (cosine_1 * alphadot[0]) + alphadot[1] * (sine_2 * t161 - cosine_2 *
-        t162) + alphadot[2] * (t164 + t165));
-    gamma[5] = cosine_1 * (cosine_2 * (alphadot[0] * (sine_1 * f_j_dot_omega_j - t164) - alphadot[1] * alphadot[1] -
-        alphadot[2] * alphadot[2]) + sine_2 * alphadot[0] * t169) + alphadot[1] * (sine_2 * (t164 + sine_1 *
-        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_2 * t169) + t52 * t170 - alphadot[2] * t170;
+    gamma[3] = -(alphadot[0] * (cosine_1 * (cosine_0 * alphadot[0] - H_00 * t149 - cosine_2 * t150 + sine_2 * t151)
+        - sine_1 * (t148 + sine_0 * JG_REAL(2.0) * alphadot[1] + t146)) + alphadot[1] * (H_00 * t152 + H_00 *
+        alphadot[1] + cosine_2 * t151 + sine_2 * t150) + alphadot[2] * (t146 + t148));
+    gamma[4] = -(sine_1 * (alphadot[0] * (cosine_1 * t149 - t169 - t170) - alphadot[1] * (alphadot[1] + t152)) -
+        (cosine_2 * t159 + sine_2 * t167) * (cosine_1 * alphadot[0]) + alphadot[1] * (sine_2 * t159 - cosine_2 *
+        t167) + alphadot[2] * (t169 + t170));
+    gamma[5] = cosine_1 * (cosine_2 * (alphadot[0] * (sine_1 * f_j_dot_omega_j - t169) - alphadot[1] * alphadot[1] -
+        alphadot[2] * alphadot[2]) + sine_2 * alphadot[0] * t174) + alphadot[1] * (sine_2 * (t169 + sine_1 *
+        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_2 * t174) + t56 * t178 - alphadot[2] * t178;
 }
 
 void jg_ball_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -4,10 +4,6 @@
  * joint cylindrical, form conventional, derivative exact, variation world, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/cylindrical.h"
 
 const int *jg_cylindrical_conventional_world_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_cylindrical_conventional_world_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_cylindrical_conventional_world_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -45,119 +40,118 @@ void jg_cylindrical_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     const jg_real h_j_in_i_1 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
-    const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
-    phi[2] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    phi[2] = f_i_dot_h_j;
     phi[3] = g_i_dot_h_j;
     phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
     phi[1] = d_ij_in_i_0 * C_i[3] + d_ij_in_i_1 * C_i[4] + d_ij_in_i_2 * C_i[5];
 }
 
-void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_cylindrical_conventional_world_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[18] = f_i_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[19] = g_i_world_0;
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[20] = f_i_world_1;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    phi_q[21] = g_i_world_1;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[22] = f_i_world_2;
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[23] = g_i_world_2;
+    phi_q[18] = f_i_world_0;
+    phi_q[19] = g_i_world_0;
+    phi_q[20] = f_i_world_1;
+    phi_q[21] = g_i_world_1;
     phi_q[0] = -f_i_world_0;
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    phi_q[22] = f_i_world_2;
     phi_q[1] = -g_i_world_0;
+    phi_q[23] = g_i_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[2] = -f_i_world_1;
-    phi_q[3] = -g_i_world_1;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    phi_q[4] = -f_i_world_2;
-    phi_q[5] = -g_i_world_2;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     /* s_j_cross_f_i_world = s_j x f_i, world axes */
     const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
-    phi_q[24] = s_j_cross_f_i_world_0;
     /* s_j_cross_g_i_world = s_j x g_i, world axes */
     const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
+    phi_q[2] = -f_i_world_1;
+    phi_q[3] = -g_i_world_1;
+    phi_q[4] = -f_i_world_2;
+    phi_q[5] = -g_i_world_2;
+    phi_q[6] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
+    phi_q[7] = e_ij_world_2 * g_i_world_1 - e_ij_world_1 * g_i_world_2;
+    phi_q[24] = s_j_cross_f_i_world_0;
     phi_q[25] = s_j_cross_g_i_world_0;
     /* f_i_cross_h_j_world = f_i x h_j, world axes */
     const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[8] = f_i_cross_h_j_world_0;
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
-    phi_q[9] = g_i_cross_h_j_world_0;
-    phi_q[6] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
-    phi_q[7] = e_ij_world_2 * g_i_world_1 - e_ij_world_1 * g_i_world_2;
     const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    phi_q[28] = s_j_cross_f_i_world_1;
-    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
-    phi_q[29] = s_j_cross_g_i_world_1;
+    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    phi_q[8] = f_i_cross_h_j_world_0;
+    phi_q[9] = g_i_cross_h_j_world_0;
     phi_q[26] = -f_i_cross_h_j_world_0;
     phi_q[27] = -g_i_cross_h_j_world_0;
-    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    phi_q[32] = s_j_cross_f_i_world_2;
-    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    phi_q[28] = s_j_cross_f_i_world_1;
     phi_q[12] = f_i_cross_h_j_world_1;
-    phi_q[10] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
-    phi_q[11] = e_ij_world_0 * g_i_world_2 - e_ij_world_2 * g_i_world_0;
-    const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
     phi_q[13] = g_i_cross_h_j_world_1;
-    phi_q[14] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
-    phi_q[15] = e_ij_world_1 * g_i_world_0 - e_ij_world_0 * g_i_world_1;
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
     phi_q[16] = f_i_cross_h_j_world_2;
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
+    phi_q[10] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
+    phi_q[11] = e_ij_world_0 * g_i_world_2 - e_ij_world_2 * g_i_world_0;
+    phi_q[14] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
+    phi_q[15] = e_ij_world_1 * g_i_world_0 - e_ij_world_0 * g_i_world_1;
     phi_q[17] = g_i_cross_h_j_world_2;
-    const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
-    phi_q[33] = s_j_cross_g_i_world_2;
     phi_q[30] = -f_i_cross_h_j_world_1;
     phi_q[31] = -g_i_cross_h_j_world_1;
     phi_q[34] = -f_i_cross_h_j_world_2;
+    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
+    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
+    const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
     phi_q[35] = -g_i_cross_h_j_world_2;
+    phi_q[29] = s_j_cross_g_i_world_1;
+    phi_q[32] = s_j_cross_f_i_world_2;
+    phi_q[33] = s_j_cross_g_i_world_2;
 }
 
 void jg_cylindrical_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -169,9 +163,9 @@ void jg_cylindrical_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_
     jg_scatter(jg_cylindrical_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i,
+    const jg_real *r_j, const jg_real *A_j, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -179,119 +173,119 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RES
     /* v_0_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
     const jg_real v_0_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
     const jg_real v_0_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
     /* v_1_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
     const jg_real v_1_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real v_1_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real v_1_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real v_1_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* v_0_world = lambda_0 f_i + lambda_1 g_i, world axes */
     const jg_real v_0_world_2 = v_0_in_i_0 * A_i[2] + v_0_in_i_1 * A_i[5] + v_0_in_i_2 * A_i[8];
+    const jg_real v_0_world_1 = v_0_in_i_0 * A_i[1] + v_0_in_i_1 * A_i[4] + v_0_in_i_2 * A_i[7];
     phi_q_t_lambda_q[2] = v_0_world_2;
     phi_q_t_lambda_q[6] = v_0_world_2;
     phi_q_t_lambda_q[21] = v_0_world_2;
     phi_q_t_lambda_q[36] = v_0_world_2;
-    const jg_real v_0_world_1 = v_0_in_i_0 * A_i[1] + v_0_in_i_1 * A_i[4] + v_0_in_i_2 * A_i[7];
     phi_q_t_lambda_q[1] = v_0_world_1;
     phi_q_t_lambda_q[12] = v_0_world_1;
     phi_q_t_lambda_q[26] = v_0_world_1;
     phi_q_t_lambda_q[40] = v_0_world_1;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real v_0_world_0 = v_0_in_i_0 * A_i[0] + v_0_in_i_1 * A_i[3] + v_0_in_i_2 * A_i[6];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* v_1_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_1_world_1 = A_i[1] * v_1_in_i_0 + A_i[4] * v_1_in_i_1 + A_i[7] * v_1_in_i_2;
+    const jg_real t14 = -v_0_world_2;
     phi_q_t_lambda_q[5] = v_0_world_0;
     phi_q_t_lambda_q[17] = v_0_world_0;
     phi_q_t_lambda_q[32] = v_0_world_0;
     phi_q_t_lambda_q[39] = v_0_world_0;
-    /* v_1_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_1_world_1 = A_i[1] * v_1_in_i_0 + A_i[4] * v_1_in_i_1 + A_i[7] * v_1_in_i_2;
+    phi_q_t_lambda_q[0] = t14;
+    phi_q_t_lambda_q[11] = t14;
+    phi_q_t_lambda_q[16] = t14;
+    phi_q_t_lambda_q[38] = t14;
+    const jg_real t15 = -v_0_world_1;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real t17 = -v_0_world_0;
+    phi_q_t_lambda_q[4] = t15;
+    phi_q_t_lambda_q[7] = t15;
+    phi_q_t_lambda_q[31] = t15;
+    phi_q_t_lambda_q[37] = t15;
+    phi_q_t_lambda_q[3] = t17;
+    phi_q_t_lambda_q[22] = t17;
+    phi_q_t_lambda_q[27] = t17;
+    phi_q_t_lambda_q[41] = t17;
     const jg_real v_1_world_2 = A_i[2] * v_1_in_i_0 + A_i[5] * v_1_in_i_1 + A_i[8] * v_1_in_i_2;
-    const jg_real t18 = -v_0_world_2;
-    phi_q_t_lambda_q[0] = t18;
-    phi_q_t_lambda_q[11] = t18;
-    phi_q_t_lambda_q[16] = t18;
-    phi_q_t_lambda_q[38] = t18;
-    const jg_real t19 = -v_0_world_1;
-    phi_q_t_lambda_q[4] = t19;
-    phi_q_t_lambda_q[7] = t19;
-    phi_q_t_lambda_q[31] = t19;
-    phi_q_t_lambda_q[37] = t19;
-    const jg_real t20 = -v_0_world_0;
-    phi_q_t_lambda_q[3] = t20;
-    phi_q_t_lambda_q[22] = t20;
-    phi_q_t_lambda_q[27] = t20;
-    phi_q_t_lambda_q[41] = t20;
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* M_0_world_world = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T; rows in world
         ... */
     const jg_real M_0_world_world_4 = v_0_world_1 * s_j_world_1 + h_j_world_1 * v_1_world_1;
-    const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
-    const jg_real M_0_world_world_8 = v_0_world_2 * s_j_world_2 + h_j_world_2 * v_1_world_2;
-    const jg_real M_0_world_world_5 = v_0_world_2 * s_j_world_1 + h_j_world_1 * v_1_world_2;
-    phi_q_t_lambda_q[58] = M_0_world_world_5;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* M_1_world_world = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ...
         */
     const jg_real M_1_world_world_4 = M_0_world_world_4 + v_0_world_1 * r_ij_world_1;
-    const jg_real M_0_world_world_1 = v_0_world_1 * s_j_world_0 + h_j_world_0 * v_1_world_1;
-    phi_q_t_lambda_q[51] = M_0_world_world_1;
-    const jg_real M_0_world_world_2 = v_0_world_2 * s_j_world_0 + h_j_world_0 * v_1_world_2;
-    phi_q_t_lambda_q[57] = M_0_world_world_2;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real M_0_world_world_8 = v_0_world_2 * s_j_world_2 + h_j_world_2 * v_1_world_2;
+    const jg_real M_0_world_world_5 = v_0_world_2 * s_j_world_1 + h_j_world_1 * v_1_world_2;
+    const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
     const jg_real M_1_world_world_8 = M_0_world_world_8 + v_0_world_2 * r_ij_world_2;
-    const jg_real t31 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t31;
-    phi_q_t_lambda_q[42] = t31;
+    const jg_real t29 = M_0_world_world_4 + M_0_world_world_8;
     const jg_real M_1_world_world_5 = M_0_world_world_5 + v_0_world_2 * r_ij_world_1;
+    const jg_real t31 = -M_0_world_world_5;
+    const jg_real M_0_world_world_1 = v_0_world_1 * s_j_world_0 + h_j_world_0 * v_1_world_1;
+    const jg_real M_0_world_world_2 = v_0_world_2 * s_j_world_0 + h_j_world_0 * v_1_world_2;
+    phi_q_t_lambda_q[58] = M_0_world_world_5;
+    phi_q_t_lambda_q[13] = t29;
+    phi_q_t_lambda_q[42] = t29;
     phi_q_t_lambda_q[20] = M_1_world_world_5;
-    const jg_real t33 = -M_0_world_world_5;
-    phi_q_t_lambda_q[25] = t33;
-    phi_q_t_lambda_q[55] = t33;
+    phi_q_t_lambda_q[25] = t31;
+    phi_q_t_lambda_q[55] = t31;
+    phi_q_t_lambda_q[51] = M_0_world_world_1;
+    phi_q_t_lambda_q[57] = M_0_world_world_2;
     const jg_real M_0_world_world_7 = v_0_world_1 * s_j_world_2 + h_j_world_2 * v_1_world_1;
-    phi_q_t_lambda_q[53] = M_0_world_world_7;
-    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * r_ij_world_0;
-    phi_q_t_lambda_q[9] = M_1_world_world_1;
-    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * r_ij_world_0;
-    phi_q_t_lambda_q[10] = M_1_world_world_2;
-    const jg_real t37 = -M_0_world_world_1;
-    phi_q_t_lambda_q[14] = t37;
-    phi_q_t_lambda_q[48] = t37;
-    const jg_real t38 = -M_0_world_world_2;
-    phi_q_t_lambda_q[15] = t38;
-    phi_q_t_lambda_q[54] = t38;
     const jg_real M_0_world_world_3 = v_0_world_0 * s_j_world_1 + h_j_world_1 * v_1_world_0;
-    phi_q_t_lambda_q[46] = M_0_world_world_3;
     const jg_real M_0_world_world_0 = v_0_world_0 * s_j_world_0 + h_j_world_0 * v_1_world_0;
     const jg_real M_0_world_world_6 = v_0_world_0 * s_j_world_2 + h_j_world_2 * v_1_world_0;
+    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * r_ij_world_0;
+    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * r_ij_world_0;
+    const jg_real t40 = -M_0_world_world_1;
+    phi_q_t_lambda_q[53] = M_0_world_world_7;
+    phi_q_t_lambda_q[45] = -t29;
+    phi_q_t_lambda_q[46] = M_0_world_world_3;
     phi_q_t_lambda_q[47] = M_0_world_world_6;
-    phi_q_t_lambda_q[45] = -t31;
+    phi_q_t_lambda_q[9] = M_1_world_world_1;
+    phi_q_t_lambda_q[10] = M_1_world_world_2;
+    phi_q_t_lambda_q[14] = t40;
+    phi_q_t_lambda_q[48] = t40;
+    const jg_real t41 = -M_0_world_world_2;
     const jg_real M_1_world_world_7 = M_0_world_world_7 + v_0_world_1 * r_ij_world_2;
-    phi_q_t_lambda_q[29] = M_1_world_world_7;
     const jg_real t43 = -M_0_world_world_7;
-    phi_q_t_lambda_q[34] = t43;
-    phi_q_t_lambda_q[50] = t43;
-    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
     const jg_real M_1_world_world_3 = M_0_world_world_3 + v_0_world_0 * r_ij_world_1;
-    phi_q_t_lambda_q[18] = M_1_world_world_3;
     const jg_real M_1_world_world_0 = M_0_world_world_0 + v_0_world_0 * r_ij_world_0;
     const jg_real t46 = -M_0_world_world_3;
+    phi_q_t_lambda_q[15] = t41;
+    phi_q_t_lambda_q[54] = t41;
+    phi_q_t_lambda_q[29] = M_1_world_world_7;
+    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
+    phi_q_t_lambda_q[34] = t43;
+    phi_q_t_lambda_q[50] = t43;
+    phi_q_t_lambda_q[18] = M_1_world_world_3;
     phi_q_t_lambda_q[23] = t46;
     phi_q_t_lambda_q[43] = t46;
     const jg_real t47 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
+    const jg_real t49 = -M_0_world_world_6;
+    const jg_real t50 = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[24] = t47;
     phi_q_t_lambda_q[49] = t47;
-    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
     phi_q_t_lambda_q[28] = M_1_world_world_6;
-    const jg_real t49 = -M_0_world_world_6;
     phi_q_t_lambda_q[33] = t49;
     phi_q_t_lambda_q[44] = t49;
-    const jg_real t50 = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[35] = t50;
     phi_q_t_lambda_q[56] = t50;
     phi_q_t_lambda_q[52] = -t47;
@@ -310,9 +304,8 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_
     jg_scatter(jg_cylindrical_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_cylindrical_conventional_world_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -323,53 +316,50 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    /* r_ij_dot_omega_i = r_ij . omega_i */
-    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
-        r_ij_world_2;
     /* omega_i_dot_f_i = omega_i . f_i */
     const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
-    const jg_real t16 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    const jg_real t15 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
+        r_ij_world_2;
     /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
     const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
-    const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
         r_ij_world_2;
+    const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* omega_i_cross_g_i_world = omega_i x g_i, world axes */
-    const jg_real omega_i_cross_g_i_world_0 = omega_i[1] * g_i_world_2 - omega_i[2] * g_i_world_1;
-    const jg_real omega_i_cross_g_i_world_1 = omega_i[2] * g_i_world_0 - omega_i[0] * g_i_world_2;
     const jg_real omega_i_cross_g_i_world_2 = omega_i[0] * g_i_world_1 - omega_i[1] * g_i_world_0;
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = omega_j[0] * g_i_world_0 + omega_j[1] * g_i_world_1 + omega_j[2] * g_i_world_2;
@@ -380,12 +370,10 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
         g_i_world_2;
+    const jg_real omega_i_cross_g_i_world_0 = omega_i[1] * g_i_world_2 - omega_i[2] * g_i_world_1;
+    const jg_real omega_i_cross_g_i_world_1 = omega_i[2] * g_i_world_0 - omega_i[0] * g_i_world_2;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    gamma[0] = (omega_i_cross_f_i_world_0 * v_i[0] + omega_i_cross_f_i_world_1 * v_i[1] + omega_i_cross_f_i_world_2
-        * v_i[2]) * JG_REAL(2.0) - (s_j_dot_f_i * t16 + omega_i_dot_f_i * (r_ij_dot_omega_i + s_j_dot_omega_i) +
-        f_i_dot_omega_j * (s_j_dot_omega_j - s_j_dot_omega_i * JG_REAL(2.0)) - omega_i_dot_omega_i * r_ij_dot_f_i +
-        (omega_i_cross_f_i_world_0 * v_j[0] + omega_i_cross_f_i_world_1 * v_j[1] + omega_i_cross_f_i_world_2 *
-        v_j[2]) * JG_REAL(2.0));
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* omega_j_dot_h_j = omega_j . h_j */
@@ -395,18 +383,22 @@ void jg_cylindrical_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, con
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
     const jg_real t40 = omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j;
-    gamma[2] = -(t16 * f_i_dot_h_j + f_i_dot_omega_j * t40 + omega_i_dot_f_i * omega_i_dot_h_j);
-    gamma[3] = -(t16 * g_i_dot_h_j + g_i_dot_omega_j * t40 + omega_i_dot_g_i * omega_i_dot_h_j);
-    gamma[1] = s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t16 * s_j_dot_g_i +
+    gamma[0] = (omega_i_cross_f_i_world_0 * v_i[0] + omega_i_cross_f_i_world_1 * v_i[1] + omega_i_cross_f_i_world_2
+        * v_i[2]) * JG_REAL(2.0) - (s_j_dot_f_i * t15 + omega_i_dot_f_i * (r_ij_dot_omega_i + s_j_dot_omega_i) +
+        f_i_dot_omega_j * (s_j_dot_omega_j - s_j_dot_omega_i * JG_REAL(2.0)) - omega_i_dot_omega_i * r_ij_dot_f_i +
+        (omega_i_cross_f_i_world_0 * v_j[0] + omega_i_cross_f_i_world_1 * v_j[1] + omega_i_cross_f_i_world_2 *
+        v_j[2]) * JG_REAL(2.0));
+    gamma[1] = s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t15 * s_j_dot_g_i +
         omega_i_dot_omega_i * r_ij_dot_g_i - r_ij_dot_omega_i * omega_i_dot_g_i - s_j_dot_omega_j * g_i_dot_omega_j
         - JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_world_0 + v_j[1] * omega_i_cross_g_i_world_1 + v_j[2] *
         omega_i_cross_g_i_world_2) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_world_0 + v_i[1] *
         omega_i_cross_g_i_world_1 + v_i[2] * omega_i_cross_g_i_world_2);
+    gamma[2] = -(t15 * f_i_dot_h_j + f_i_dot_omega_j * t40 + omega_i_dot_f_i * omega_i_dot_h_j);
+    gamma[3] = -(t15 * g_i_dot_h_j + g_i_dot_omega_j * t40 + omega_i_dot_g_i * omega_i_dot_h_j);
 }
 
-void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_cylindrical_conventional_world_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -427,38 +419,38 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
     const jg_real f_i_cross_omega_i_world_0 = f_i_world_1 * omega_i[2] - f_i_world_2 * omega_i[1];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_i_cross_omega_j_world = f_i x omega_j, world axes */
-    const jg_real f_i_cross_omega_j_world_0 = f_i_world_1 * omega_j[2] - f_i_world_2 * omega_j[1];
     const jg_real f_i_cross_omega_i_world_1 = f_i_world_2 * omega_i[0] - f_i_world_0 * omega_i[2];
     const jg_real f_i_cross_omega_i_world_2 = f_i_world_0 * omega_i[1] - f_i_world_1 * omega_i[0];
+    /* f_i_cross_omega_j_world = f_i x omega_j, world axes */
+    const jg_real f_i_cross_omega_j_world_0 = f_i_world_1 * omega_j[2] - f_i_world_2 * omega_j[1];
     const jg_real f_i_cross_omega_j_world_1 = f_i_world_2 * omega_j[0] - f_i_world_0 * omega_j[2];
     const jg_real f_i_cross_omega_j_world_2 = f_i_world_0 * omega_j[1] - f_i_world_1 * omega_j[0];
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* f_i_dot_v_i = f_i . v_i */
     const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* f_i_dot_v_j = f_i . v_j */
     const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
     /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
     const jg_real g_i_cross_omega_i_world_0 = omega_i[2] * g_i_world_1 - omega_i[1] * g_i_world_2;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* g_i_cross_omega_j_world = g_i x omega_j, world axes */
     const jg_real g_i_cross_omega_j_world_0 = omega_j[2] * g_i_world_1 - omega_j[1] * g_i_world_2;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real g_i_cross_omega_i_world_1 = omega_i[0] * g_i_world_2 - omega_i[2] * g_i_world_0;
     const jg_real g_i_cross_omega_i_world_2 = omega_i[1] * g_i_world_0 - omega_i[0] * g_i_world_1;
     const jg_real g_i_cross_omega_j_world_1 = omega_j[0] * g_i_world_2 - omega_j[2] * g_i_world_0;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real g_i_cross_omega_j_world_2 = omega_j[1] * g_i_world_0 - omega_j[0] * g_i_world_1;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_dot_v_i = g_i . v_i */
     const jg_real g_i_dot_v_i = v_i[0] * g_i_world_0 + v_i[1] * g_i_world_1 + v_i[2] * g_i_world_2;
     /* g_i_dot_v_j = g_i . v_j */
     const jg_real g_i_dot_v_j = v_j[0] * g_i_world_0 + v_j[1] * g_i_world_1 + v_j[2] * g_i_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi_q_v[0] = f_i_dot_v_j - (f_i_cross_omega_i_world_0 * s_j_world_0 + f_i_cross_omega_i_world_1 * s_j_world_1 +
         f_i_cross_omega_i_world_2 * s_j_world_2 + (f_i_cross_omega_i_world_0 * r_ij_world_0 +
         f_i_cross_omega_i_world_1 * r_ij_world_1 + f_i_cross_omega_i_world_2 * r_ij_world_2 + f_i_dot_v_i) -
@@ -477,9 +469,8 @@ void jg_cylindrical_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, c
         g_i_cross_omega_j_world_2));
 }
 
-void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -488,68 +479,67 @@ void jg_cylindrical_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT
     const jg_real v_0_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
     const jg_real v_0_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
     const jg_real v_0_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
-    /* v_3_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
-    const jg_real v_3_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real v_3_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* v_3_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
+    const jg_real v_3_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    const jg_real v_3_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
     const jg_real v_3_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* v_0_world = lambda_0 f_i + lambda_1 g_i, world axes */
     const jg_real v_0_world_0 = v_0_in_i_0 * A_i[0] + v_0_in_i_1 * A_i[3] + v_0_in_i_2 * A_i[6];
-    phi_q_t_lambda[6] = v_0_world_0;
     const jg_real v_0_world_1 = v_0_in_i_0 * A_i[1] + v_0_in_i_1 * A_i[4] + v_0_in_i_2 * A_i[7];
-    phi_q_t_lambda[7] = v_0_world_1;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real v_0_world_2 = v_0_in_i_0 * A_i[2] + v_0_in_i_1 * A_i[5] + v_0_in_i_2 * A_i[8];
-    phi_q_t_lambda[8] = v_0_world_2;
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* v_3_world = lambda_2 f_i + lambda_3 g_i, world axes */
     const jg_real v_3_world_1 = A_i[1] * v_3_in_i_0 + A_i[4] * v_3_in_i_1 + A_i[7] * v_3_in_i_2;
     const jg_real v_3_world_2 = A_i[2] * v_3_in_i_0 + A_i[5] * v_3_in_i_1 + A_i[8] * v_3_in_i_2;
-    phi_q_t_lambda[0] = -v_0_world_0;
-    phi_q_t_lambda[1] = -v_0_world_1;
-    phi_q_t_lambda[2] = -v_0_world_2;
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* v_2_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i, world axes */
     const jg_real v_2_world_0 = v_0_world_2 * s_j_world_1 - v_0_world_1 * s_j_world_2;
     /* v_1_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i, world axes */
     const jg_real v_1_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
-    const jg_real v_3_world_0 = A_i[0] * v_3_in_i_0 + A_i[3] * v_3_in_i_1 + A_i[6] * v_3_in_i_2;
-    const jg_real v_1_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* v_4_world = lambda_2 f_i x h_j + lambda_3 g_i x h_j, world axes */
     const jg_real v_4_world_0 = h_j_world_2 * v_3_world_1 - h_j_world_1 * v_3_world_2;
-    const jg_real v_1_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
+    const jg_real v_3_world_0 = A_i[0] * v_3_in_i_0 + A_i[3] * v_3_in_i_1 + A_i[6] * v_3_in_i_2;
     const jg_real v_2_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
+    const jg_real v_1_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
     const jg_real v_2_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
     /* v_5_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i - lambda_2 f_i x h_j - lambda_3 g_i x h_j, world axes */
     const jg_real v_5_world_0 = v_2_world_0 - v_4_world_0;
-    phi_q_t_lambda[9] = v_5_world_0;
-    const jg_real v_4_world_1 = h_j_world_0 * v_3_world_2 - h_j_world_2 * v_3_world_0;
-    const jg_real v_4_world_2 = h_j_world_1 * v_3_world_0 - h_j_world_0 * v_3_world_1;
+    const jg_real v_1_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
     /* v_6_world = lambda_0 r_ij x f_i + lambda_0 s_j x f_i + lambda_1 r_ij x g_i + lambda_1 s_j x g_i - ... */
     const jg_real v_6_world_0 = v_1_world_0 + v_5_world_0;
-    const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
-    phi_q_t_lambda[10] = v_5_world_1;
-    const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
-    phi_q_t_lambda[11] = v_5_world_2;
+    const jg_real v_4_world_1 = h_j_world_0 * v_3_world_2 - h_j_world_2 * v_3_world_0;
+    const jg_real v_4_world_2 = h_j_world_1 * v_3_world_0 - h_j_world_0 * v_3_world_1;
+    phi_q_t_lambda[6] = v_0_world_0;
+    phi_q_t_lambda[7] = v_0_world_1;
+    phi_q_t_lambda[8] = v_0_world_2;
+    phi_q_t_lambda[0] = -v_0_world_0;
+    phi_q_t_lambda[1] = -v_0_world_1;
+    phi_q_t_lambda[2] = -v_0_world_2;
+    phi_q_t_lambda[9] = v_5_world_0;
     phi_q_t_lambda[3] = -v_6_world_0;
+    const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
+    const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
     const jg_real v_6_world_1 = v_1_world_1 + v_5_world_1;
     const jg_real v_6_world_2 = v_1_world_2 + v_5_world_2;
+    phi_q_t_lambda[10] = v_5_world_1;
+    phi_q_t_lambda[11] = v_5_world_2;
     phi_q_t_lambda[4] = -v_6_world_1;
     phi_q_t_lambda[5] = -v_6_world_2;
 }
 
-void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_cylindrical_conventional_world_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -565,128 +555,128 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[18] = f_i_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[20] = f_i_world_1;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[22] = f_i_world_2;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* s_i_dot_f_i = s_i . f_i */
     const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[19] = g_i_world_0;
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    phi_q[21] = g_i_world_1;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[23] = g_i_world_2;
-    phi_q[0] = -f_i_world_0;
-    phi_q[2] = -f_i_world_1;
-    phi_q[4] = -f_i_world_2;
-    /* s_i_dot_g_i = s_i . g_i */
-    const jg_real s_i_dot_g_i = s_i[0] * C_i[3] + s_i[1] * C_i[4] + s_i[2] * C_i[5];
-    phi_q[1] = -g_i_world_0;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
         f_i_world_2;
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
-    phi_q[3] = -g_i_world_1;
-    phi_q[5] = -g_i_world_2;
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* s_i_dot_g_i = s_i . g_i */
+    const jg_real s_i_dot_g_i = s_i[0] * C_i[3] + s_i[1] * C_i[4] + s_i[2] * C_i[5];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    phi_q[18] = f_i_world_0;
+    phi_q[20] = f_i_world_1;
+    phi_q[22] = f_i_world_2;
+    phi_q[19] = g_i_world_0;
+    phi_q[21] = g_i_world_1;
+    phi_q[23] = g_i_world_2;
+    phi_q[0] = -f_i_world_0;
+    phi_q[1] = -g_i_world_0;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = s_j_world_0 * g_i_world_0 + s_j_world_1 * g_i_world_1 + s_j_world_2 * g_i_world_2;
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
         g_i_world_2;
-    phi[0] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
-    phi_q[6] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
-    phi_q[7] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
-    /* f_i_cross_h_j_world = f_i x h_j, world axes */
-    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[8] = f_i_cross_h_j_world_0;
-    /* g_i_cross_h_j_world = g_i x h_j, world axes */
-    const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
-    phi_q[9] = g_i_cross_h_j_world_0;
-    phi_q[10] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
-    /* s_j_cross_f_i_world = s_j x f_i, world axes */
-    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
-    phi_q[24] = s_j_cross_f_i_world_0;
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[2] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
+    phi_q[2] = -f_i_world_1;
+    phi[0] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
+    phi_q[3] = -g_i_world_1;
+    phi_q[4] = -f_i_world_2;
+    phi_q[5] = -g_i_world_2;
+    phi[2] = f_i_dot_h_j;
     phi[3] = g_i_dot_h_j;
-    phi_q[11] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
     phi[1] = r_ij_dot_g_i + s_j_dot_g_i - s_i_dot_g_i;
+    /* f_i_cross_h_j_world = f_i x h_j, world axes */
+    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    /* g_i_cross_h_j_world = g_i x h_j, world axes */
+    const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[12] = f_i_cross_h_j_world_1;
     const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    phi_q[6] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
+    phi_q[7] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
+    phi_q[8] = f_i_cross_h_j_world_0;
+    phi_q[9] = g_i_cross_h_j_world_0;
+    phi_q[10] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
+    phi_q[11] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
+    phi_q[12] = f_i_cross_h_j_world_1;
     phi_q[13] = g_i_cross_h_j_world_1;
-    phi_q[14] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
-    phi_q[26] = -f_i_cross_h_j_world_0;
-    phi_q[27] = -g_i_cross_h_j_world_0;
-    phi_q[15] = g_i_world_0 * e_ij_world_1 - g_i_world_1 * e_ij_world_0;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[16] = f_i_cross_h_j_world_2;
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
-    phi_q[17] = g_i_cross_h_j_world_2;
-    phi_q[30] = -f_i_cross_h_j_world_1;
-    phi_q[31] = -g_i_cross_h_j_world_1;
+    /* s_j_cross_f_i_world = s_j x f_i, world axes */
+    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
     /* s_j_cross_g_i_world = s_j x g_i, world axes */
     const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
+    phi_q[14] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
+    phi_q[26] = -f_i_cross_h_j_world_0;
+    phi_q[15] = g_i_world_0 * e_ij_world_1 - g_i_world_1 * e_ij_world_0;
+    phi_q[27] = -g_i_cross_h_j_world_0;
+    phi_q[16] = f_i_cross_h_j_world_2;
+    phi_q[17] = g_i_cross_h_j_world_2;
+    phi_q[24] = s_j_cross_f_i_world_0;
     phi_q[25] = s_j_cross_g_i_world_0;
-    phi_q[34] = -f_i_cross_h_j_world_2;
-    phi_q[35] = -g_i_cross_h_j_world_2;
     const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    phi_q[28] = s_j_cross_f_i_world_1;
     const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
-    phi_q[29] = s_j_cross_g_i_world_1;
     const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    phi_q[32] = s_j_cross_f_i_world_2;
     const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
+    phi_q[30] = -f_i_cross_h_j_world_1;
+    phi_q[31] = -g_i_cross_h_j_world_1;
+    phi_q[34] = -f_i_cross_h_j_world_2;
+    phi_q[28] = s_j_cross_f_i_world_1;
+    phi_q[35] = -g_i_cross_h_j_world_2;
+    phi_q[29] = s_j_cross_g_i_world_1;
+    phi_q[32] = s_j_cross_f_i_world_2;
     phi_q[33] = s_j_cross_g_i_world_2;
     /* v_2_world = lambda_0 f_i + lambda_1 g_i, world axes */
     const jg_real v_2_world_2 = f_i_world_2 * lambda[0] + g_i_world_2 * lambda[1];
+    const jg_real v_2_world_1 = f_i_world_1 * lambda[0] + g_i_world_1 * lambda[1];
     phi_q_t_lambda_q[2] = v_2_world_2;
     phi_q_t_lambda_q[6] = v_2_world_2;
     phi_q_t_lambda_q[21] = v_2_world_2;
     phi_q_t_lambda_q[36] = v_2_world_2;
-    const jg_real v_2_world_1 = f_i_world_1 * lambda[0] + g_i_world_1 * lambda[1];
     phi_q_t_lambda_q[1] = v_2_world_1;
     phi_q_t_lambda_q[12] = v_2_world_1;
     phi_q_t_lambda_q[26] = v_2_world_1;
     phi_q_t_lambda_q[40] = v_2_world_1;
     const jg_real v_2_world_0 = f_i_world_0 * lambda[0] + g_i_world_0 * lambda[1];
-    phi_q_t_lambda_q[5] = v_2_world_0;
-    phi_q_t_lambda_q[17] = v_2_world_0;
-    phi_q_t_lambda_q[32] = v_2_world_0;
-    phi_q_t_lambda_q[39] = v_2_world_0;
     /* v_3_world = lambda_2 f_i + lambda_3 g_i, world axes */
     const jg_real v_3_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
     const jg_real v_3_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
     const jg_real t43 = -v_2_world_2;
+    phi_q_t_lambda_q[5] = v_2_world_0;
+    phi_q_t_lambda_q[17] = v_2_world_0;
+    phi_q_t_lambda_q[32] = v_2_world_0;
+    phi_q_t_lambda_q[39] = v_2_world_0;
     phi_q_t_lambda_q[0] = t43;
     phi_q_t_lambda_q[11] = t43;
     phi_q_t_lambda_q[16] = t43;
     phi_q_t_lambda_q[38] = t43;
     const jg_real t44 = -v_2_world_1;
+    const jg_real t45 = -v_2_world_0;
     phi_q_t_lambda_q[4] = t44;
     phi_q_t_lambda_q[7] = t44;
     phi_q_t_lambda_q[31] = t44;
     phi_q_t_lambda_q[37] = t44;
-    const jg_real t45 = -v_2_world_0;
     phi_q_t_lambda_q[3] = t45;
     phi_q_t_lambda_q[22] = t45;
     phi_q_t_lambda_q[27] = t45;
@@ -696,80 +686,76 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
         ... */
     const jg_real M_0_world_world_4 = s_j_world_1 * v_2_world_1 + h_j_world_1 * v_3_world_1;
     const jg_real M_0_world_world_1 = s_j_world_0 * v_2_world_1 + h_j_world_0 * v_3_world_1;
-    phi_q_t_lambda_q[51] = M_0_world_world_1;
     const jg_real M_0_world_world_8 = s_j_world_2 * v_2_world_2 + h_j_world_2 * v_3_world_2;
     const jg_real M_0_world_world_2 = s_j_world_0 * v_2_world_2 + h_j_world_0 * v_3_world_2;
-    phi_q_t_lambda_q[57] = M_0_world_world_2;
-    const jg_real M_0_world_world_5 = s_j_world_1 * v_2_world_2 + h_j_world_1 * v_3_world_2;
-    phi_q_t_lambda_q[58] = M_0_world_world_5;
-    const jg_real M_0_world_world_7 = s_j_world_2 * v_2_world_1 + h_j_world_2 * v_3_world_1;
-    phi_q_t_lambda_q[53] = M_0_world_world_7;
     /* M_1_world_world = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ...
         */
     const jg_real M_1_world_world_4 = M_0_world_world_4 + r_ij_world_1 * v_2_world_1;
     const jg_real M_1_world_world_1 = M_0_world_world_1 + r_ij_world_0 * v_2_world_1;
-    phi_q_t_lambda_q[9] = M_1_world_world_1;
     const jg_real M_1_world_world_8 = M_0_world_world_8 + r_ij_world_2 * v_2_world_2;
+    const jg_real t54 = M_0_world_world_4 + M_0_world_world_8;
+    const jg_real t55 = -M_0_world_world_1;
     const jg_real M_1_world_world_2 = M_0_world_world_2 + r_ij_world_0 * v_2_world_2;
+    phi_q_t_lambda_q[51] = M_0_world_world_1;
+    phi_q_t_lambda_q[57] = M_0_world_world_2;
+    phi_q_t_lambda_q[9] = M_1_world_world_1;
+    phi_q_t_lambda_q[13] = t54;
+    phi_q_t_lambda_q[42] = t54;
+    phi_q_t_lambda_q[14] = t55;
+    phi_q_t_lambda_q[48] = t55;
     phi_q_t_lambda_q[10] = M_1_world_world_2;
-    const jg_real t57 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t57;
-    phi_q_t_lambda_q[42] = t57;
-    const jg_real t58 = -M_0_world_world_1;
-    phi_q_t_lambda_q[14] = t58;
-    phi_q_t_lambda_q[48] = t58;
-    const jg_real t59 = -M_0_world_world_2;
-    phi_q_t_lambda_q[15] = t59;
-    phi_q_t_lambda_q[54] = t59;
+    const jg_real t57 = -M_0_world_world_2;
+    const jg_real M_0_world_world_5 = s_j_world_1 * v_2_world_2 + h_j_world_1 * v_3_world_2;
     const jg_real M_0_world_world_3 = s_j_world_1 * v_2_world_0 + h_j_world_1 * v_3_world_0;
-    phi_q_t_lambda_q[46] = M_0_world_world_3;
     const jg_real M_0_world_world_0 = s_j_world_0 * v_2_world_0 + h_j_world_0 * v_3_world_0;
     const jg_real M_0_world_world_6 = s_j_world_2 * v_2_world_0 + h_j_world_2 * v_3_world_0;
-    phi_q_t_lambda_q[47] = M_0_world_world_6;
     const jg_real M_1_world_world_5 = M_0_world_world_5 + r_ij_world_1 * v_2_world_2;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 + r_ij_world_1 * v_2_world_0;
+    phi_q_t_lambda_q[15] = t57;
+    phi_q_t_lambda_q[54] = t57;
+    phi_q_t_lambda_q[58] = M_0_world_world_5;
+    phi_q_t_lambda_q[46] = M_0_world_world_3;
+    phi_q_t_lambda_q[47] = M_0_world_world_6;
+    phi_q_t_lambda_q[45] = -t54;
     phi_q_t_lambda_q[20] = M_1_world_world_5;
-    const jg_real t64 = -M_0_world_world_5;
-    phi_q_t_lambda_q[25] = t64;
-    phi_q_t_lambda_q[55] = t64;
+    phi_q_t_lambda_q[18] = M_1_world_world_3;
+    const jg_real M_1_world_world_0 = M_0_world_world_0 + r_ij_world_0 * v_2_world_0;
+    const jg_real t65 = -M_0_world_world_3;
+    const jg_real t66 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real t67 = -M_0_world_world_5;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + r_ij_world_2 * v_2_world_0;
+    phi_q_t_lambda_q[23] = t65;
+    phi_q_t_lambda_q[43] = t65;
+    phi_q_t_lambda_q[24] = t66;
+    phi_q_t_lambda_q[49] = t66;
+    phi_q_t_lambda_q[25] = t67;
+    phi_q_t_lambda_q[55] = t67;
+    phi_q_t_lambda_q[28] = M_1_world_world_6;
+    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
+    const jg_real M_0_world_world_7 = s_j_world_2 * v_2_world_1 + h_j_world_2 * v_3_world_1;
+    const jg_real t70 = -M_0_world_world_6;
+    const jg_real t71 = M_0_world_world_0 + M_0_world_world_4;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    const jg_real M_1_world_world_7 = M_0_world_world_7 + r_ij_world_2 * v_2_world_1;
+    const jg_real t75 = -M_0_world_world_7;
+    phi_q_t_lambda_q[53] = M_0_world_world_7;
+    phi_q_t_lambda_q[33] = t70;
+    phi_q_t_lambda_q[44] = t70;
+    phi_q_t_lambda_q[35] = t71;
+    phi_q_t_lambda_q[56] = t71;
+    phi_q_t_lambda_q[52] = -t66;
+    phi_q_t_lambda_q[29] = M_1_world_world_7;
+    phi_q_t_lambda_q[34] = t75;
+    phi_q_t_lambda_q[50] = t75;
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    const jg_real M_1_world_world_7 = M_0_world_world_7 + r_ij_world_2 * v_2_world_1;
-    phi_q_t_lambda_q[29] = M_1_world_world_7;
-    const jg_real t69 = -M_0_world_world_7;
-    phi_q_t_lambda_q[34] = t69;
-    phi_q_t_lambda_q[50] = t69;
-    phi_q_t_lambda_q[45] = -t57;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 + r_ij_world_1 * v_2_world_0;
-    phi_q_t_lambda_q[18] = M_1_world_world_3;
-    const jg_real M_1_world_world_0 = M_0_world_world_0 + r_ij_world_0 * v_2_world_0;
-    const jg_real t72 = -M_0_world_world_3;
-    phi_q_t_lambda_q[23] = t72;
-    phi_q_t_lambda_q[43] = t72;
-    const jg_real t73 = M_0_world_world_0 + M_0_world_world_8;
-    phi_q_t_lambda_q[24] = t73;
-    phi_q_t_lambda_q[49] = t73;
-    const jg_real M_1_world_world_6 = M_0_world_world_6 + r_ij_world_2 * v_2_world_0;
-    phi_q_t_lambda_q[28] = M_1_world_world_6;
-    const jg_real t75 = -M_0_world_world_6;
-    phi_q_t_lambda_q[33] = t75;
-    phi_q_t_lambda_q[44] = t75;
-    const jg_real t76 = M_0_world_world_0 + M_0_world_world_4;
-    phi_q_t_lambda_q[35] = t76;
-    phi_q_t_lambda_q[56] = t76;
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
-    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
-    phi_q_t_lambda_q[52] = -t73;
-    phi_q_t_lambda_q[59] = -t76;
-    const jg_real t78 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = s_j_world_0 * omega_i[0] + s_j_world_1 * omega_i[1] + s_j_world_2 * omega_i[2];
-    phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
-    phi_q_t_lambda_q[30] = -(M_1_world_world_0 + M_1_world_world_4);
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i[0] + r_ij_world_1 * omega_i[1] + r_ij_world_2 *
         omega_i[2];
@@ -777,10 +763,11 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     const jg_real omega_i_cross_v_j_world_0 = omega_i[1] * v_j[2] - omega_i[2] * v_j[1];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
+    const jg_real t82 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     const jg_real omega_i_cross_v_j_world_1 = omega_i[2] * v_j[0] - omega_i[0] * v_j[2];
-    const jg_real omega_i_cross_v_j_world_2 = omega_i[0] * v_j[1] - omega_i[1] * v_j[0];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
+    const jg_real omega_i_cross_v_j_world_2 = omega_i[0] * v_j[1] - omega_i[1] * v_j[0];
     /* omega_i_cross_v_i_world = omega_i x v_i, world axes */
     const jg_real omega_i_cross_v_i_world_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     const jg_real omega_i_cross_v_i_world_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
@@ -794,14 +781,17 @@ void jg_cylindrical_conventional_world_all(const jg_real *JG_RESTRICT r_i, const
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
     const jg_real t93 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
-    gamma[0] = s_j_dot_f_i * t78 - f_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
+    phi_q_t_lambda_q[59] = -t71;
+    phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
+    phi_q_t_lambda_q[30] = -(M_1_world_world_0 + M_1_world_world_4);
+    gamma[0] = s_j_dot_f_i * t82 - f_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
         (s_j_dot_omega_i * JG_REAL(2.0) - s_j_dot_omega_j) + r_ij_dot_f_i * omega_i_dot_omega_i + (f_i_world_0 *
         omega_i_cross_v_j_world_0 + f_i_world_1 * omega_i_cross_v_j_world_1 + f_i_world_2 *
         omega_i_cross_v_j_world_2) * JG_REAL(2.0) - (f_i_world_0 * omega_i_cross_v_i_world_0 + f_i_world_1 *
         omega_i_cross_v_i_world_1 + f_i_world_2 * omega_i_cross_v_i_world_2) * JG_REAL(2.0);
-    gamma[2] = f_i_dot_h_j * t78 + f_i_dot_omega_j * t93 - f_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[3] = g_i_dot_h_j * t78 + g_i_dot_omega_j * t93 - g_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[1] = s_j_dot_g_i * t78 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
+    gamma[2] = f_i_dot_h_j * t82 + f_i_dot_omega_j * t93 - f_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[3] = g_i_dot_h_j * t82 + g_i_dot_omega_j * t93 - g_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[1] = s_j_dot_g_i * t82 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
         r_ij_dot_g_i * omega_i_dot_omega_i - r_ij_dot_omega_i * g_i_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
         + JG_REAL(2.0) * (g_i_world_0 * omega_i_cross_v_j_world_0 + g_i_world_1 * omega_i_cross_v_j_world_1 +
         g_i_world_2 * omega_i_cross_v_j_world_2) - JG_REAL(2.0) * (g_i_world_0 * omega_i_cross_v_i_world_0 +

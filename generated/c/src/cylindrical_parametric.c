@@ -4,10 +4,6 @@
  * joint cylindrical, form parametric, rows regular, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/cylindrical.h"
 
 const int *jg_cylindrical_parametric_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_cylindrical_parametric_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_cylindrical_parametric_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -43,53 +38,49 @@ void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
+    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
     const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    phi[4] = h_star_dot_f_j;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
@@ -101,83 +92,80 @@ void jg_cylindrical_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
         h_j_in_i_2;
-    phi[3] = g_star_dot_h_j;
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
         f_star_in_i_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi[4] = h_star_dot_f_j;
+    phi[3] = g_star_dot_h_j;
     phi[5] = f_star_dot_g_j;
 }
 
-void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_cylindrical_parametric_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    phi_q[45] = -C_i[6];
-    phi_q[46] = -C_i[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[47] = -C_i[8];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    phi_q[19] = A_ji_3;
-    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    phi_q[22] = A_ji_4;
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    phi_q[25] = A_ji_5;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[19] = A_ji_3;
+    phi_q[22] = A_ji_4;
+    phi_q[25] = A_ji_5;
+    phi_q[45] = -C_i[6];
     phi_q[20] = A_ji_6;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    phi_q[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    phi_q[26] = A_ji_8;
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[3] = e_ij_in_i_2;
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    phi_q[13] = e_ij_in_i_1;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
-    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    phi_q[4] = -e_ij_in_i_1;
-    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    phi_q[23] = A_ji_7;
+    phi_q[26] = A_ji_8;
+    phi_q[3] = e_ij_in_i_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[24] = A_ji_2;
     phi_q[8] = -e_ij_in_i_2;
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[18] = A_ji_0;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    phi_q[9] = e_ij_in_i_0;
+    phi_q[21] = A_ji_1;
     phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    phi_q[9] = e_ij_in_i_0;
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[14] = -e_ij_in_i_0;
     phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    phi_q[14] = -e_ij_in_i_0;
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
@@ -194,33 +182,38 @@ void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real g_j_cross_f_star_in_i_1 = g_j_in_i_2 * f_star_in_i_0 - g_j_in_i_0 * f_star_in_i_2;
     const jg_real g_j_cross_f_star_in_i_0 = g_j_in_i_1 * f_star_in_i_2 - g_j_in_i_2 * f_star_in_i_1;
     const jg_real g_j_cross_f_star_in_i_2 = g_j_in_i_0 * f_star_in_i_1 - g_j_in_i_1 * f_star_in_i_0;
+    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    phi_q[46] = -C_i[7];
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q[47] = -C_i[8];
+    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     phi_q[5] = -h_j_cross_g_star_in_i_0;
     phi_q[10] = -h_j_cross_g_star_in_i_1;
-    phi_q[15] = -h_j_cross_g_star_in_i_2;
-    phi_q[7] = -g_j_cross_f_star_in_i_0;
-    phi_q[12] = -g_j_cross_f_star_in_i_1;
-    phi_q[17] = -g_j_cross_f_star_in_i_2;
     /* g_j_dot_g_star = g_j . g_star */
     const jg_real g_j_dot_g_star = g_star_in_i_0 * g_j_in_i_0 + g_star_in_i_1 * g_j_in_i_1 + g_star_in_i_2 *
         g_j_in_i_2;
-    phi_q[49] = g_j_dot_g_star;
     /* h_j_dot_f_star = h_j . f_star */
     const jg_real h_j_dot_f_star = h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 *
         f_star_in_i_2;
     /* f_j_dot_g_star = f_j . g_star */
     const jg_real f_j_dot_g_star = h_j_cross_g_star_in_i_0 * g_j_in_i_0 + h_j_cross_g_star_in_i_1 * g_j_in_i_1 +
         h_j_cross_g_star_in_i_2 * g_j_in_i_2;
-    phi_q[48] = -h_j_dot_f_star;
     /* f_j_cross_h_star_in_star = f_j x h_star, axes of body star */
     const jg_real f_j_cross_h_star_in_star_1 = h_j_in_i_0 * g_j_cross_f_star_in_i_0 + h_j_in_i_1 *
         g_j_cross_f_star_in_i_1 + h_j_in_i_2 * g_j_cross_f_star_in_i_2;
     /* h_j_cross_g_star_in_j = h_j x g_star, axes of body j */
     const jg_real h_j_cross_g_star_in_j_0 = C_j[3] * f_j_dot_g_star - g_j_dot_g_star * C_j[0];
-    phi_q[30] = h_j_cross_g_star_in_j_0;
     const jg_real h_j_cross_g_star_in_j_1 = C_j[4] * f_j_dot_g_star - g_j_dot_g_star * C_j[1];
+    phi_q[15] = -h_j_cross_g_star_in_i_2;
+    phi_q[7] = -g_j_cross_f_star_in_i_0;
+    phi_q[12] = -g_j_cross_f_star_in_i_1;
+    phi_q[17] = -g_j_cross_f_star_in_i_2;
+    phi_q[49] = g_j_dot_g_star;
+    phi_q[48] = -h_j_dot_f_star;
+    phi_q[30] = h_j_cross_g_star_in_j_0;
     phi_q[36] = h_j_cross_g_star_in_j_1;
     const jg_real h_j_cross_g_star_in_j_2 = C_j[5] * f_j_dot_g_star - g_j_dot_g_star * C_j[2];
-    phi_q[42] = h_j_cross_g_star_in_j_2;
     /* f_j_cross_h_star_in_i = f_j x h_star, axes of body i */
     const jg_real f_j_cross_h_star_in_i_0 = f_j_dot_g_star * f_star_in_i_0 + g_star_in_i_0 *
         f_j_cross_h_star_in_star_1;
@@ -230,23 +223,24 @@ void jg_cylindrical_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg
         f_j_cross_h_star_in_star_1;
     /* g_j_cross_f_star_in_j = g_j x f_star, axes of body j */
     const jg_real g_j_cross_f_star_in_j_0 = C_j[0] * h_j_dot_f_star + C_j[6] * f_j_cross_h_star_in_star_1;
-    phi_q[32] = g_j_cross_f_star_in_j_0;
     const jg_real g_j_cross_f_star_in_j_1 = C_j[1] * h_j_dot_f_star + C_j[7] * f_j_cross_h_star_in_star_1;
-    phi_q[38] = g_j_cross_f_star_in_j_1;
     const jg_real g_j_cross_f_star_in_j_2 = C_j[2] * h_j_dot_f_star + C_j[8] * f_j_cross_h_star_in_star_1;
+    /* f_j_cross_h_star_in_j = f_j x h_star, axes of body j */
+    const jg_real f_j_cross_h_star_in_j_0 = A_ji_0 * f_j_cross_h_star_in_i_0 + A_ji_3 * f_j_cross_h_star_in_i_1 +
+        A_ji_6 * f_j_cross_h_star_in_i_2;
+    phi_q[42] = h_j_cross_g_star_in_j_2;
+    phi_q[32] = g_j_cross_f_star_in_j_0;
+    phi_q[38] = g_j_cross_f_star_in_j_1;
     phi_q[44] = g_j_cross_f_star_in_j_2;
     phi_q[6] = -f_j_cross_h_star_in_i_0;
     phi_q[11] = -f_j_cross_h_star_in_i_1;
     phi_q[16] = -f_j_cross_h_star_in_i_2;
-    /* f_j_cross_h_star_in_j = f_j x h_star, axes of body j */
-    const jg_real f_j_cross_h_star_in_j_0 = A_ji_0 * f_j_cross_h_star_in_i_0 + A_ji_3 * f_j_cross_h_star_in_i_1 +
-        A_ji_6 * f_j_cross_h_star_in_i_2;
     phi_q[31] = f_j_cross_h_star_in_j_0;
     const jg_real f_j_cross_h_star_in_j_1 = A_ji_1 * f_j_cross_h_star_in_i_0 + A_ji_4 * f_j_cross_h_star_in_i_1 +
         A_ji_7 * f_j_cross_h_star_in_i_2;
-    phi_q[37] = f_j_cross_h_star_in_j_1;
     const jg_real f_j_cross_h_star_in_j_2 = A_ji_2 * f_j_cross_h_star_in_i_0 + A_ji_5 * f_j_cross_h_star_in_i_1 +
         A_ji_8 * f_j_cross_h_star_in_i_2;
+    phi_q[37] = f_j_cross_h_star_in_j_1;
     phi_q[43] = f_j_cross_h_star_in_j_2;
 }
 
@@ -259,117 +253,113 @@ void jg_cylindrical_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
     jg_scatter(jg_cylindrical_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    /* v_6_in_j = lambda_3 h_j, axes of body j */
+    const jg_real v_6_in_j_1 = C_j[7] * lambda[3];
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real v_6_in_j_2 = C_j[8] * lambda[3];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real t17 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
-    /* v_6_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_6_in_j_1 = C_j[7] * lambda[3];
-    const jg_real v_6_in_j_2 = C_j[8] * lambda[3];
-    const jg_real v_6_in_j_0 = C_j[6] * lambda[3];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    phi_q_t_lambda_q[10] = t17;
+    phi_q_t_lambda_q[39] = t17;
     const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real t19 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t19;
-    phi_q_t_lambda_q[39] = t19;
-    const jg_real t20 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t20;
-    phi_q_t_lambda_q[42] = t20;
-    /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real t22 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t22;
-    phi_q_t_lambda_q[36] = t22;
+    const jg_real t19 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
-    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real t23 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real g_j_in_i_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* v_4_in_j = lambda_4 h_star, axes of body j */
-    const jg_real v_4_in_j_2 = lambda[4] * h_star_in_j_2;
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real g_j_in_i_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     /* v_2_in_i = lambda_5 g_j, axes of body i */
     const jg_real v_2_in_i_2 = g_j_in_i_2 * lambda[5];
+    const jg_real g_j_in_i_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
+    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real v_4_in_j_1 = lambda[4] * h_star_in_j_1;
     const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     const jg_real v_2_in_i_1 = g_j_in_i_1 * lambda[5];
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
-    const jg_real v_4_in_j_0 = lambda[4] * h_star_in_j_0;
+    /* h_star_in_j = h_star, axes of body j */
+    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = g_j_in_i_2 * h_j_in_i_0 - g_j_in_i_0 * h_j_in_i_2;
+    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     const jg_real f_j_in_i_2 = g_j_in_i_0 * h_j_in_i_1 - g_j_in_i_1 * h_j_in_i_0;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    /* v_4_in_j = lambda_4 h_star, axes of body j */
+    const jg_real v_4_in_j_2 = lambda[4] * h_star_in_j_2;
     /* v_1_in_i = lambda_4 f_j, axes of body i */
     const jg_real v_1_in_i_1 = lambda[4] * f_j_in_i_1;
+    const jg_real v_4_in_j_0 = lambda[4] * h_star_in_j_0;
     const jg_real v_1_in_i_2 = lambda[4] * f_j_in_i_2;
-    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
+    const jg_real v_6_in_j_0 = C_j[6] * lambda[3];
+    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    const jg_real v_4_in_j_1 = lambda[4] * h_star_in_j_1;
     const jg_real f_j_in_i_0 = g_j_in_i_1 * h_j_in_i_2 - g_j_in_i_2 * h_j_in_i_1;
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real t50 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[19] = t50;
-    phi_q_t_lambda_q[37] = t50;
     const jg_real v_1_in_i_0 = lambda[4] * f_j_in_i_0;
+    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
     const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    const jg_real t53 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[20] = t53;
-    phi_q_t_lambda_q[40] = t53;
+    const jg_real t51 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[11] = t19;
+    phi_q_t_lambda_q[42] = t19;
+    phi_q_t_lambda_q[9] = t23;
+    phi_q_t_lambda_q[36] = t23;
+    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[19] = t51;
+    phi_q_t_lambda_q[37] = t51;
+    const jg_real t52 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     const jg_real t54 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    const jg_real t55 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[20] = t52;
+    phi_q_t_lambda_q[40] = t52;
     phi_q_t_lambda_q[21] = t54;
     phi_q_t_lambda_q[43] = t54;
     phi_q_t_lambda_q[49] = -lambda_0_1_2_in_j_1;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     phi_q_t_lambda_q[57] = -lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[67] = -lambda_0_1_2_in_j_0;
-    const jg_real t56 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[29] = t56;
-    phi_q_t_lambda_q[38] = t56;
+    phi_q_t_lambda_q[29] = t55;
+    phi_q_t_lambda_q[38] = t55;
+    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     const jg_real t57 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[30] = t57;
-    phi_q_t_lambda_q[41] = t57;
     const jg_real t58 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[31] = t58;
-    phi_q_t_lambda_q[44] = t58;
     /* v_3_in_joint_i = lambda_3 g_star, axes of joint i */
     const jg_real v_3_in_joint_i_1 = cosine_0 * lambda[3];
     const jg_real t60 = sine_0 * lambda[3];
@@ -383,134 +373,138 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_
     const jg_real v_3_in_i_0 = C_i[3] * v_3_in_joint_i_1 - C_i[0] * t60;
     const jg_real t67 = h_j_in_i_1 * v_3_in_i_1;
     const jg_real t68 = h_j_in_i_2 * v_3_in_i_2;
-    const jg_real t69 = h_j_in_i_0 * v_3_in_i_0;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_0_i_i_4 = lambda[1] * e_ij_in_i_1 + v_1_in_i_1 * C_i[7] + v_2_in_i_1 * f_star_in_i_1 + t67;
     const jg_real M_0_i_i_8 = lambda[2] * e_ij_in_i_2 + v_1_in_i_2 * C_i[8] + v_2_in_i_2 * f_star_in_i_2 + t68;
+    const jg_real t71 = h_j_in_i_0 * v_3_in_i_0;
     const jg_real M_0_i_i_3 = lambda[0] * e_ij_in_i_1 + v_1_in_i_1 * C_i[6] + v_2_in_i_1 * f_star_in_i_0 +
         h_j_in_i_1 * v_3_in_i_0;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
     const jg_real M_0_i_i_6 = lambda[0] * e_ij_in_i_2 + v_1_in_i_2 * C_i[6] + v_2_in_i_2 * f_star_in_i_0 +
         h_j_in_i_2 * v_3_in_i_0;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_0 = A_ij_0 * f_star_in_i_0 + A_ij_1 * f_star_in_i_1 + A_ij_2 * f_star_in_i_2;
     const jg_real f_star_in_j_2 = A_ij_6 * f_star_in_i_0 + A_ij_7 * f_star_in_i_1 + A_ij_8 * f_star_in_i_2;
     const jg_real f_star_in_j_1 = A_ij_3 * f_star_in_i_0 + A_ij_4 * f_star_in_i_1 + A_ij_5 * f_star_in_i_2;
-    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + v_1_in_i_0 * C_i[7] + v_2_in_i_0 * f_star_in_i_1 +
-        h_j_in_i_0 * v_3_in_i_1;
-    phi_q_t_lambda_q[16] = M_0_i_i_1;
     /* v_5_in_j = lambda_5 f_star, axes of body j */
     const jg_real v_5_in_j_2 = lambda[5] * f_star_in_j_2;
-    const jg_real v_5_in_j_1 = lambda[5] * f_star_in_j_1;
     const jg_real v_5_in_j_0 = lambda[5] * f_star_in_j_0;
+    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + v_1_in_i_0 * C_i[7] + v_2_in_i_0 * f_star_in_i_1 +
+        h_j_in_i_0 * v_3_in_i_1;
+    phi_q_t_lambda_q[30] = t57;
+    phi_q_t_lambda_q[41] = t57;
+    phi_q_t_lambda_q[31] = t58;
+    phi_q_t_lambda_q[44] = t58;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + v_1_in_i_0 * C_i[6] + v_2_in_i_0 * f_star_in_i_0 + t69;
+    phi_q_t_lambda_q[16] = M_0_i_i_1;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
-    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + v_1_in_i_2 * C_i[7] + v_2_in_i_2 * f_star_in_i_1 +
-        h_j_in_i_2 * v_3_in_i_1;
-    phi_q_t_lambda_q[18] = M_0_i_i_7;
-    const jg_real t84 = C_j[5] * v_5_in_j_2;
+    const jg_real v_5_in_j_1 = lambda[5] * f_star_in_j_1;
+    const jg_real t82 = C_j[5] * v_5_in_j_2;
+    const jg_real t83 = C_j[3] * v_5_in_j_0;
+    /* f_star_cross_h_j_in_j = f_star x h_j, axes of body j */
+    const jg_real f_star_cross_h_j_in_j_1 = C_j[6] * f_star_in_j_2 - C_j[8] * f_star_in_j_0;
     const jg_real t85 = C_j[4] * v_5_in_j_1;
     const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
     const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
-    const jg_real t88 = C_j[3] * v_5_in_j_0;
-    /* f_star_cross_h_j_in_j = f_star x h_j, axes of body j */
-    const jg_real f_star_cross_h_j_in_j_0 = C_j[8] * f_star_in_j_1 - C_j[7] * f_star_in_j_2;
-    const jg_real f_star_cross_h_j_in_j_1 = C_j[6] * f_star_in_j_2 - C_j[8] * f_star_in_j_0;
-    const jg_real f_star_cross_h_j_in_j_2 = C_j[7] * f_star_in_j_0 - C_j[6] * f_star_in_j_1;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_4_in_j_1 + t85 + g_star_in_j_1 * v_6_in_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_4_in_j_2 + t84 + g_star_in_j_2 * v_6_in_j_2;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_4_in_j_0 + C_j[4] * v_5_in_j_0 +
-        g_star_in_j_0 * v_6_in_j_1;
-    phi_q_t_lambda_q[59] = M_1_j_j_3;
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_4_in_j_0 + C_j[5] * v_5_in_j_0 +
-        g_star_in_j_0 * v_6_in_j_2;
-    phi_q_t_lambda_q[68] = M_1_j_j_6;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_4_in_j_0 + t88 + g_star_in_j_0 * v_6_in_j_0;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_4_in_j_1 + C_j[3] * v_5_in_j_1 +
-        g_star_in_j_1 * v_6_in_j_0;
-    phi_q_t_lambda_q[51] = M_1_j_j_1;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_4_in_j_1 + C_j[5] * v_5_in_j_1 +
-        g_star_in_j_1 * v_6_in_j_2;
-    phi_q_t_lambda_q[69] = M_1_j_j_7;
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_4_in_j_2 + t82 + g_star_in_j_2 * v_6_in_j_2;
     const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_4_in_j_2 + C_j[3] * v_5_in_j_2 +
         g_star_in_j_2 * v_6_in_j_0;
-    phi_q_t_lambda_q[52] = M_1_j_j_2;
+    const jg_real f_star_cross_h_j_in_j_0 = C_j[8] * f_star_in_j_1 - C_j[7] * f_star_in_j_2;
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_4_in_j_0 + C_j[4] * v_5_in_j_0 +
+        g_star_in_j_0 * v_6_in_j_1;
+    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_4_in_j_0 + C_j[5] * v_5_in_j_0 +
+        g_star_in_j_0 * v_6_in_j_2;
+    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_4_in_j_0 + t83 + g_star_in_j_0 * v_6_in_j_0;
     const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_4_in_j_2 + C_j[4] * v_5_in_j_2 +
         g_star_in_j_2 * v_6_in_j_1;
-    phi_q_t_lambda_q[61] = M_1_j_j_5;
-    const jg_real t101 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_4_in_j_1 + C_j[3] * v_5_in_j_1 +
+        g_star_in_j_1 * v_6_in_j_0;
+    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_4_in_j_1 + C_j[5] * v_5_in_j_1 +
+        g_star_in_j_1 * v_6_in_j_2;
     /* g_star_cross_g_j_in_j = g_star x g_j, axes of body j */
     const jg_real g_star_cross_g_j_in_j_0 = C_j[5] * g_star_in_j_1 - C_j[4] * g_star_in_j_2;
-    const jg_real t103 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t104 = M_1_j_j_0 + M_1_j_j_4;
+    const jg_real t99 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t100 = M_1_j_j_0 + M_1_j_j_8;
+    const jg_real t101 = M_1_j_j_0 + M_1_j_j_4;
     const jg_real g_star_cross_g_j_in_j_1 = C_j[3] * g_star_in_j_2 - C_j[5] * g_star_in_j_0;
-    const jg_real g_star_cross_g_j_in_j_2 = C_j[4] * g_star_in_j_0 - C_j[3] * g_star_in_j_1;
-    phi_q_t_lambda_q[17] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + v_1_in_i_0 * C_i[8] + v_2_in_i_0 * f_star_in_i_2 +
-        h_j_in_i_0 * v_3_in_i_2;
-    phi_q_t_lambda_q[26] = M_0_i_i_2;
-    const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + v_1_in_i_1 * C_i[8] + v_2_in_i_1 * f_star_in_i_2 +
-        h_j_in_i_1 * v_3_in_i_2;
-    phi_q_t_lambda_q[27] = M_0_i_i_5;
+    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + v_1_in_i_0 * C_i[6] + v_2_in_i_0 * f_star_in_i_0 + t71;
     /* v_7_in_j = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body j */
     const jg_real v_7_in_j_0 = lambda[3] * f_star_cross_h_j_in_j_0 - lambda[5] * g_star_cross_g_j_in_j_0;
+    phi_q_t_lambda_q[52] = M_1_j_j_2;
+    phi_q_t_lambda_q[59] = M_1_j_j_3;
+    phi_q_t_lambda_q[68] = M_1_j_j_6;
+    phi_q_t_lambda_q[61] = M_1_j_j_5;
+    phi_q_t_lambda_q[51] = M_1_j_j_1;
+    phi_q_t_lambda_q[69] = M_1_j_j_7;
     phi_q_t_lambda_q[53] = v_7_in_j_0;
     phi_q_t_lambda_q[75] = v_7_in_j_0;
+    const jg_real g_star_cross_g_j_in_j_2 = C_j[4] * g_star_in_j_0 - C_j[3] * g_star_in_j_1;
+    const jg_real f_star_cross_h_j_in_j_2 = C_j[7] * f_star_in_j_0 - C_j[6] * f_star_in_j_1;
+    const jg_real t107 = A_ij_6 * t101 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + v_1_in_i_2 * C_i[7] + v_2_in_i_2 * f_star_in_i_1 +
+        h_j_in_i_2 * v_3_in_i_1;
     const jg_real v_7_in_j_1 = lambda[3] * f_star_cross_h_j_in_j_1 - lambda[5] * g_star_cross_g_j_in_j_1;
+    const jg_real t110 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t99 + A_ij_6 * M_1_j_j_6);
+    phi_q_t_lambda_q[14] = t107;
+    phi_q_t_lambda_q[63] = t107;
+    phi_q_t_lambda_q[18] = M_0_i_i_7;
     phi_q_t_lambda_q[62] = v_7_in_j_1;
     phi_q_t_lambda_q[76] = v_7_in_j_1;
-    const jg_real t111 = A_ij_6 * t104 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t111;
-    phi_q_t_lambda_q[63] = t111;
+    phi_q_t_lambda_q[17] = -(M_0_i_i_0 + M_0_i_i_8);
+    phi_q_t_lambda_q[12] = t110;
+    phi_q_t_lambda_q[45] = t110;
     const jg_real v_7_in_j_2 = lambda[3] * f_star_cross_h_j_in_j_2 - lambda[5] * g_star_cross_g_j_in_j_2;
+    const jg_real t112 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t100 + A_ij_6 * M_1_j_j_7);
+    const jg_real t113 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t99 + A_ij_7 * M_1_j_j_6);
+    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + v_1_in_i_0 * C_i[8] + v_2_in_i_0 * f_star_in_i_2 +
+        h_j_in_i_0 * v_3_in_i_2;
+    const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + v_1_in_i_1 * C_i[8] + v_2_in_i_1 * f_star_in_i_2 +
+        h_j_in_i_1 * v_3_in_i_2;
     phi_q_t_lambda_q[71] = v_7_in_j_2;
     phi_q_t_lambda_q[77] = v_7_in_j_2;
-    phi_q_t_lambda_q[28] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t113 = A_ij_7 * t104 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[24] = t113;
-    phi_q_t_lambda_q[64] = t113;
-    const jg_real t114 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t101 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t114;
-    phi_q_t_lambda_q[45] = t114;
-    const jg_real t115 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t101 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[22] = t115;
-    phi_q_t_lambda_q[46] = t115;
-    const jg_real t116 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t103 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t116;
-    phi_q_t_lambda_q[54] = t116;
-    const jg_real t117 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t103 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[23] = t117;
-    phi_q_t_lambda_q[55] = t117;
-    phi_q_t_lambda_q[50] = -t101;
-    phi_q_t_lambda_q[60] = -t103;
-    phi_q_t_lambda_q[70] = -t104;
-    const jg_real t118 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t101 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[32] = t118;
-    phi_q_t_lambda_q[47] = t118;
+    phi_q_t_lambda_q[13] = t112;
+    phi_q_t_lambda_q[54] = t112;
+    phi_q_t_lambda_q[22] = t113;
+    phi_q_t_lambda_q[46] = t113;
+    phi_q_t_lambda_q[26] = M_0_i_i_2;
+    phi_q_t_lambda_q[27] = M_0_i_i_5;
+    const jg_real t116 = A_ij_7 * t101 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
     /* v_7_in_i = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body i */
     const jg_real v_7_in_i_0 = A_ij_0 * v_7_in_j_0 + A_ij_3 * v_7_in_j_1 + A_ij_6 * v_7_in_j_2;
+    const jg_real t118 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t100 + A_ij_7 * M_1_j_j_7);
     const jg_real v_7_in_i_1 = A_ij_1 * v_7_in_j_0 + A_ij_4 * v_7_in_j_1 + A_ij_7 * v_7_in_j_2;
-    const jg_real t121 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t103 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[33] = t121;
-    phi_q_t_lambda_q[56] = t121;
-    const jg_real t122 = A_ij_8 * t104 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[34] = t122;
-    phi_q_t_lambda_q[65] = t122;
+    const jg_real t120 = -v_7_in_i_0;
+    phi_q_t_lambda_q[28] = -(M_0_i_i_0 + M_0_i_i_4);
+    phi_q_t_lambda_q[24] = t116;
+    phi_q_t_lambda_q[64] = t116;
+    phi_q_t_lambda_q[23] = t118;
+    phi_q_t_lambda_q[55] = t118;
+    phi_q_t_lambda_q[15] = t120;
+    phi_q_t_lambda_q[72] = t120;
+    phi_q_t_lambda_q[50] = -t99;
+    const jg_real t121 = -v_7_in_i_1;
+    const jg_real t122 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t99 + A_ij_8 * M_1_j_j_6);
+    const jg_real t123 = A_ij_8 * t101 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    phi_q_t_lambda_q[60] = -t100;
+    phi_q_t_lambda_q[25] = t121;
+    phi_q_t_lambda_q[73] = t121;
+    phi_q_t_lambda_q[70] = -t101;
+    phi_q_t_lambda_q[32] = t122;
+    phi_q_t_lambda_q[47] = t122;
+    phi_q_t_lambda_q[34] = t123;
+    phi_q_t_lambda_q[65] = t123;
     const jg_real v_7_in_i_2 = A_ij_2 * v_7_in_j_0 + A_ij_5 * v_7_in_j_1 + A_ij_8 * v_7_in_j_2;
-    const jg_real t124 = -v_7_in_i_0;
-    phi_q_t_lambda_q[15] = t124;
-    phi_q_t_lambda_q[72] = t124;
-    const jg_real t125 = -v_7_in_i_1;
-    phi_q_t_lambda_q[25] = t125;
-    phi_q_t_lambda_q[73] = t125;
+    const jg_real t125 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t100 + A_ij_8 * M_1_j_j_7);
     const jg_real t126 = -v_7_in_i_2;
+    phi_q_t_lambda_q[33] = t125;
+    phi_q_t_lambda_q[56] = t125;
     phi_q_t_lambda_q[35] = t126;
     phi_q_t_lambda_q[74] = t126;
-    phi_q_t_lambda_q[78] = -(t69 + t67 + t68 + (t88 + t85 + t84));
+    phi_q_t_lambda_q[78] = -(t71 + t67 + t68 + (t83 + t85 + t82));
 }
 
 void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -523,9 +517,8 @@ void jg_cylindrical_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
     jg_scatter(jg_cylindrical_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_cylindrical_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -546,77 +539,77 @@ void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real h_star_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real omega_i_world_1 = omega_i[0] * A_i[1] + omega_i[1] * A_i[4] + omega_i[2] * A_i[7];
     const jg_real omega_i_world_2 = omega_i[0] * A_i[2] + omega_i[1] * A_i[5] + omega_i[2] * A_i[8];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* omega_j_world = omega_j, world axes */
     const jg_real omega_j_world_0 = omega_j[0] * A_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
     const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* v_2_world = 2 omega_i - omega_j, world axes */
     const jg_real v_2_world_0 = omega_i_world_0 * JG_REAL(2.0) - omega_j_world_0;
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real v_2_world_1 = omega_i_world_1 * JG_REAL(2.0) - omega_j_world_1;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real v_2_world_2 = omega_i_world_2 * JG_REAL(2.0) - omega_j_world_2;
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     /* omega_i_dot_h_star = omega_i . h_star */
     const jg_real omega_i_dot_h_star = omega_i_world_0 * h_star_world_0 + omega_i_world_1 * h_star_world_1 +
         omega_i_world_2 * h_star_world_2;
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    /* v_j_world = v_j, world axes */
-    const jg_real v_j_world_0 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     /* omega_j_dot_h_star = omega_j . h_star */
     const jg_real omega_j_dot_h_star = h_star_world_0 * omega_j_world_0 + h_star_world_1 * omega_j_world_1 +
         h_star_world_2 * omega_j_world_2;
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    /* v_j_world = v_j, world axes */
+    const jg_real v_j_world_0 = A_j[0] * v_j[0] + A_j[3] * v_j[1] + A_j[6] * v_j[2];
     const jg_real v_j_world_1 = A_j[1] * v_j[0] + A_j[4] * v_j[1] + A_j[7] * v_j[2];
+    const jg_real t27 = s_j_world_0 * v_2_world_0 + s_j_world_1 * v_2_world_1 + s_j_world_2 * v_2_world_2;
     const jg_real v_j_world_2 = A_j[2] * v_j[0] + A_j[5] * v_j[1] + A_j[8] * v_j[2];
-    const jg_real t28 = s_j_world_0 * v_2_world_0 + s_j_world_1 * v_2_world_1 + s_j_world_2 * v_2_world_2;
+    const jg_real t29 = omega_i_world_0 * e_ij_world_0 + omega_i_world_1 * e_ij_world_1 + omega_i_world_2 *
+        e_ij_world_2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* v_4_world = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, world axes */
+    const jg_real v_4_world_0 = omega_i_world_0 * t29;
+    const jg_real v_4_world_1 = omega_i_world_1 * t29;
+    const jg_real v_4_world_2 = omega_i_world_2 * t29;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t31 = omega_i_world_0 * e_ij_world_0 + omega_i_world_1 * e_ij_world_1 + omega_i_world_2 *
-        e_ij_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* v_4_world = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, world axes */
-    const jg_real v_4_world_0 = omega_i_world_0 * t31;
-    const jg_real v_4_world_1 = omega_i_world_1 * t31;
-    const jg_real v_4_world_2 = omega_i_world_2 * t31;
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_2 = A_i[6] * v_j_world_0 + A_i[7] * v_j_world_1 + A_i[8] * v_j_world_2;
     const jg_real v_j_in_i_1 = A_i[3] * v_j_world_0 + A_i[4] * v_j_world_1 + A_i[5] * v_j_world_2;
     const jg_real v_j_in_i_0 = A_i[0] * v_j_world_0 + A_i[1] * v_j_world_1 + A_i[2] * v_j_world_2;
-    const jg_real t40 = JG_REAL(2.0) * alphadot[1];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* v_6_in_i = v_j - v_i, axes of body i */
     const jg_real v_6_in_i_2 = v_j_in_i_2 - v_i[2];
     const jg_real v_6_in_i_1 = v_j_in_i_1 - v_i[1];
     const jg_real v_6_in_i_0 = v_j_in_i_0 - v_i[0];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = h_j_world_2 * g_j_world_1 - h_j_world_1 * g_j_world_2;
+    const jg_real t42 = JG_REAL(2.0) * alphadot[1];
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_7_in_i = omega_i x v_j - omega_i x v_i, axes of body i */
     const jg_real v_7_in_i_0 = omega_i[1] * v_6_in_i_2 - omega_i[2] * v_6_in_i_1;
     const jg_real v_7_in_i_1 = omega_i[2] * v_6_in_i_0 - omega_i[0] * v_6_in_i_2;
     const jg_real v_7_in_i_2 = omega_i[0] * v_6_in_i_1 - omega_i[1] * v_6_in_i_0;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = h_j_world_2 * g_j_world_1 - h_j_world_1 * g_j_world_2;
+    /* v_8_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_8_in_i_0 = JG_REAL(2.0) * v_7_in_i_0;
+    const jg_real v_8_in_i_1 = JG_REAL(2.0) * v_7_in_i_1;
+    const jg_real v_8_in_i_2 = JG_REAL(2.0) * v_7_in_i_2;
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     const jg_real f_j_world_1 = h_j_world_0 * g_j_world_2 - h_j_world_2 * g_j_world_0;
     const jg_real f_j_world_2 = h_j_world_1 * g_j_world_0 - h_j_world_0 * g_j_world_1;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i_world_0 * h_j_world_0 + omega_i_world_1 * h_j_world_1 + omega_i_world_2
         * h_j_world_2;
-    /* v_8_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_8_in_i_0 = JG_REAL(2.0) * v_7_in_i_0;
-    const jg_real v_8_in_i_1 = JG_REAL(2.0) * v_7_in_i_1;
-    const jg_real v_8_in_i_2 = JG_REAL(2.0) * v_7_in_i_2;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i_world_0 * g_j_world_0 + omega_i_world_1 * g_j_world_1 + omega_i_world_2
         * g_j_world_2;
@@ -684,37 +677,36 @@ void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real t85 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
     const jg_real t86 = t85 + alphadot[1] * alphadot[1];
     /* v_3_world = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_3_world_0 = t85 * s_j_world_0 + omega_j_world_0 * t28;
-    const jg_real v_3_world_1 = t85 * s_j_world_1 + omega_j_world_1 * t28;
-    const jg_real v_3_world_2 = t85 * s_j_world_2 + omega_j_world_2 * t28;
-    gamma[4] = t85 * h_star_dot_f_j + omega_j_dot_h_star * (JG_REAL(2.0) * omega_i_dot_f_j - omega_j_dot_f_j) -
-        omega_i_dot_h_star * omega_i_dot_f_j;
+    const jg_real v_3_world_0 = t85 * s_j_world_0 + omega_j_world_0 * t27;
+    const jg_real v_3_world_1 = t85 * s_j_world_1 + omega_j_world_1 * t27;
+    const jg_real v_3_world_2 = t85 * s_j_world_2 + omega_j_world_2 * t27;
     /* v_5_world = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_5_world_0 = v_1_world_0 + v_3_world_0 - v_4_world_0;
     const jg_real v_5_world_1 = v_1_world_1 + v_3_world_1 - v_4_world_1;
     const jg_real v_5_world_2 = v_1_world_2 + v_3_world_2 - v_4_world_2;
-    gamma[3] = g_star_dot_h_j * t86 + omega_j_dot_g_star * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) +
-        (f_star_dot_g_j * omega_i_dot_f_j - f_star_dot_f_j * omega_i_dot_g_j - (f_star_dot_g_j * omega_j_dot_f_j -
-        f_star_dot_f_j * omega_j_dot_g_j)) * t40 - omega_i_dot_g_star * omega_i_dot_h_j;
-    gamma[5] = f_star_dot_g_j * t86 + t40 * (omega_j_dot_h_j * g_star_dot_f_j - g_star_dot_h_j * omega_j_dot_f_j -
-        (omega_i_dot_h_j * g_star_dot_f_j - g_star_dot_h_j * omega_i_dot_f_j)) + omega_j_dot_f_star * (JG_REAL(2.0)
-        * omega_i_dot_g_j - omega_j_dot_g_j) - omega_i_dot_f_star * omega_i_dot_g_j;
     /* v_5_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_5_in_i_0 = A_i[0] * v_5_world_0 + A_i[1] * v_5_world_1 + A_i[2] * v_5_world_2;
     const jg_real v_5_in_i_1 = A_i[3] * v_5_world_0 + A_i[4] * v_5_world_1 + A_i[5] * v_5_world_2;
     const jg_real v_5_in_i_2 = A_i[6] * v_5_world_0 + A_i[7] * v_5_world_1 + A_i[8] * v_5_world_2;
     /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_9_in_i_0 = v_5_in_i_0 + v_8_in_i_0;
-    gamma[0] = v_9_in_i_0;
     const jg_real v_9_in_i_1 = v_5_in_i_1 + v_8_in_i_1;
-    gamma[1] = v_9_in_i_1;
     const jg_real v_9_in_i_2 = v_5_in_i_2 + v_8_in_i_2;
+    gamma[4] = t85 * h_star_dot_f_j + omega_j_dot_h_star * (JG_REAL(2.0) * omega_i_dot_f_j - omega_j_dot_f_j) -
+        omega_i_dot_h_star * omega_i_dot_f_j;
+    gamma[3] = g_star_dot_h_j * t86 + omega_j_dot_g_star * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) +
+        (f_star_dot_g_j * omega_i_dot_f_j - f_star_dot_f_j * omega_i_dot_g_j - (f_star_dot_g_j * omega_j_dot_f_j -
+        f_star_dot_f_j * omega_j_dot_g_j)) * t42 - omega_i_dot_g_star * omega_i_dot_h_j;
+    gamma[5] = f_star_dot_g_j * t86 + t42 * (omega_j_dot_h_j * g_star_dot_f_j - g_star_dot_h_j * omega_j_dot_f_j -
+        (omega_i_dot_h_j * g_star_dot_f_j - g_star_dot_h_j * omega_i_dot_f_j)) + omega_j_dot_f_star * (JG_REAL(2.0)
+        * omega_i_dot_g_j - omega_j_dot_g_j) - omega_i_dot_f_star * omega_i_dot_g_j;
+    gamma[0] = v_9_in_i_0;
+    gamma[1] = v_9_in_i_1;
     gamma[2] = v_9_in_i_2;
 }
 
-void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_cylindrical_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -724,63 +716,59 @@ void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    /* v_2_world = r_j - r_i, world axes */
-    const jg_real v_2_world_0 = r_j[0] - r_i[0];
-    const jg_real v_2_world_1 = r_j[1] - r_i[1];
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    const jg_real v_2_world_2 = r_j[2] - r_i[2];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    /* v_2_world = r_j - r_i, world axes */
+    const jg_real v_2_world_0 = r_j[0] - r_i[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     /* v_1_in_i = v_i + alphadot_0 h_i, axes of body i */
     const jg_real v_1_in_i_0 = v_i[0] + alphadot[0] * C_i[6];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     /* v_0_in_j = v_j - s_j x omega_j, axes of body j */
     const jg_real v_0_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
     const jg_real v_0_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
     const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
-    const jg_real v_1_in_i_1 = v_i[1] + alphadot[0] * C_i[7];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real v_2_world_1 = r_j[1] - r_i[1];
+    const jg_real v_2_world_2 = r_j[2] - r_i[2];
     const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    /* v_2_in_i = r_j - r_i, axes of body i */
-    const jg_real v_2_in_i_1 = A_i[3] * v_2_world_0 + A_i[4] * v_2_world_1 + A_i[5] * v_2_world_2;
-    const jg_real v_1_in_i_2 = v_i[2] + alphadot[0] * C_i[8];
-    const jg_real v_2_in_i_2 = A_i[6] * v_2_world_0 + A_i[7] * v_2_world_1 + A_i[8] * v_2_world_2;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = A_ij_6 * omega_i[0] + A_ij_7 * omega_i[1] + A_ij_8 * omega_i[2];
     const jg_real omega_i_in_j_1 = A_ij_3 * omega_i[0] + A_ij_4 * omega_i[1] + A_ij_5 * omega_i[2];
-    const jg_real v_2_in_i_0 = A_i[0] * v_2_world_0 + A_i[1] * v_2_world_1 + A_i[2] * v_2_world_2;
-    /* v_3_in_i = r_j x omega_i - r_i x omega_i, axes of body i */
-    const jg_real v_3_in_i_0 = omega_i[2] * v_2_in_i_1 - omega_i[1] * v_2_in_i_2;
+    const jg_real v_1_in_i_1 = v_i[1] + alphadot[0] * C_i[7];
     /* v_0_in_i = v_j - s_j x omega_j, axes of body i */
     const jg_real v_0_in_i_0 = v_0_in_j_0 * A_ij_0 + v_0_in_j_1 * A_ij_3 + v_0_in_j_2 * A_ij_6;
-    /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    /* v_2_in_i = r_j - r_i, axes of body i */
+    const jg_real v_2_in_i_1 = A_i[3] * v_2_world_0 + A_i[4] * v_2_world_1 + A_i[5] * v_2_world_2;
+    const jg_real v_2_in_i_2 = A_i[6] * v_2_world_0 + A_i[7] * v_2_world_1 + A_i[8] * v_2_world_2;
     /* s_j_cross_omega_i_in_j = s_j x omega_i, axes of body j */
     const jg_real s_j_cross_omega_i_in_j_0 = s_j[1] * omega_i_in_j_2 - s_j[2] * omega_i_in_j_1;
     const jg_real omega_i_in_j_0 = A_ij_0 * omega_i[0] + A_ij_1 * omega_i[1] + A_ij_2 * omega_i[2];
     const jg_real v_0_in_i_1 = v_0_in_j_0 * A_ij_1 + v_0_in_j_1 * A_ij_4 + v_0_in_j_2 * A_ij_7;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    const jg_real v_2_in_i_0 = A_i[0] * v_2_world_0 + A_i[1] * v_2_world_1 + A_i[2] * v_2_world_2;
+    const jg_real v_1_in_i_2 = v_i[2] + alphadot[0] * C_i[8];
     const jg_real v_0_in_i_2 = v_0_in_j_0 * A_ij_2 + v_0_in_j_1 * A_ij_5 + v_0_in_j_2 * A_ij_8;
-    const jg_real v_3_in_i_1 = omega_i[0] * v_2_in_i_2 - omega_i[2] * v_2_in_i_0;
-    const jg_real v_3_in_i_2 = omega_i[1] * v_2_in_i_0 - omega_i[0] * v_2_in_i_1;
-    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    /* v_3_in_i = r_j x omega_i - r_i x omega_i, axes of body i */
+    const jg_real v_3_in_i_0 = omega_i[2] * v_2_in_i_1 - omega_i[1] * v_2_in_i_2;
     const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - s_j[0] * omega_i_in_j_2;
     const jg_real s_j_cross_omega_i_in_j_2 = s_j[0] * omega_i_in_j_1 - s_j[1] * omega_i_in_j_0;
-    /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
-    const jg_real h_star_cross_f_j_in_j_2 = h_star_in_j_0 * C_j[1] - h_star_in_j_1 * C_j[0];
-    const jg_real h_star_cross_f_j_in_j_0 = h_star_in_j_1 * C_j[2] - h_star_in_j_2 * C_j[1];
-    const jg_real h_star_cross_f_j_in_j_1 = h_star_in_j_2 * C_j[0] - h_star_in_j_0 * C_j[2];
+    const jg_real v_3_in_i_1 = omega_i[0] * v_2_in_i_2 - omega_i[2] * v_2_in_i_0;
+    const jg_real v_3_in_i_2 = omega_i[1] * v_2_in_i_0 - omega_i[0] * v_2_in_i_1;
+    /* h_star_in_j = h_star, axes of body j */
+    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     /* s_j_cross_omega_i_in_i = s_j x omega_i, axes of body i */
     const jg_real s_j_cross_omega_i_in_i_0 = A_ij_0 * s_j_cross_omega_i_in_j_0 + A_ij_3 * s_j_cross_omega_i_in_j_1 +
         A_ij_6 * s_j_cross_omega_i_in_j_2;
@@ -790,14 +778,12 @@ void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
         A_ij_8 * s_j_cross_omega_i_in_j_2;
     /* v_4_in_i = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
     const jg_real v_4_in_i_0 = v_0_in_i_0 - v_1_in_i_0 + v_3_in_i_0 + s_j_cross_omega_i_in_i_0;
-    phi_q_v[0] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = v_0_in_i_1 - v_1_in_i_1 + v_3_in_i_1 + s_j_cross_omega_i_in_i_1;
-    phi_q_v[1] = v_4_in_i_1;
     const jg_real v_4_in_i_2 = v_0_in_i_2 - v_1_in_i_2 + v_3_in_i_2 + s_j_cross_omega_i_in_i_2;
-    phi_q_v[2] = v_4_in_i_2;
-    phi_q_v[4] = omega_i_in_j_0 * h_star_cross_f_j_in_j_0 + omega_i_in_j_1 * h_star_cross_f_j_in_j_1 +
-        omega_i_in_j_2 * h_star_cross_f_j_in_j_2 - (omega_j[0] * h_star_cross_f_j_in_j_0 + omega_j[1] *
-        h_star_cross_f_j_in_j_1 + omega_j[2] * h_star_cross_f_j_in_j_2);
+    /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
+    const jg_real h_star_cross_f_j_in_j_0 = h_star_in_j_1 * C_j[2] - h_star_in_j_2 * C_j[1];
+    const jg_real h_star_cross_f_j_in_j_1 = h_star_in_j_2 * C_j[0] - h_star_in_j_0 * C_j[2];
+    const jg_real h_star_cross_f_j_in_j_2 = h_star_in_j_0 * C_j[1] - h_star_in_j_1 * C_j[0];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
@@ -822,6 +808,12 @@ void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real f_star_cross_g_j_in_j_2 = f_star_in_j_0 * C_j[4] - f_star_in_j_1 * C_j[3];
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
+    phi_q_v[0] = v_4_in_i_0;
+    phi_q_v[1] = v_4_in_i_1;
+    phi_q_v[2] = v_4_in_i_2;
+    phi_q_v[4] = omega_i_in_j_0 * h_star_cross_f_j_in_j_0 + omega_i_in_j_1 * h_star_cross_f_j_in_j_1 +
+        omega_i_in_j_2 * h_star_cross_f_j_in_j_2 - (omega_j[0] * h_star_cross_f_j_in_j_0 + omega_j[1] *
+        h_star_cross_f_j_in_j_1 + omega_j[2] * h_star_cross_f_j_in_j_2);
     phi_q_v[3] = omega_i_in_j_0 * g_star_cross_h_j_in_j_0 + omega_i_in_j_1 * g_star_cross_h_j_in_j_1 +
         omega_i_in_j_2 * g_star_cross_h_j_in_j_2 - alphadot[1] * f_star_dot_h_j - (omega_j[0] *
         g_star_cross_h_j_in_j_0 + omega_j[1] * g_star_cross_h_j_in_j_1 + omega_j[2] * g_star_cross_h_j_in_j_2);
@@ -830,76 +822,69 @@ void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_
         f_star_cross_g_j_in_j_0 + omega_j[1] * f_star_cross_g_j_in_j_1 + omega_j[2] * f_star_cross_g_j_in_j_2);
 }
 
-void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* v_4_in_j = lambda_5 g_j, axes of body j */
     const jg_real v_4_in_j_1 = C_j[4] * lambda[5];
     const jg_real v_4_in_j_2 = C_j[5] * lambda[5];
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     /* v_2_in_j = lambda_4 f_j, axes of body j */
     const jg_real v_2_in_j_1 = lambda[4] * C_j[1];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real v_2_in_j_2 = lambda[4] * C_j[2];
+    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     /* v_6_in_j = lambda_3 h_j, axes of body j */
     const jg_real v_6_in_j_1 = C_j[7] * lambda[3];
     const jg_real v_6_in_j_2 = C_j[8] * lambda[3];
+    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real v_4_in_j_0 = C_j[3] * lambda[5];
     const jg_real v_2_in_j_0 = lambda[4] * C_j[0];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real v_6_in_j_0 = C_j[6] * lambda[3];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real v_6_in_j_0 = C_j[6] * lambda[3];
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
     const jg_real h_star_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     const jg_real h_star_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
     const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
-    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
-    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     /* v_3_in_j = lambda_4 f_j x h_star, axes of body j */
     const jg_real v_3_in_j_0 = v_2_in_j_1 * h_star_in_j_2 - v_2_in_j_2 * h_star_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_3_in_j_1 = v_2_in_j_2 * h_star_in_j_0 - v_2_in_j_0 * h_star_in_j_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real v_3_in_j_2 = v_2_in_j_0 * h_star_in_j_1 - v_2_in_j_1 * h_star_in_j_0;
+    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
+    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
     const jg_real lambda_0_1_2_dot_h_i = lambda_0_1_2_in_j_0 * h_star_in_j_0 + lambda_0_1_2_in_j_1 * h_star_in_j_1 +
         lambda_0_1_2_in_j_2 * h_star_in_j_2;
-    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
@@ -922,13 +907,16 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     const jg_real v_5_in_j_2 = v_4_in_j_0 * f_star_in_j_1 - v_4_in_j_1 * f_star_in_j_0;
     /* v_8_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_star + lambda_4 f_j x h_star + lambda_5 g_j x f_star, ... */
     const jg_real v_8_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0 + v_5_in_j_0 + v_7_in_j_0;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
     phi_q_t_lambda[9] = v_8_in_j_0;
     const jg_real v_8_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
-    phi_q_t_lambda[10] = v_8_in_j_1;
     const jg_real v_8_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_5_in_j_2 + v_7_in_j_2;
-    phi_q_t_lambda[11] = v_8_in_j_2;
-    phi_q_t_lambda[13] = v_4_in_j_0 * g_star_in_j_0 + v_4_in_j_1 * g_star_in_j_1 + v_4_in_j_2 * g_star_in_j_2 -
-        (f_star_in_j_0 * v_6_in_j_0 + f_star_in_j_1 * v_6_in_j_1 + f_star_in_j_2 * v_6_in_j_2);
     /* v_8_in_i = s_j x lambda_0_1_2 + lambda_3 h_j x g_star + lambda_4 f_j x h_star + lambda_5 g_j x f_star, ... */
     const jg_real v_8_in_i_0 = A_ji_0 * v_8_in_j_0 + A_ji_1 * v_8_in_j_1 + A_ji_2 * v_8_in_j_2;
     const jg_real v_8_in_i_1 = A_ji_3 * v_8_in_j_0 + A_ji_4 * v_8_in_j_1 + A_ji_5 * v_8_in_j_2;
@@ -937,16 +925,18 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
     const jg_real v_9_in_i_0 = v_1_in_i_0 + v_8_in_i_0;
     const jg_real v_9_in_i_1 = v_1_in_i_1 + v_8_in_i_1;
     const jg_real v_9_in_i_2 = v_1_in_i_2 + v_8_in_i_2;
+    phi_q_t_lambda[10] = v_8_in_j_1;
+    phi_q_t_lambda[11] = v_8_in_j_2;
+    phi_q_t_lambda[13] = v_4_in_j_0 * g_star_in_j_0 + v_4_in_j_1 * g_star_in_j_1 + v_4_in_j_2 * g_star_in_j_2 -
+        (f_star_in_j_0 * v_6_in_j_0 + f_star_in_j_1 * v_6_in_j_1 + f_star_in_j_2 * v_6_in_j_2);
     phi_q_t_lambda[3] = -v_9_in_i_0;
     phi_q_t_lambda[4] = -v_9_in_i_1;
     phi_q_t_lambda[5] = -v_9_in_i_2;
 }
 
-void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_cylindrical_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -961,193 +951,170 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
+    const jg_real v_1_in_i_0 = alpha[0] * C_i[6] + s_i[0];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real v_1_in_i_1 = alpha[0] * C_i[7] + s_i[1];
+    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real v_1_in_i_2 = alpha[0] * C_i[8] + s_i[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
+    const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
+    phi_q[20] = A_ij_2;
+    phi_q[25] = A_ij_7;
+    phi_q[19] = A_ij_1;
+    phi_q[26] = A_ij_8;
+    phi_q[18] = A_ij_0;
+    phi_q[24] = A_ij_6;
+    phi_q[21] = A_ij_3;
+    phi_q[22] = A_ij_4;
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_0 = A_ij_3 * s_j[1] + A_ij_0 * s_j[0] + A_ij_6 * s_j[2];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_ij_3 * C_j[7] + A_ij_0 * C_j[6] + A_ij_6 * C_j[8];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_ij_3 * C_j[1] + A_ij_0 * C_j[0] + A_ij_6 * C_j[2];
+    const jg_real s_j_in_i_1 = s_j[1] * A_ij_4 + A_ij_1 * s_j[0] + A_ij_7 * s_j[2];
+    const jg_real h_j_in_i_1 = A_ij_4 * C_j[7] + A_ij_1 * C_j[6] + A_ij_7 * C_j[8];
+    const jg_real s_j_in_i_2 = s_j[1] * A_ij_5 + A_ij_2 * s_j[0] + A_ij_8 * s_j[2];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real h_j_in_i_2 = A_ij_5 * C_j[7] + A_ij_2 * C_j[6] + A_ij_8 * C_j[8];
+    const jg_real f_j_in_i_1 = A_ij_4 * C_j[1] + A_ij_1 * C_j[0] + A_ij_7 * C_j[2];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
+    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
+    phi_q[23] = A_ij_5;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[3] = e_ij_in_i_2;
+    phi[0] = v_2_in_i_0;
+    const jg_real f_j_in_i_2 = A_ij_5 * C_j[1] + A_ij_2 * C_j[0] + A_ij_8 * C_j[2];
+    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
+    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_2 = h_j_in_i_0 * f_j_in_i_1 - h_j_in_i_1 * f_j_in_i_0;
+    /* h_star_in_j = h_star, axes of body j */
+    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    /* h_star_dot_h_j = h_star . h_j */
+    const jg_real h_star_dot_h_j = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
+    const jg_real g_j_in_i_0 = h_j_in_i_1 * f_j_in_i_2 - h_j_in_i_2 * f_j_in_i_1;
+    /* h_star_dot_f_j = h_star . f_j */
+    const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
+    const jg_real g_j_in_i_1 = h_j_in_i_2 * f_j_in_i_0 - h_j_in_i_0 * f_j_in_i_2;
+    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    phi[1] = v_2_in_i_1;
+    phi_q[4] = -e_ij_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi_q[8] = -e_ij_in_i_2;
+    phi_q[14] = -e_ij_in_i_0;
+    phi[4] = h_star_dot_f_j;
+    phi_q[27] = A_ij_1 * s_j_in_i_2 - A_ij_2 * s_j_in_i_1;
+    phi_q[28] = A_ij_2 * s_j_in_i_0 - A_ij_0 * s_j_in_i_2;
+    /* h_star_dot_g_j = h_star . g_j */
+    const jg_real h_star_dot_g_j = C_i[6] * g_j_in_i_0 + C_i[7] * g_j_in_i_1 + C_i[8] * g_j_in_i_2;
+    phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
+    phi_q[33] = A_ij_4 * s_j_in_i_2 - s_j_in_i_1 * A_ij_5;
+    phi_q[34] = s_j_in_i_0 * A_ij_5 - A_ij_3 * s_j_in_i_2;
+    phi_q[35] = A_ij_3 * s_j_in_i_1 - s_j_in_i_0 * A_ij_4;
     phi_q[45] = -C_i[6];
     phi_q[46] = -C_i[7];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    phi_q[20] = A_ij_2;
+    phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
     phi_q[47] = -C_i[8];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ij_7;
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    phi_q[19] = A_ij_1;
-    /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[26] = A_ij_8;
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    phi_q[18] = A_ij_0;
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    phi_q[24] = A_ij_6;
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
-    phi_q[21] = A_ij_3;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
-    phi_q[22] = A_ij_4;
-    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
-    phi_q[23] = A_ij_5;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
+    phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
+    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
-    const jg_real h_star_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real t25 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t25;
-    phi_q_t_lambda_q[36] = t25;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real h_star_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    phi_q[9] = e_ij_in_i_0;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    phi_q[13] = e_ij_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    phi_q[3] = e_ij_in_i_2;
-    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
-    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    phi_q[14] = -e_ij_in_i_0;
-    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    phi_q[4] = -e_ij_in_i_1;
-    phi_q[8] = -e_ij_in_i_2;
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = h_j_in_i_1 * f_j_in_i_2 - h_j_in_i_2 * f_j_in_i_1;
-    const jg_real g_j_in_i_1 = h_j_in_i_2 * f_j_in_i_0 - h_j_in_i_0 * f_j_in_i_2;
-    const jg_real g_j_in_i_2 = h_j_in_i_0 * f_j_in_i_1 - h_j_in_i_1 * f_j_in_i_0;
-    phi_q[27] = A_ij_1 * s_j_in_i_2 - A_ij_2 * s_j_in_i_1;
-    /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    phi[4] = h_star_dot_f_j;
-    phi_q[28] = A_ij_2 * s_j_in_i_0 - A_ij_0 * s_j_in_i_2;
-    phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
-    /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
-    phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
-    phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
-    phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
     /* v_4_in_i = lambda_5 g_j, axes of body i */
     const jg_real v_4_in_i_1 = g_j_in_i_1 * lambda[5];
-    phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
-    phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
     /* v_3_in_i = lambda_4 f_j, axes of body i */
     const jg_real v_3_in_i_1 = f_j_in_i_1 * lambda[4];
     /* v_5_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_5_in_i_1 = h_j_in_i_1 * lambda[3];
     const jg_real v_4_in_i_2 = g_j_in_i_2 * lambda[5];
     const jg_real v_3_in_i_2 = f_j_in_i_2 * lambda[4];
-    const jg_real v_5_in_i_2 = h_j_in_i_2 * lambda[3];
-    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
-    const jg_real t50 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t50;
-    phi_q_t_lambda_q[39] = t50;
-    const jg_real t51 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t51;
-    phi_q_t_lambda_q[42] = t51;
-    /* h_star_dot_g_j = h_star . g_j */
-    const jg_real h_star_dot_g_j = C_i[6] * g_j_in_i_0 + C_i[7] * g_j_in_i_1 + C_i[8] * g_j_in_i_2;
-    /* v_6_in_j = lambda_4 h_star, axes of body j */
-    const jg_real v_6_in_j_1 = h_star_in_j_1 * lambda[4];
-    const jg_real v_6_in_j_2 = h_star_in_j_2 * lambda[4];
-    const jg_real v_6_in_j_0 = h_star_in_j_0 * lambda[4];
     /* h_star_cross_f_j_in_i = h_star x f_j, axes of body i */
     const jg_real h_star_cross_f_j_in_i_0 = g_j_in_i_0 * h_star_dot_h_j - h_j_in_i_0 * h_star_dot_g_j;
-    phi_q[6] = h_star_cross_f_j_in_i_0;
     const jg_real h_star_cross_f_j_in_i_1 = g_j_in_i_1 * h_star_dot_h_j - h_j_in_i_1 * h_star_dot_g_j;
-    phi_q[11] = h_star_cross_f_j_in_i_1;
     const jg_real h_star_cross_f_j_in_i_2 = g_j_in_i_2 * h_star_dot_h_j - h_j_in_i_2 * h_star_dot_g_j;
+    const jg_real v_5_in_i_2 = h_j_in_i_2 * lambda[3];
+    const jg_real t53 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    phi_q[6] = h_star_cross_f_j_in_i_0;
+    phi_q[11] = h_star_cross_f_j_in_i_1;
     phi_q[16] = h_star_cross_f_j_in_i_2;
     phi_q[31] = C_j[6] * h_star_dot_g_j - h_star_dot_h_j * C_j[3];
     phi_q[37] = C_j[7] * h_star_dot_g_j - h_star_dot_h_j * C_j[4];
     phi_q[43] = C_j[8] * h_star_dot_g_j - h_star_dot_h_j * C_j[5];
+    phi_q_t_lambda_q[9] = t53;
+    phi_q_t_lambda_q[36] = t53;
+    /* v_6_in_j = lambda_4 h_star, axes of body j */
+    const jg_real v_6_in_j_1 = h_star_in_j_1 * lambda[4];
+    const jg_real t55 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    const jg_real t56 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    const jg_real v_6_in_j_2 = h_star_in_j_2 * lambda[4];
+    const jg_real v_6_in_j_0 = h_star_in_j_0 * lambda[4];
+    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
-    const jg_real t62 = h_star_dot_g_j * lambda[5];
-    const jg_real t63 = h_star_dot_h_j * lambda[3];
-    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
     const jg_real v_3_in_i_0 = f_j_in_i_0 * lambda[4];
     const jg_real v_5_in_i_0 = h_j_in_i_0 * lambda[3];
-    const jg_real t67 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[19] = t67;
-    phi_q_t_lambda_q[37] = t67;
-    const jg_real t68 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[20] = t68;
-    phi_q_t_lambda_q[40] = t68;
-    phi_q_t_lambda_q[49] = -lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[57] = -lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[67] = -lambda_0_1_2_in_j_0;
-    const jg_real t69 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[21] = t69;
-    phi_q_t_lambda_q[43] = t69;
-    const jg_real t70 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[29] = t70;
-    phi_q_t_lambda_q[38] = t70;
-    const jg_real t71 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[30] = t71;
-    phi_q_t_lambda_q[41] = t71;
-    const jg_real t72 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[31] = t72;
-    phi_q_t_lambda_q[44] = t72;
-    /* v_11_in_i = 2 omega_i, axes of body i */
-    const jg_real v_11_in_i_0 = omega_i[0] * JG_REAL(2.0);
-    const jg_real v_11_in_i_1 = omega_i[1] * JG_REAL(2.0);
-    const jg_real v_11_in_i_2 = omega_i[2] * JG_REAL(2.0);
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
+    const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
+    const jg_real t65 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[10] = t55;
+    phi_q_t_lambda_q[39] = t55;
+    phi_q_t_lambda_q[11] = t56;
+    phi_q_t_lambda_q[42] = t56;
+    phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[48] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[58] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[19] = t65;
+    phi_q_t_lambda_q[37] = t65;
+    const jg_real t66 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
+    const jg_real t68 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
     const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + C_i[3] * sine_0;
+    const jg_real t72 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = h_j_in_i_0 * g_star_in_i_0 + h_j_in_i_1 * g_star_in_i_1 + h_j_in_i_2 *
         g_star_in_i_2;
-    phi[3] = g_star_dot_h_j;
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
         f_star_in_i_2;
+    phi_q_t_lambda_q[20] = t66;
+    phi_q_t_lambda_q[40] = t66;
+    phi_q_t_lambda_q[21] = t68;
+    phi_q_t_lambda_q[43] = t68;
+    phi_q_t_lambda_q[29] = t72;
+    phi_q_t_lambda_q[38] = t72;
+    phi[3] = g_star_dot_h_j;
     phi[5] = f_star_dot_g_j;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 *
@@ -1156,49 +1123,41 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real f_star_in_j_1 = A_ij_3 * f_star_in_i_0 + A_ij_4 * f_star_in_i_1 + A_ij_5 * f_star_in_i_2;
     const jg_real f_star_in_j_0 = A_ij_0 * f_star_in_i_0 + A_ij_1 * f_star_in_i_1 + A_ij_2 * f_star_in_i_2;
     const jg_real f_star_in_j_2 = A_ij_6 * f_star_in_i_0 + A_ij_7 * f_star_in_i_1 + A_ij_8 * f_star_in_i_2;
+    /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
+    const jg_real g_star_cross_h_j_in_i_0 = f_star_in_i_0 * h_star_dot_h_j - C_i[6] * f_star_dot_h_j;
+    const jg_real g_star_cross_h_j_in_i_1 = f_star_in_i_1 * h_star_dot_h_j - C_i[7] * f_star_dot_h_j;
+    const jg_real g_star_cross_h_j_in_i_2 = f_star_in_i_2 * h_star_dot_h_j - C_i[8] * f_star_dot_h_j;
+    /* g_star_in_j = g_star, axes of body j */
+    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - h_star_in_j_1 * f_star_in_j_0;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + C_i[7] * v_3_in_i_1 + f_star_in_i_1 * v_4_in_i_1 +
         g_star_in_i_1 * v_5_in_i_1;
-    phi_q[48] = -f_star_dot_h_j;
-    /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
-    const jg_real g_star_cross_h_j_in_i_0 = f_star_in_i_0 * h_star_dot_h_j - C_i[6] * f_star_dot_h_j;
-    phi_q[5] = g_star_cross_h_j_in_i_0;
-    const jg_real g_star_cross_h_j_in_i_1 = f_star_in_i_1 * h_star_dot_h_j - C_i[7] * f_star_dot_h_j;
-    phi_q[10] = g_star_cross_h_j_in_i_1;
-    const jg_real g_star_cross_h_j_in_i_2 = f_star_in_i_2 * h_star_dot_h_j - C_i[8] * f_star_dot_h_j;
-    phi_q[15] = g_star_cross_h_j_in_i_2;
+    const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + C_i[8] * v_3_in_i_2 + f_star_in_i_2 * v_4_in_i_2 +
         g_star_in_i_2 * v_5_in_i_2;
+    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - h_star_in_j_0 * f_star_in_j_2;
+    /* v_7_in_j = lambda_5 f_star, axes of body j */
+    const jg_real v_7_in_j_1 = f_star_in_j_1 * lambda[5];
+    const jg_real v_7_in_j_2 = f_star_in_j_2 * lambda[5];
+    /* v_8_in_j = lambda_3 g_star, axes of body j */
+    const jg_real v_8_in_j_2 = g_star_in_j_2 * lambda[3];
+    const jg_real v_7_in_j_0 = f_star_in_j_0 * lambda[5];
     const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + C_i[6] * v_3_in_i_1 + f_star_in_i_0 * v_4_in_i_1 +
         g_star_in_i_0 * v_5_in_i_1;
+    phi_q[5] = g_star_cross_h_j_in_i_0;
+    phi_q[10] = g_star_cross_h_j_in_i_1;
+    phi_q[15] = g_star_cross_h_j_in_i_2;
+    phi_q[48] = -f_star_dot_h_j;
+    phi_q[30] = f_star_dot_h_j * h_star_in_j_0 - h_star_dot_h_j * f_star_in_j_0;
+    phi_q[36] = f_star_dot_h_j * h_star_in_j_1 - h_star_dot_h_j * f_star_in_j_1;
+    phi_q[42] = f_star_dot_h_j * h_star_in_j_2 - h_star_dot_h_j * f_star_in_j_2;
     phi_q_t_lambda_q[7] = M_0_i_i_3;
     const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_3_in_i_2 + f_star_in_i_0 * v_4_in_i_2 +
         g_star_in_i_0 * v_5_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
-    /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
-    /* v_7_in_j = lambda_5 f_star, axes of body j */
-    const jg_real v_7_in_j_1 = f_star_in_j_1 * lambda[5];
-    phi_q[30] = f_star_dot_h_j * h_star_in_j_0 - h_star_dot_h_j * f_star_in_j_0;
-    const jg_real v_7_in_j_2 = f_star_in_j_2 * lambda[5];
-    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
-    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
-    phi_q[36] = f_star_dot_h_j * h_star_in_j_1 - h_star_dot_h_j * f_star_in_j_1;
-    const jg_real v_7_in_j_0 = f_star_in_j_0 * lambda[5];
-    phi_q[42] = f_star_dot_h_j * h_star_in_j_2 - h_star_dot_h_j * f_star_in_j_2;
-    /* v_9_in_star = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body star */
-    const jg_real v_9_in_star_2 = g_star_dot_h_j * lambda[3] + f_star_dot_g_j * lambda[5];
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_3_in_i_0 + f_star_in_i_1 * v_4_in_i_0 +
-        g_star_in_i_1 * v_5_in_i_0;
-    phi_q_t_lambda_q[16] = M_0_i_i_1;
-    /* v_8_in_j = lambda_3 g_star, axes of body j */
-    const jg_real v_8_in_j_2 = g_star_in_j_2 * lambda[3];
     const jg_real v_8_in_j_1 = g_star_in_j_1 * lambda[3];
     const jg_real v_8_in_j_0 = g_star_in_j_0 * lambda[3];
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
-    phi_q[49] = g_star_dot_g_j;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_6_in_j_1 + C_j[4] * v_7_in_j_1 + C_j[7] *
         v_8_in_j_1;
@@ -1206,194 +1165,225 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
         v_8_in_j_2;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_6_in_j_0 + C_j[4] * v_7_in_j_0 + C_j[7] *
         v_8_in_j_0;
-    phi_q_t_lambda_q[59] = M_1_j_j_3;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_6_in_j_0 + C_j[5] * v_7_in_j_0 + C_j[8] *
         v_8_in_j_0;
-    phi_q_t_lambda_q[68] = M_1_j_j_6;
+    const jg_real t102 = M_1_j_j_4 + M_1_j_j_8;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_6_in_j_0 + C_j[3] * v_7_in_j_0 + C_j[6] *
         v_8_in_j_0;
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_6_in_j_1 + C_j[3] * v_7_in_j_1 + C_j[6] *
         v_8_in_j_1;
-    phi_q_t_lambda_q[51] = M_1_j_j_1;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_6_in_j_1 + C_j[5] * v_7_in_j_1 + C_j[8] *
         v_8_in_j_1;
-    phi_q_t_lambda_q[69] = M_1_j_j_7;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_6_in_j_2 + C_j[3] * v_7_in_j_2 + C_j[6] *
-        v_8_in_j_2;
-    phi_q_t_lambda_q[52] = M_1_j_j_2;
-    const jg_real t119 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_6_in_j_2 + C_j[4] * v_7_in_j_2 + C_j[7] *
-        v_8_in_j_2;
-    phi_q_t_lambda_q[61] = M_1_j_j_5;
-    const jg_real t121 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t122 = M_1_j_j_0 + M_1_j_j_4;
     /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
     const jg_real f_star_cross_g_j_in_i_0 = C_i[6] * g_star_dot_g_j - g_star_in_i_0 * h_star_dot_g_j;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q[49] = g_star_dot_g_j;
+    phi_q_t_lambda_q[59] = M_1_j_j_3;
+    phi_q_t_lambda_q[68] = M_1_j_j_6;
+    phi_q_t_lambda_q[51] = M_1_j_j_1;
+    phi_q_t_lambda_q[69] = M_1_j_j_7;
     phi_q[7] = f_star_cross_g_j_in_i_0;
     const jg_real f_star_cross_g_j_in_i_1 = C_i[7] * g_star_dot_g_j - g_star_in_i_1 * h_star_dot_g_j;
-    phi_q[12] = f_star_cross_g_j_in_i_1;
     const jg_real f_star_cross_g_j_in_i_2 = C_i[8] * g_star_dot_g_j - g_star_in_i_2 * h_star_dot_g_j;
+    const jg_real t109 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t110 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_6_in_j_2 + C_j[3] * v_7_in_j_2 + C_j[6] *
+        v_8_in_j_2;
+    /* v_9_in_star = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body star */
+    const jg_real v_9_in_star_2 = f_star_dot_g_j * lambda[5] + g_star_dot_h_j * lambda[3];
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_6_in_j_2 + C_j[4] * v_7_in_j_2 + C_j[7] *
+        v_8_in_j_2;
+    const jg_real t114 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t102 + A_ij_6 * M_1_j_j_6);
+    phi_q[12] = f_star_cross_g_j_in_i_1;
     phi_q[17] = f_star_cross_g_j_in_i_2;
-    phi_q[32] = g_star_in_j_0 * h_star_dot_g_j - h_star_in_j_0 * g_star_dot_g_j;
-    phi_q[38] = g_star_in_j_1 * h_star_dot_g_j - h_star_in_j_1 * g_star_dot_g_j;
-    phi_q[44] = g_star_in_j_2 * h_star_dot_g_j - h_star_in_j_2 * g_star_dot_g_j;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_3_in_i_0 + f_star_in_i_0 * v_4_in_i_0 +
-        g_star_in_i_0 * v_5_in_i_0;
+    phi_q[32] = h_star_dot_g_j * g_star_in_j_0 - h_star_in_j_0 * g_star_dot_g_j;
+    phi_q[38] = h_star_dot_g_j * g_star_in_j_1 - h_star_in_j_1 * g_star_dot_g_j;
+    phi_q[44] = h_star_dot_g_j * g_star_in_j_2 - h_star_in_j_2 * g_star_dot_g_j;
+    phi_q_t_lambda_q[52] = M_1_j_j_2;
+    phi_q_t_lambda_q[61] = M_1_j_j_5;
+    phi_q_t_lambda_q[12] = t114;
+    phi_q_t_lambda_q[45] = t114;
     /* v_9_in_j = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body j */
-    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (f_star_in_j_0 * t62 + g_star_in_j_0 * t63);
+    const jg_real v_9_in_j_0 = h_star_in_j_0 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_0 + h_star_dot_h_j *
+        v_8_in_j_0);
+    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_1 + h_star_dot_h_j *
+        v_8_in_j_1);
+    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (h_star_dot_g_j * v_7_in_j_2 + h_star_dot_h_j *
+        v_8_in_j_2);
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_3_in_i_0 + f_star_in_i_1 * v_4_in_i_0 +
+        g_star_in_i_1 * v_5_in_i_0;
+    const jg_real t119 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t109 + A_ij_6 * M_1_j_j_7);
     phi_q_t_lambda_q[53] = v_9_in_j_0;
     phi_q_t_lambda_q[75] = v_9_in_j_0;
-    const jg_real v_9_in_j_1 = h_star_in_j_1 * v_9_in_star_2 - (f_star_in_j_1 * t62 + g_star_in_j_1 * t63);
     phi_q_t_lambda_q[62] = v_9_in_j_1;
     phi_q_t_lambda_q[76] = v_9_in_j_1;
-    const jg_real v_9_in_j_2 = h_star_in_j_2 * v_9_in_star_2 - (f_star_in_j_2 * t62 + g_star_in_j_2 * t63);
     phi_q_t_lambda_q[71] = v_9_in_j_2;
     phi_q_t_lambda_q[77] = v_9_in_j_2;
+    phi_q_t_lambda_q[16] = M_0_i_i_1;
+    phi_q_t_lambda_q[13] = t119;
+    phi_q_t_lambda_q[54] = t119;
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_3_in_i_0 + f_star_in_i_0 * v_4_in_i_0 +
+        g_star_in_i_0 * v_5_in_i_0;
     const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_3_in_i_2 + f_star_in_i_1 * v_4_in_i_2 +
         g_star_in_i_1 * v_5_in_i_2;
-    phi_q_t_lambda_q[18] = M_0_i_i_7;
-    const jg_real t131 = A_ij_6 * t122 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t131;
-    phi_q_t_lambda_q[63] = t131;
-    phi_q_t_lambda_q[17] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_3_in_i_0 + f_star_in_i_2 * v_4_in_i_0 +
-        g_star_in_i_2 * v_5_in_i_0;
-    phi_q_t_lambda_q[26] = M_0_i_i_2;
-    const jg_real t133 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t119 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t133;
-    phi_q_t_lambda_q[45] = t133;
-    const jg_real t134 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t121 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t134;
-    phi_q_t_lambda_q[54] = t134;
-    const jg_real t135 = A_ij_7 * t122 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[24] = t135;
-    phi_q_t_lambda_q[64] = t135;
-    const jg_real t136 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t119 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[22] = t136;
-    phi_q_t_lambda_q[46] = t136;
-    phi_q_t_lambda_q[28] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t137 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t121 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[23] = t137;
-    phi_q_t_lambda_q[55] = t137;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_3_in_i_1 + f_star_in_i_2 * v_4_in_i_1 +
-        g_star_in_i_2 * v_5_in_i_1;
-    phi_q_t_lambda_q[27] = M_0_i_i_5;
+    const jg_real t122 = A_ij_6 * t110 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t123 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t102 + A_ij_7 * M_1_j_j_6);
     /* v_9_in_i = lambda_3 f_star x h_j - lambda_5 g_star x g_j, axes of body i */
     const jg_real v_9_in_i_0 = A_ij_0 * v_9_in_j_0 + A_ij_3 * v_9_in_j_1 + A_ij_6 * v_9_in_j_2;
+    const jg_real t125 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    phi_q_t_lambda_q[18] = M_0_i_i_7;
+    phi_q_t_lambda_q[14] = t122;
+    phi_q_t_lambda_q[63] = t122;
+    phi_q_t_lambda_q[17] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[22] = t123;
+    phi_q_t_lambda_q[46] = t123;
+    phi_q_t_lambda_q[30] = t125;
+    phi_q_t_lambda_q[41] = t125;
+    const jg_real t126 = A_ij_7 * t110 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t127 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t109 + A_ij_7 * M_1_j_j_7);
+    const jg_real t128 = -v_9_in_i_0;
     const jg_real v_9_in_i_1 = A_ij_1 * v_9_in_j_0 + A_ij_4 * v_9_in_j_1 + A_ij_7 * v_9_in_j_2;
-    phi_q_t_lambda_q[50] = -t119;
-    phi_q_t_lambda_q[60] = -t121;
-    phi_q_t_lambda_q[70] = -t122;
+    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_3_in_i_0 + f_star_in_i_2 * v_4_in_i_0 +
+        g_star_in_i_2 * v_5_in_i_0;
+    phi_q_t_lambda_q[24] = t126;
+    phi_q_t_lambda_q[64] = t126;
+    phi_q_t_lambda_q[23] = t127;
+    phi_q_t_lambda_q[55] = t127;
+    phi_q_t_lambda_q[28] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[15] = t128;
+    phi_q_t_lambda_q[72] = t128;
+    phi_q_t_lambda_q[26] = M_0_i_i_2;
+    const jg_real t131 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_3_in_i_1 + f_star_in_i_2 * v_4_in_i_1 +
+        g_star_in_i_2 * v_5_in_i_1;
+    const jg_real t133 = -v_9_in_i_1;
+    phi_q_t_lambda_q[31] = t131;
+    phi_q_t_lambda_q[44] = t131;
+    phi_q_t_lambda_q[27] = M_0_i_i_5;
+    phi_q_t_lambda_q[25] = t133;
+    phi_q_t_lambda_q[73] = t133;
+    phi_q_t_lambda_q[49] = -lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[50] = -t102;
+    phi_q_t_lambda_q[57] = -lambda_0_1_2_in_j_2;
+    const jg_real t134 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t102 + A_ij_8 * M_1_j_j_6);
+    const jg_real t135 = A_ij_8 * t110 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    phi_q_t_lambda_q[60] = -t109;
+    phi_q_t_lambda_q[67] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[70] = -t110;
     phi_q_t_lambda_q[78] = -v_9_in_star_2;
-    const jg_real t141 = -v_9_in_i_0;
-    phi_q_t_lambda_q[15] = t141;
-    phi_q_t_lambda_q[72] = t141;
-    const jg_real t142 = -v_9_in_i_1;
-    phi_q_t_lambda_q[25] = t142;
-    phi_q_t_lambda_q[73] = t142;
+    phi_q_t_lambda_q[32] = t134;
+    phi_q_t_lambda_q[47] = t134;
+    phi_q_t_lambda_q[34] = t135;
+    phi_q_t_lambda_q[65] = t135;
+    const jg_real v_9_in_i_2 = A_ij_2 * v_9_in_j_0 + A_ij_5 * v_9_in_j_1 + A_ij_8 * v_9_in_j_2;
+    const jg_real t137 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t109 + A_ij_8 * M_1_j_j_7);
+    /* v_11_in_i = 2 omega_i, axes of body i */
+    const jg_real v_11_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_11_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_11_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    const jg_real t141 = -v_9_in_i_2;
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* v_10_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
     const jg_real v_10_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
-    /* omega_j_in_i = omega_j, axes of body i */
-    const jg_real omega_j_in_i_0 = f_j_in_i_0 * f_j_dot_omega_j + g_j_in_i_0 * g_j_dot_omega_j + h_j_in_i_0 *
-        h_j_dot_omega_j;
-    const jg_real t145 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    const jg_real omega_j_in_i_1 = f_j_in_i_1 * f_j_dot_omega_j + g_j_in_i_1 * g_j_dot_omega_j + h_j_in_i_1 *
-        h_j_dot_omega_j;
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
-    const jg_real t148 = A_ij_8 * t122 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[34] = t148;
-    phi_q_t_lambda_q[65] = t148;
-    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
-    const jg_real t150 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t119 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[32] = t150;
-    phi_q_t_lambda_q[47] = t150;
-    const jg_real v_9_in_i_2 = A_ij_2 * v_9_in_j_0 + A_ij_5 * v_9_in_j_1 + A_ij_8 * v_9_in_j_2;
     const jg_real v_10_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
-    const jg_real t153 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t121 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[33] = t153;
-    phi_q_t_lambda_q[56] = t153;
+    const jg_real t148 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_2 = A_ij_5 * v_j[1] + A_ij_2 * v_j[0] + A_ij_8 * v_j[2];
     const jg_real v_10_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
-    /* v_12_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_12_in_i_0 = v_11_in_i_0 - omega_j_in_i_0;
-    const jg_real v_12_in_i_1 = v_11_in_i_1 - omega_j_in_i_1;
-    /* v_14_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_14_in_i_0 = omega_i[0] * t145;
-    /* v_16_in_i = v_j - v_i, axes of body i */
-    const jg_real v_16_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_16_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real omega_j_in_i_2 = f_j_in_i_2 * f_j_dot_omega_j + g_j_in_i_2 * g_j_dot_omega_j + h_j_in_i_2 *
+    /* omega_j_in_i = omega_j, axes of body i */
+    const jg_real omega_j_in_i_0 = g_j_in_i_0 * g_j_dot_omega_j + f_j_in_i_0 * f_j_dot_omega_j + h_j_in_i_0 *
         h_j_dot_omega_j;
-    const jg_real t161 = -v_9_in_i_2;
-    phi_q_t_lambda_q[35] = t161;
-    phi_q_t_lambda_q[74] = t161;
-    const jg_real v_14_in_i_1 = omega_i[1] * t145;
-    const jg_real v_14_in_i_2 = omega_i[2] * t145;
-    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real omega_j_in_i_1 = g_j_in_i_1 * g_j_dot_omega_j + f_j_in_i_1 * f_j_dot_omega_j + h_j_in_i_1 *
+        h_j_dot_omega_j;
+    const jg_real omega_j_in_i_2 = g_j_in_i_2 * g_j_dot_omega_j + f_j_in_i_2 * f_j_dot_omega_j + h_j_in_i_2 *
+        h_j_dot_omega_j;
+    const jg_real v_j_in_i_1 = A_ij_4 * v_j[1] + A_ij_1 * v_j[0] + A_ij_7 * v_j[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
         h_j_dot_omega_j * h_j_dot_omega_j;
+    /* v_14_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
+    const jg_real v_14_in_i_0 = omega_i[0] * t148;
+    /* v_16_in_i = v_j - v_i, axes of body i */
+    const jg_real v_16_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_14_in_i_1 = omega_i[1] * t148;
+    /* v_12_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_12_in_i_0 = v_11_in_i_0 - omega_j_in_i_0;
+    const jg_real v_12_in_i_1 = v_11_in_i_1 - omega_j_in_i_1;
     const jg_real v_12_in_i_2 = v_11_in_i_2 - omega_j_in_i_2;
+    const jg_real v_16_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_0 = A_ij_3 * v_j[1] + A_ij_0 * v_j[0] + A_ij_6 * v_j[2];
+    const jg_real v_14_in_i_2 = omega_i[2] * t148;
     const jg_real v_16_in_i_0 = v_j_in_i_0 - v_i[0];
-    /* v_17_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_17_in_i_0 = v_11_in_i_1 * v_16_in_i_2 - v_11_in_i_2 * v_16_in_i_1;
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_j_0 * omega_j[0] + g_star_in_j_1 * omega_j[1] + g_star_in_j_2 *
         omega_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
+    /* v_17_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_17_in_i_0 = v_11_in_i_1 * v_16_in_i_2 - v_11_in_i_2 * v_16_in_i_1;
     /* h_star_dot_omega_j = h_star . omega_j */
-    const jg_real h_star_dot_omega_j = h_star_dot_f_j * f_j_dot_omega_j + h_star_dot_g_j * g_j_dot_omega_j +
+    const jg_real h_star_dot_omega_j = h_star_dot_g_j * g_j_dot_omega_j + h_star_dot_f_j * f_j_dot_omega_j +
         h_star_dot_h_j * h_j_dot_omega_j;
-    const jg_real t172 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t173 = s_j_in_i_0 * v_12_in_i_0 + s_j_in_i_1 * v_12_in_i_1 + s_j_in_i_2 * v_12_in_i_2;
+    const jg_real t170 = s_j_in_i_0 * v_12_in_i_0 + s_j_in_i_1 * v_12_in_i_1 + s_j_in_i_2 * v_12_in_i_2;
     const jg_real v_17_in_i_1 = v_11_in_i_2 * v_16_in_i_0 - v_11_in_i_0 * v_16_in_i_2;
     const jg_real v_17_in_i_2 = v_11_in_i_0 * v_16_in_i_1 - v_11_in_i_1 * v_16_in_i_0;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    const jg_real t174 = JG_REAL(2.0) * alphadot[1];
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    const jg_real t176 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* g_star_dot_omega_i = g_star . omega_i */
     const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
         omega_i[2];
-    const jg_real t180 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
+    const jg_real t179 = t176 + alphadot[1] * alphadot[1];
+    /* v_13_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
+    const jg_real v_13_in_i_0 = s_j_in_i_0 * t176 + omega_j_in_i_0 * t170;
+    const jg_real v_13_in_i_1 = s_j_in_i_1 * t176 + omega_j_in_i_1 * t170;
+    const jg_real v_13_in_i_2 = s_j_in_i_2 * t176 + omega_j_in_i_2 * t170;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_i_0 * omega_j_in_i_0 + f_star_in_i_1 * omega_j_in_i_1 +
         f_star_in_i_2 * omega_j_in_i_2;
+    /* h_star_dot_omega_i = h_star . omega_i */
+    const jg_real h_star_dot_omega_i = h_star_dot_g_j * g_j_dot_omega_i + h_star_dot_f_j * f_j_dot_omega_i +
+        h_star_dot_h_j * h_j_dot_omega_i;
     /* f_star_dot_omega_i = f_star . omega_i */
     const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
-    const jg_real t183 = t180 + alphadot[1] * alphadot[1];
-    /* h_star_dot_omega_i = h_star . omega_i */
-    const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
-        h_star_dot_h_j * h_j_dot_omega_i;
-    /* v_13_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_13_in_i_0 = s_j_in_i_0 * t180 + omega_j_in_i_0 * t173;
-    const jg_real v_13_in_i_1 = s_j_in_i_1 * t180 + omega_j_in_i_1 * t173;
-    const jg_real v_13_in_i_2 = s_j_in_i_2 * t180 + omega_j_in_i_2 * t173;
-    gamma[4] = h_star_dot_f_j * t180 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
-        f_j_dot_omega_i * h_star_dot_omega_i;
     /* v_15_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_15_in_i_0 = v_10_in_i_0 + v_13_in_i_0 - v_14_in_i_0;
-    const jg_real v_15_in_i_1 = v_10_in_i_1 + v_13_in_i_1 - v_14_in_i_1;
-    const jg_real v_15_in_i_2 = v_10_in_i_2 + v_13_in_i_2 - v_14_in_i_2;
+    const jg_real v_15_in_i_0 = v_13_in_i_0 + v_10_in_i_0 - v_14_in_i_0;
+    const jg_real v_15_in_i_1 = v_13_in_i_1 + v_10_in_i_1 - v_14_in_i_1;
+    const jg_real v_15_in_i_2 = v_13_in_i_2 + v_10_in_i_2 - v_14_in_i_2;
     /* v_18_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_18_in_i_0 = v_15_in_i_0 + v_17_in_i_0;
-    gamma[0] = v_18_in_i_0;
     const jg_real v_18_in_i_1 = v_15_in_i_1 + v_17_in_i_1;
-    gamma[1] = v_18_in_i_1;
     const jg_real v_18_in_i_2 = v_15_in_i_2 + v_17_in_i_2;
+    phi_q_t_lambda_q[33] = t137;
+    phi_q_t_lambda_q[56] = t137;
+    phi_q_t_lambda_q[35] = t141;
+    phi_q_t_lambda_q[74] = t141;
+    gamma[0] = v_18_in_i_0;
+    gamma[1] = v_18_in_i_1;
     gamma[2] = v_18_in_i_2;
-    gamma[3] = g_star_dot_h_j * t183 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
+    gamma[4] = h_star_dot_f_j * t176 + h_star_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
+        f_j_dot_omega_i * h_star_dot_omega_i;
+    gamma[3] = g_star_dot_h_j * t179 + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
         (h_star_dot_h_j * g_star_dot_omega_j - g_star_dot_h_j * h_star_dot_omega_j - (h_star_dot_h_j *
-        g_star_dot_omega_i - g_star_dot_h_j * h_star_dot_omega_i)) * t172 - h_j_dot_omega_i * g_star_dot_omega_i;
-    gamma[5] = f_star_dot_g_j * t183 + t172 * (f_star_dot_g_j * h_star_dot_omega_i - h_star_dot_g_j *
-        f_star_dot_omega_i - (f_star_dot_g_j * h_star_dot_omega_j - h_star_dot_g_j * f_star_dot_omega_j)) +
-        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - f_star_dot_omega_i *
-        g_j_dot_omega_i;
+        g_star_dot_omega_i - g_star_dot_h_j * h_star_dot_omega_i)) * t174 - h_j_dot_omega_i * g_star_dot_omega_i;
+    gamma[5] = t174 * (f_star_dot_g_j * h_star_dot_omega_i - h_star_dot_g_j * f_star_dot_omega_i - (f_star_dot_g_j *
+        h_star_dot_omega_j - h_star_dot_g_j * f_star_dot_omega_j)) + f_star_dot_g_j * t179 + f_star_dot_omega_j *
+        (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - g_j_dot_omega_i * f_star_dot_omega_i;
 }
 
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

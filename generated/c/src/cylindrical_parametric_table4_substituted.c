@@ -4,10 +4,6 @@
  * joint cylindrical, form parametric, rows table4, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/cylindrical.h"
 
 const int *jg_cylindrical_parametric_table4_substituted_phi_q_sparsity(void)
@@ -27,9 +23,8 @@ const int *jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_sparsit
     return pattern;
 }
 
-void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -47,128 +42,128 @@ void jg_cylindrical_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
     const jg_real v_2_in_i_0 = d_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = d_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = d_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    phi[3] = f_i_dot_h_j;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_f_j - jg_cos(alpha[1]);
 }
 
-void jg_cylindrical_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_cylindrical_parametric_table4_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry,
+    jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[5] = -C_i[3];
     phi_q[6] = C_i[0];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
     phi_q[10] = -C_i[4];
     phi_q[11] = C_i[1];
     phi_q[15] = -C_i[5];
-    phi_q[16] = C_i[2];
-    phi_q[45] = -C_i[6];
-    phi_q[46] = -C_i[7];
-    phi_q[47] = -C_i[8];
     /* v_0_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[8];
-    phi_q[3] = v_0_in_i_2;
     const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[7];
-    phi_q[13] = v_0_in_i_1;
     const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
+    phi_q[16] = C_i[2];
+    phi_q[3] = v_0_in_i_2;
+    phi_q[13] = v_0_in_i_1;
+    phi_q[45] = -C_i[6];
     phi_q[9] = v_0_in_i_0;
+    phi_q[46] = -C_i[7];
+    phi_q[47] = -C_i[8];
     phi_q[8] = -v_0_in_i_2;
+    /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
+    const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
+    const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
+    const jg_real f_i_cross_f_j_in_i_2 = C_i[8] * sine_0;
+    /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
+    const jg_real f_i_cross_f_j_in_j_0 = sine_0 * C_j[6];
+    /* A_joint_i_j = turns j axes to joint i axes */
+    const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - C_j[4] * sine_0;
+    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
+    const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + C_j[4] * cosine_0;
+    const jg_real f_i_cross_f_j_in_j_2 = sine_0 * C_j[8];
+    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
+    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     phi_q[4] = -v_0_in_i_1;
     phi_q[14] = -v_0_in_i_0;
     phi_q[48] = sine_0;
-    /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
-    const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
     phi_q[7] = f_i_cross_f_j_in_i_0;
-    const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
     phi_q[12] = f_i_cross_f_j_in_i_1;
-    const jg_real f_i_cross_f_j_in_i_2 = C_i[8] * sine_0;
     phi_q[17] = f_i_cross_f_j_in_i_2;
-    /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
-    const jg_real f_i_cross_f_j_in_j_0 = sine_0 * C_j[6];
-    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_2 = sine_0 * C_j[8];
-    /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - C_j[4] * sine_0;
-    const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + C_j[4] * cosine_0;
     phi_q[36] = A_joint_i_j_4;
-    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     phi_q[42] = A_joint_i_j_7;
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + cosine_0 * C_j[3];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = A_joint_i_j_3 * C_i[1] + A_joint_i_j_4 * C_i[4] + C_i[7] * C_j[7];
     phi_q[30] = A_joint_i_j_1;
     phi_q[31] = sine_0 * C_j[3] - cosine_0 * C_j[0];
     phi_q[32] = -f_i_cross_f_j_in_j_0;
-    phi_q[38] = -f_i_cross_f_j_in_j_1;
-    phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q[37] = -A_joint_i_j_3;
+    phi_q[38] = -f_i_cross_f_j_in_j_1;
     phi_q[43] = -A_joint_i_j_6;
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_joint_i_j_3 * C_i[1] + A_joint_i_j_4 * C_i[4] + C_i[7] * C_j[7];
+    phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q[22] = A_ij_4;
     const jg_real A_ij_5 = A_joint_i_j_3 * C_i[2] + A_joint_i_j_4 * C_i[5] + C_i[8] * C_j[7];
-    phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
-    phi_q[25] = A_ij_7;
     const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * C_j[8];
-    phi_q[24] = A_ij_6;
     const jg_real A_ij_3 = A_joint_i_j_3 * C_i[0] + A_joint_i_j_4 * C_i[3] + C_i[6] * C_j[7];
-    phi_q[21] = A_ij_3;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
+    phi_q[25] = A_ij_7;
+    phi_q[24] = A_ij_6;
+    phi_q[21] = A_ij_3;
     phi_q[18] = A_ij_0;
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
@@ -190,8 +185,8 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_dense(const jg_real *JG_
     jg_scatter(jg_cylindrical_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -199,9 +194,6 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
-    phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
-    phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
@@ -215,14 +207,10 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
     const jg_real t8 = lambda_0_1_2_in_joint_i_2 * s_j_dot_h_j;
     /* v_0_in_joint_i = lambda_5 f_i x g_j, axes of joint i */
     const jg_real v_0_in_joint_i_2 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[12] = v_0_in_joint_i_2;
     /* v_0_in_i = lambda_5 f_i x g_j, axes of body i */
     const jg_real v_0_in_i_0 = C_i[6] * v_0_in_joint_i_2;
-    phi_q_t_lambda_q[3] = v_0_in_i_0;
     const jg_real v_0_in_i_1 = C_i[7] * v_0_in_joint_i_2;
-    phi_q_t_lambda_q[4] = v_0_in_i_1;
     const jg_real v_0_in_i_2 = C_i[8] * v_0_in_joint_i_2;
-    phi_q_t_lambda_q[5] = v_0_in_i_2;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_i_1 - lambda_0_1_2_in_joint_i_0 *
         sine_0;
@@ -231,13 +219,18 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
     /* lambda_0_1_2_cross_h_j_in_j = lambda_0_1_2 x h_j, axes of body j */
     const jg_real lambda_0_1_2_cross_h_j_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 *
         C_j[3];
+    phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
+    phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
+    phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
+    phi_q_t_lambda_q[12] = v_0_in_joint_i_2;
+    phi_q_t_lambda_q[3] = v_0_in_i_0;
+    phi_q_t_lambda_q[4] = v_0_in_i_1;
+    phi_q_t_lambda_q[5] = v_0_in_i_2;
     phi_q_t_lambda_q[6] = lambda_0_1_2_cross_h_j_in_j_0;
     const jg_real lambda_0_1_2_cross_h_j_in_j_1 = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 *
         C_j[4];
-    phi_q_t_lambda_q[7] = lambda_0_1_2_cross_h_j_in_j_1;
     const jg_real lambda_0_1_2_cross_h_j_in_j_2 = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 *
         C_j[5];
-    phi_q_t_lambda_q[8] = lambda_0_1_2_cross_h_j_in_j_2;
     /* v_1_in_joint_j = (s_j . h_j) lambda_0_1_2 + (cos(alpha_1) lambda_3 + sin(alpha_1) lambda_4) f_j + ... */
     const jg_real v_1_in_joint_j_0 = cosine_0 * lambda[3] + sine_0 * lambda[4] + lambda_0_1_2_in_joint_j_0 *
         s_j_dot_h_j;
@@ -249,10 +242,12 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_r
     const jg_real v_1_in_joint_j_2 = t8 - (v_0_in_joint_i_2 + s_j_dot_lambda_0_1_2);
     /* v_1_in_j = (s_j . h_j) lambda_0_1_2 + (cos(alpha_1) lambda_3 + sin(alpha_1) lambda_4) f_j + ... */
     const jg_real v_1_in_j_0 = C_j[0] * v_1_in_joint_j_0 + C_j[3] * v_1_in_joint_j_1 + C_j[6] * v_1_in_joint_j_2;
-    phi_q_t_lambda_q[9] = v_1_in_j_0;
     const jg_real v_1_in_j_1 = C_j[1] * v_1_in_joint_j_0 + C_j[4] * v_1_in_joint_j_1 + C_j[7] * v_1_in_joint_j_2;
-    phi_q_t_lambda_q[10] = v_1_in_j_1;
     const jg_real v_1_in_j_2 = C_j[2] * v_1_in_joint_j_0 + C_j[5] * v_1_in_joint_j_1 + C_j[8] * v_1_in_joint_j_2;
+    phi_q_t_lambda_q[7] = lambda_0_1_2_cross_h_j_in_j_1;
+    phi_q_t_lambda_q[8] = lambda_0_1_2_cross_h_j_in_j_2;
+    phi_q_t_lambda_q[9] = v_1_in_j_0;
+    phi_q_t_lambda_q[10] = v_1_in_j_1;
     phi_q_t_lambda_q[11] = v_1_in_j_2;
 }
 
@@ -264,8 +259,8 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_dense(const j
     jg_scatter(jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -283,70 +278,67 @@ void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRI
     /* s_j_dot_f_j = s_j . f_j */
     const jg_real s_j_dot_f_j = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
     /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real f_j_dot_omega_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     /* s_j_dot_h_j = s_j . h_j */
     const jg_real s_j_dot_h_j = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
-    /* s_j_dot_g_j = s_j . g_j */
-    const jg_real s_j_dot_g_j = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
     /* v_0_in_joint_j = alphadot_1 h_j - omega_j, axes of joint j */
     const jg_real v_0_in_joint_j_2 = alphadot[1] - h_j_dot_omega_j;
+    /* s_j_dot_g_j = s_j . g_j */
+    const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
     /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    const jg_real g_j_dot_omega_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     /* v_2_in_i = alphadot_0 h_i - v_i, axes of body i */
     const jg_real v_2_in_i_1 = C_i[7] * alphadot[0] - v_i[1];
-    const jg_real v_2_in_i_2 = C_i[8] * alphadot[0] - v_i[2];
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real v_2_in_i_0 = C_i[6] * alphadot[0] - v_i[0];
-    const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
-    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    const jg_real v_2_in_i_2 = alphadot[0] * C_i[8] - v_i[2];
     /* v_4_in_joint_j = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of joint j */
     const jg_real v_4_in_joint_j_0 = h_j_dot_omega_j * s_j_dot_f_j - f_j_dot_omega_j * s_j_dot_h_j;
-    const jg_real v_4_in_joint_j_1 = h_j_dot_omega_j * s_j_dot_g_j - g_j_dot_omega_j * s_j_dot_h_j;
-    /* v_3_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
-    const jg_real v_3_in_i_0 = omega_i[2] * v_2_in_i_1 - omega_i[1] * v_2_in_i_2;
-    const jg_real v_3_in_i_1 = omega_i[0] * v_2_in_i_2 - omega_i[2] * v_2_in_i_0;
-    /* v_5_in_joint_j = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of joint j */
-    const jg_real v_5_in_joint_j_0 = alphadot[1] * v_4_in_joint_j_0;
+    const jg_real v_2_in_i_0 = C_i[6] * alphadot[0] - v_i[0];
+    const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real v_4_in_joint_j_1 = h_j_dot_omega_j * s_j_dot_g_j - s_j_dot_h_j * g_j_dot_omega_j;
     /* v_1_in_joint_j = alphadot_1 h_j x v_j + v_j x omega_j, axes of joint j */
-    const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_0_in_joint_j_2;
-    const jg_real v_3_in_i_2 = omega_i[1] * v_2_in_i_0 - omega_i[0] * v_2_in_i_1;
-    const jg_real t22 = v_j_in_joint_j_1 * v_0_in_joint_j_2 + v_j_in_joint_j_2 * g_j_dot_omega_j;
-    const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_0 * g_j_dot_omega_j - v_j_in_joint_j_1 * f_j_dot_omega_j;
-    const jg_real v_5_in_joint_j_1 = alphadot[1] * v_4_in_joint_j_1;
-    /* v_9_in_joint_j = sin(alpha_1) alphadot_1 f_j + cos(alpha_1) alphadot_1 g_j, axes of joint j */
-    const jg_real v_9_in_joint_j = alphadot[1] * sine_0;
+    const jg_real v_1_in_joint_j_1 = f_j_dot_omega_j * v_j_in_joint_j_2 + v_j_in_joint_j_0 * v_0_in_joint_j_2;
+    /* v_3_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
+    const jg_real v_3_in_i_0 = v_2_in_i_1 * omega_i[2] - v_2_in_i_2 * omega_i[1];
+    const jg_real v_3_in_i_1 = v_2_in_i_2 * omega_i[0] - omega_i[2] * v_2_in_i_0;
+    const jg_real t20 = v_0_in_joint_j_2 * v_j_in_joint_j_1 + g_j_dot_omega_j * v_j_in_joint_j_2;
+    const jg_real v_1_in_joint_j_2 = g_j_dot_omega_j * v_j_in_joint_j_0 - f_j_dot_omega_j * v_j_in_joint_j_1;
+    const jg_real v_3_in_i_2 = omega_i[1] * v_2_in_i_0 - v_2_in_i_1 * omega_i[0];
     /* v_8_in_joint_j = cos(alpha_1) alphadot_1 f_j - sin(alpha_1) alphadot_1 g_j, axes of joint j */
     const jg_real v_8_in_joint_j = alphadot[1] * cosine_0;
-    /* v_5_in_joint_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of joint i */
-    const jg_real v_5_in_joint_i_0 = cosine_0 * v_5_in_joint_j_0 - sine_0 * v_5_in_joint_j_1;
-    const jg_real v_5_in_joint_i_1 = sine_0 * v_5_in_joint_j_0 + cosine_0 * v_5_in_joint_j_1;
+    /* v_9_in_joint_j = sin(alpha_1) alphadot_1 f_j + cos(alpha_1) alphadot_1 g_j, axes of joint j */
+    const jg_real v_9_in_joint_j = alphadot[1] * sine_0;
     /* v_1_in_joint_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of joint i */
-    const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_1 * cosine_0 - t22 * sine_0;
-    const jg_real t30 = t22 * cosine_0 + v_1_in_joint_j_1 * sine_0;
-    gamma[3] = g_j_dot_omega_j * v_9_in_joint_j - f_j_dot_omega_j * v_8_in_joint_j;
+    const jg_real v_1_in_joint_i_1 = cosine_0 * v_1_in_joint_j_1 - sine_0 * t20;
+    const jg_real t26 = cosine_0 * t20 + sine_0 * v_1_in_joint_j_1;
+    /* v_5_in_joint_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of joint i */
+    const jg_real v_5_in_joint_i_0 = v_4_in_joint_j_0 * v_8_in_joint_j - v_4_in_joint_j_1 * v_9_in_joint_j;
+    const jg_real v_5_in_joint_i_1 = v_4_in_joint_j_0 * v_9_in_joint_j + v_8_in_joint_j * v_4_in_joint_j_1;
     /* v_5_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_5_in_i_0 = C_i[0] * v_5_in_joint_i_0 + C_i[3] * v_5_in_joint_i_1;
-    const jg_real v_5_in_i_1 = C_i[1] * v_5_in_joint_i_0 + C_i[4] * v_5_in_joint_i_1;
-    const jg_real v_5_in_i_2 = C_i[2] * v_5_in_joint_i_0 + C_i[5] * v_5_in_joint_i_1;
-    gamma[4] = -(f_j_dot_omega_j * v_9_in_joint_j + g_j_dot_omega_j * v_8_in_joint_j);
+    const jg_real v_5_in_i_0 = v_5_in_joint_i_0 * C_i[0] + v_5_in_joint_i_1 * C_i[3];
+    const jg_real v_5_in_i_1 = v_5_in_joint_i_0 * C_i[1] + v_5_in_joint_i_1 * C_i[4];
     /* v_1_in_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of body i */
-    const jg_real v_1_in_i_0 = v_1_in_joint_i_1 * C_i[3] - t30 * C_i[0] + v_1_in_joint_j_2 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i_1 * C_i[4] - t30 * C_i[1] + v_1_in_joint_j_2 * C_i[7];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_1 * C_i[5] - t30 * C_i[2] + v_1_in_joint_j_2 * C_i[8];
+    const jg_real v_1_in_i_0 = C_i[3] * v_1_in_joint_i_1 - C_i[0] * t26 + v_1_in_joint_j_2 * C_i[6];
+    const jg_real v_1_in_i_1 = v_1_in_joint_i_1 * C_i[4] - t26 * C_i[1] + v_1_in_joint_j_2 * C_i[7];
+    const jg_real v_5_in_i_2 = v_5_in_joint_i_0 * C_i[2] + v_5_in_joint_i_1 * C_i[5];
+    const jg_real v_1_in_i_2 = v_1_in_joint_i_1 * C_i[5] - t26 * C_i[2] + v_1_in_joint_j_2 * C_i[8];
     /* v_6_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 h_j x v_j - alphadot_0 h_i x omega_i - ... */
     const jg_real v_6_in_i_0 = v_5_in_i_0 - (v_1_in_i_0 + v_3_in_i_0);
-    gamma[0] = v_6_in_i_0;
     const jg_real v_6_in_i_1 = v_5_in_i_1 - (v_1_in_i_1 + v_3_in_i_1);
-    gamma[1] = v_6_in_i_1;
     const jg_real v_6_in_i_2 = v_5_in_i_2 - (v_1_in_i_2 + v_3_in_i_2);
+    gamma[3] = g_j_dot_omega_j * v_9_in_joint_j - f_j_dot_omega_j * v_8_in_joint_j;
+    gamma[4] = -(f_j_dot_omega_j * v_9_in_joint_j + v_8_in_joint_j * g_j_dot_omega_j);
+    gamma[0] = v_6_in_i_0;
+    gamma[1] = v_6_in_i_1;
     gamma[2] = v_6_in_i_2;
     gamma[5] = -(alphadot[1] * (cosine_0 * C_i[6] * omega_i[0] + cosine_0 * C_i[7] * omega_i[1] + cosine_0 * C_i[8]
-        * omega_i[2] + v_0_in_joint_j_2 * cosine_0));
+        * omega_i[2] + cosine_0 * v_0_in_joint_j_2));
 }
 
-void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -370,19 +362,19 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
     const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     /* v_1_in_i = s_i x omega_i + alpha_0 h_i x omega_i, axes of body i */
     const jg_real v_1_in_i_0 = omega_i[2] * v_0_in_i_1 - omega_i[1] * v_0_in_i_2;
+    /* omega_i_in_joint_i = omega_i, axes of joint i */
+    const jg_real omega_i_in_joint_i_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
     const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
+    /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
+    const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
+        C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
     const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real omega_i_in_joint_i_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     /* omega_j_in_joint_i = omega_j, axes of joint i */
     const jg_real omega_j_in_joint_i_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
-    const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
-        C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = cosine_0 * C_j[0] - sine_0 * C_j[3];
     const jg_real f_i_in_j_1 = cosine_0 * C_j[1] - sine_0 * C_j[4];
@@ -391,7 +383,6 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
     const jg_real g_i_in_j_0 = sine_0 * C_j[0] + cosine_0 * C_j[3];
     const jg_real g_i_in_j_1 = sine_0 * C_j[1] + cosine_0 * C_j[4];
     const jg_real g_i_in_j_2 = sine_0 * C_j[2] + cosine_0 * C_j[5];
-    phi_q_v[5] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot[1] - sine_0 * omega_j_in_joint_i_2;
     const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_j_0 * f_i_in_j_0 + s_j_cross_omega_j_in_j_1
         * f_i_in_j_1 + s_j_cross_omega_j_in_j_2 * f_i_in_j_2;
     const jg_real v_j_in_joint_i_0 = f_i_in_j_0 * v_j[0] + f_i_in_j_1 * v_j[1] + f_i_in_j_2 * v_j[2];
@@ -402,8 +393,6 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
         g_i_in_j_2;
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
         f_i_in_j_2;
-    phi_q_v[3] = omega_j_in_joint_i_1 - omega_i_in_joint_i_1;
-    phi_q_v[4] = omega_i_in_joint_i_0 - omega_j_in_joint_i_0;
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = s_j_cross_omega_j_in_joint_i_0 * C_i[0] +
         s_j_cross_omega_j_in_joint_i_1 * C_i[3] + C_i[6] * s_j_cross_omega_j_in_joint_i_2;
@@ -423,21 +412,21 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *JG_REST
     const jg_real v_3_in_i_0 = s_j_cross_omega_j_in_i_0 - v_1_in_i_0 + v_2_in_i_0;
     const jg_real v_3_in_i_1 = s_j_cross_omega_j_in_i_1 - v_1_in_i_1 + v_2_in_i_1;
     const jg_real v_3_in_i_2 = s_j_cross_omega_j_in_i_2 - v_1_in_i_2 + v_2_in_i_2;
+    phi_q_v[5] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot[1] - sine_0 * omega_j_in_joint_i_2;
+    phi_q_v[3] = omega_j_in_joint_i_1 - omega_i_in_joint_i_1;
+    phi_q_v[4] = omega_i_in_joint_i_0 - omega_j_in_joint_i_0;
     phi_q_v[0] = -v_3_in_i_0;
     phi_q_v[1] = -v_3_in_i_1;
     phi_q_v[2] = -v_3_in_i_2;
 }
 
-void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -451,50 +440,50 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *
     const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
     /* lambda_0_1_2_dot_f_i = lambda_0_1_2 . f_i */
     const jg_real lambda_0_1_2_dot_f_i = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
-    /* lambda_0_1_2_dot_g_i = lambda_0_1_2 . g_i */
-    const jg_real lambda_0_1_2_dot_g_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     /* v_1_in_i = s_i x lambda_0_1_2 - alpha_0 lambda_0_1_2 x h_i, axes of body i */
     const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
-    /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
-    const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
+    /* lambda_0_1_2_dot_g_i = lambda_0_1_2 . g_i */
+    const jg_real lambda_0_1_2_dot_g_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
-    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
+    /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
+    const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     /* v_2_in_joint_i = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of joint i */
     const jg_real v_2_in_joint_i_2 = sine_0 * lambda[5];
-    phi_q_t_lambda[13] = v_2_in_joint_i_2;
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_0 = C_j[0] * cosine_0 - sine_0 * C_j[3];
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + C_j[3] * cosine_0;
     const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
     const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * C_j[4];
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     /* v_2_in_i = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of body i */
     const jg_real v_2_in_i_0 = C_i[6] * v_2_in_joint_i_2 - lambda[3] * C_i[3];
     const jg_real v_2_in_i_1 = C_i[7] * v_2_in_joint_i_2 - lambda[3] * C_i[4];
     const jg_real v_2_in_i_2 = C_i[8] * v_2_in_joint_i_2 - lambda[3] * C_i[5];
     /* v_3_in_j = lambda_4 g_i x h_j, axes of body j */
     const jg_real v_3_in_j_0 = lambda[4] * A_joint_i_j_0;
+    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     const jg_real v_3_in_j_1 = lambda[4] * A_joint_i_j_3;
-    const jg_real v_3_in_j_2 = lambda[4] * A_joint_i_j_6;
     /* v_2_in_j = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of body j */
     const jg_real v_2_in_j_0 = v_2_in_joint_i_2 * C_j[6] - lambda[3] * A_joint_i_j_1;
     const jg_real v_2_in_j_1 = v_2_in_joint_i_2 * C_j[7] - lambda[3] * A_joint_i_j_4;
-    const jg_real v_2_in_j_2 = v_2_in_joint_i_2 * C_j[8] - lambda[3] * A_joint_i_j_7;
+    const jg_real v_3_in_j_2 = lambda[4] * A_joint_i_j_6;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
+    phi_q_t_lambda[13] = v_2_in_joint_i_2;
     phi_q_t_lambda[3] = v_3_in_i_0 - (v_1_in_i_0 - v_2_in_i_0);
     phi_q_t_lambda[4] = v_3_in_i_1 - (v_1_in_i_1 - v_2_in_i_1);
     phi_q_t_lambda[5] = v_3_in_i_2 - (v_1_in_i_2 - v_2_in_i_2);
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_dot_f_i * A_joint_i_j_0 + lambda_0_1_2_dot_g_i * A_joint_i_j_1
         + lambda_0_1_2_dot_h_i * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    const jg_real v_2_in_j_2 = v_2_in_joint_i_2 * C_j[8] - lambda[3] * A_joint_i_j_7;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_dot_f_i * A_joint_i_j_3 + lambda_0_1_2_dot_g_i * A_joint_i_j_4
         + lambda_0_1_2_dot_h_i * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_dot_f_i * A_joint_i_j_6 + lambda_0_1_2_dot_g_i * A_joint_i_j_7
         + lambda_0_1_2_dot_h_i * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
@@ -503,16 +492,17 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *
     const jg_real v_5_in_j_2 = v_2_in_j_2 - s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2;
     const jg_real v_5_in_j_0 = v_2_in_j_0 - s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0;
     const jg_real v_5_in_j_1 = v_2_in_j_1 - s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda[11] = -v_5_in_j_2;
     phi_q_t_lambda[9] = -v_5_in_j_0;
     phi_q_t_lambda[10] = -v_5_in_j_1;
 }
 
-void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q,
-    jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -531,216 +521,216 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
     const jg_real v_1_in_i_0 = alpha[0] * C_i[6];
     const jg_real v_1_in_i_1 = alpha[0] * C_i[7];
     const jg_real v_1_in_i_2 = alpha[0] * C_i[8];
-    phi_q[6] = C_i[0];
-    phi_q[11] = C_i[1];
-    phi_q[16] = C_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
+    const jg_real v_2_in_i_0 = d_ij_in_i_0 - v_1_in_i_0;
+    const jg_real v_2_in_i_1 = d_ij_in_i_1 - v_1_in_i_1;
+    const jg_real v_2_in_i_2 = d_ij_in_i_2 - v_1_in_i_2;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    phi_q[6] = C_i[0];
+    phi_q[11] = C_i[1];
+    phi_q[16] = C_i[2];
+    phi[3] = f_i_dot_h_j;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     /* v_0_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_0_in_i_2 = s_i[2] + v_1_in_i_2;
-    phi_q[3] = v_0_in_i_2;
     const jg_real v_0_in_i_1 = s_i[1] + v_1_in_i_1;
-    phi_q[13] = v_0_in_i_1;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[5] = -C_i[3];
     const jg_real v_0_in_i_0 = s_i[0] + v_1_in_i_0;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    phi_q[3] = v_0_in_i_2;
+    phi_q[13] = v_0_in_i_1;
+    phi_q[5] = -C_i[3];
     phi_q[9] = v_0_in_i_0;
     phi_q[10] = -C_i[4];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
     phi_q[15] = -C_i[5];
     phi_q[8] = -v_0_in_i_2;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     phi_q[4] = -v_0_in_i_1;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi_q[14] = -v_0_in_i_0;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
+    /* f_i_dot_f_j = f_i . f_j */
+    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    phi_q[14] = -v_0_in_i_0;
+    phi[4] = g_i_dot_h_j;
     phi_q[45] = -C_i[6];
     phi_q[46] = -C_i[7];
     phi_q[47] = -C_i[8];
-    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
-    const jg_real v_2_in_i_0 = d_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = d_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = d_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
     phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
     phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
-    /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
     /* v_3_in_j = alphadot_1 h_j - omega_j, axes of body j */
     const jg_real v_3_in_j_1 = C_j[7] * alphadot[1] - omega_j[1];
     const jg_real v_3_in_j_2 = C_j[8] * alphadot[1] - omega_j[2];
     const jg_real v_3_in_j_0 = C_j[6] * alphadot[1] - omega_j[0];
+    /* s_j_dot_h_j = s_j . h_j */
+    const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
     /* v_5_in_i = alphadot_0 h_i - v_i, axes of body i */
     const jg_real v_5_in_i_1 = C_i[7] * alphadot[0] - v_i[1];
     const jg_real v_5_in_i_2 = C_i[8] * alphadot[0] - v_i[2];
-    const jg_real v_5_in_i_0 = C_i[6] * alphadot[0] - v_i[0];
-    /* s_j_dot_h_j = s_j . h_j */
-    const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    const jg_real v_5_in_i_0 = C_i[6] * alphadot[0] - v_i[0];
     const jg_real t49 = s_j_dot_h_j * alphadot[1];
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    const jg_real t51 = alphadot[1] * h_j_dot_omega_j;
+    const jg_real t50 = alphadot[1] * h_j_dot_omega_j;
     /* v_4_in_j = alphadot_1 h_j x v_j + v_j x omega_j, axes of body j */
     const jg_real v_4_in_j_0 = v_j[2] * v_3_in_j_1 - v_j[1] * v_3_in_j_2;
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     const jg_real v_4_in_j_1 = v_j[0] * v_3_in_j_2 - v_j[2] * v_3_in_j_0;
     const jg_real v_4_in_j_2 = v_j[1] * v_3_in_j_0 - v_j[0] * v_3_in_j_1;
     /* v_6_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
     const jg_real v_6_in_i_0 = omega_i[2] * v_5_in_i_1 - omega_i[1] * v_5_in_i_2;
     const jg_real v_6_in_i_1 = omega_i[0] * v_5_in_i_2 - omega_i[2] * v_5_in_i_0;
     const jg_real v_6_in_i_2 = omega_i[1] * v_5_in_i_0 - omega_i[0] * v_5_in_i_1;
+    /* v_7_in_j = alphadot_1 (h_j . omega_j) s_j - (s_j . h_j) alphadot_1 omega_j, axes of body j */
+    const jg_real v_7_in_j_0 = s_j[0] * t50 - omega_j[0] * t49;
+    const jg_real v_7_in_j_1 = s_j[1] * t50 - omega_j[1] * t49;
+    const jg_real v_7_in_j_2 = s_j[2] * t50 - omega_j[2] * t49;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    /* v_7_in_j = alphadot_1 (h_j . omega_j) s_j - (s_j . h_j) alphadot_1 omega_j, axes of body j */
-    const jg_real v_7_in_j_0 = s_j[0] * t51 - omega_j[0] * t49;
-    const jg_real v_7_in_j_1 = s_j[1] * t51 - omega_j[1] * t49;
-    const jg_real v_7_in_j_2 = s_j[2] * t51 - omega_j[2] * t49;
-    phi[5] = f_i_dot_f_j - cosine_0;
-    phi_q[48] = sine_0;
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
-    phi_q[7] = f_i_cross_f_j_in_i_0;
     const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
-    phi_q[12] = f_i_cross_f_j_in_i_1;
     const jg_real f_i_cross_f_j_in_i_2 = C_i[8] * sine_0;
-    phi_q[17] = f_i_cross_f_j_in_i_2;
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = C_j[6] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_2 = C_j[8] * sine_0;
-    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
-    const jg_real f_i_cross_g_j_in_i_0 = C_i[6] * cosine_0;
-    const jg_real f_i_cross_g_j_in_i_1 = C_i[7] * cosine_0;
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
-    const jg_real f_i_cross_g_j_in_i_2 = C_i[8] * cosine_0;
+    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
     const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + cosine_0 * C_j[4];
-    phi_q[36] = A_joint_i_j_4;
-    const jg_real t73 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[12] = t73;
+    const jg_real f_i_cross_f_j_in_j_2 = C_j[8] * sine_0;
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
+    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
+    const jg_real f_i_cross_g_j_in_i_0 = C_i[6] * cosine_0;
     const jg_real A_joint_i_j_7 = C_j[2] * sine_0 + cosine_0 * C_j[5];
-    phi_q[42] = A_joint_i_j_7;
+    const jg_real f_i_cross_g_j_in_i_1 = C_i[7] * cosine_0;
     const jg_real A_joint_i_j_0 = cosine_0 * C_j[0] - C_j[3] * sine_0;
+    const jg_real f_i_cross_g_j_in_i_2 = C_i[8] * cosine_0;
     const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + cosine_0 * C_j[3];
+    phi[5] = f_i_dot_f_j - cosine_0;
+    phi_q[48] = sine_0;
+    phi_q[7] = f_i_cross_f_j_in_i_0;
+    phi_q[12] = f_i_cross_f_j_in_i_1;
+    phi_q[17] = f_i_cross_f_j_in_i_2;
+    phi_q[36] = A_joint_i_j_4;
+    phi_q[42] = A_joint_i_j_7;
     phi_q[30] = A_joint_i_j_1;
     phi_q[32] = -f_i_cross_f_j_in_j_0;
+    phi_q[31] = -A_joint_i_j_0;
+    phi_q[37] = -A_joint_i_j_3;
     phi_q[38] = -f_i_cross_f_j_in_j_1;
+    phi_q[43] = -A_joint_i_j_6;
     phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q_t_lambda_q[3] = lambda[5] * f_i_cross_g_j_in_i_0;
     phi_q_t_lambda_q[4] = lambda[5] * f_i_cross_g_j_in_i_1;
-    phi_q[31] = -A_joint_i_j_0;
-    phi_q[37] = -A_joint_i_j_3;
-    phi_q[43] = -A_joint_i_j_6;
-    phi_q_t_lambda_q[5] = lambda[5] * f_i_cross_g_j_in_i_2;
-    const jg_real t78 = cosine_0 * lambda[3] + sine_0 * lambda[4];
-    const jg_real t79 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * C_j[7];
-    phi_q[22] = A_ji_4;
     const jg_real A_ji_7 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * C_j[7];
-    phi_q[23] = A_ji_7;
+    const jg_real t79 = cosine_0 * lambda[5];
     const jg_real A_ji_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
-    phi_q[26] = A_ji_8;
     const jg_real A_ji_5 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
-    phi_q[25] = A_ji_5;
     const jg_real A_ji_3 = C_i[1] * A_joint_i_j_0 + C_i[4] * A_joint_i_j_1 + C_i[7] * C_j[6];
-    phi_q[19] = A_ji_3;
     const jg_real A_ji_6 = C_i[2] * A_joint_i_j_0 + C_i[5] * A_joint_i_j_1 + C_i[8] * C_j[6];
+    phi_q_t_lambda_q[5] = lambda[5] * f_i_cross_g_j_in_i_2;
+    phi_q[22] = A_ji_4;
+    phi_q[23] = A_ji_7;
+    phi_q_t_lambda_q[12] = t79;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
+    phi_q[19] = A_ji_3;
     phi_q[20] = A_ji_6;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[18] = A_ji_0;
     phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[24] = A_ji_2;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real t87 = cosine_0 * lambda[3] + sine_0 * lambda[4];
+    const jg_real t88 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* v_7_in_i = alphadot_1 (h_j . omega_j) s_j - (s_j . h_j) alphadot_1 omega_j, axes of body i */
     const jg_real v_7_in_i_0 = A_ji_0 * v_7_in_j_0 + A_ji_1 * v_7_in_j_1 + A_ji_2 * v_7_in_j_2;
     /* v_4_in_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_4_in_i_0 = A_ji_0 * v_4_in_j_0 + A_ji_1 * v_4_in_j_1 + A_ji_2 * v_4_in_j_2;
     const jg_real v_7_in_i_1 = A_ji_3 * v_7_in_j_0 + A_ji_4 * v_7_in_j_1 + A_ji_5 * v_7_in_j_2;
-    gamma[3] = -(alphadot[1] * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
-    const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
-    const jg_real v_7_in_i_2 = A_ji_6 * v_7_in_j_0 + A_ji_7 * v_7_in_j_1 + A_ji_8 * v_7_in_j_2;
-    gamma[4] = -(alphadot[1] * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
-    const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
-    phi_q_t_lambda_q[6] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[7] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[8] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
-    /* v_8_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 h_j x v_j - alphadot_0 h_i x omega_i - (s_j . ... */
-    const jg_real v_8_in_i_0 = v_7_in_i_0 - (v_4_in_i_0 + v_6_in_i_0);
-    gamma[0] = v_8_in_i_0;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
+    const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
+    const jg_real t97 = s_j_dot_lambda_0_1_2 + t79;
+    const jg_real v_7_in_i_2 = A_ji_6 * v_7_in_j_0 + A_ji_7 * v_7_in_j_1 + A_ji_8 * v_7_in_j_2;
+    /* v_8_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 h_j x v_j - alphadot_0 h_i x omega_i - (s_j . ... */
+    const jg_real v_8_in_i_0 = v_7_in_i_0 - (v_4_in_i_0 + v_6_in_i_0);
+    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    phi_q_t_lambda_q[6] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[7] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[8] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
+    gamma[0] = v_8_in_i_0;
+    const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
     const jg_real v_8_in_i_1 = v_7_in_i_1 - (v_4_in_i_1 + v_6_in_i_1);
+    const jg_real v_8_in_i_2 = v_7_in_i_2 - (v_4_in_i_2 + v_6_in_i_2);
+    /* v_2_in_j = (cos(alpha_1) lambda_3 + sin(alpha_1) lambda_4) f_j + (cos(alpha_1) lambda_4 - sin(alpha_1) ... */
+    const jg_real v_2_in_j_0 = C_j[0] * t87 + C_j[3] * t88 - C_j[6] * t97 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
+    const jg_real v_2_in_j_1 = C_j[1] * t87 + C_j[4] * t88 - C_j[7] * t97 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
+    const jg_real v_2_in_j_2 = C_j[2] * t87 + C_j[5] * t88 - C_j[8] * t97 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
+    gamma[3] = -(alphadot[1] * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
     gamma[1] = v_8_in_i_1;
+    gamma[4] = -(alphadot[1] * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
+    gamma[2] = v_8_in_i_2;
+    phi_q_t_lambda_q[9] = v_2_in_j_0;
+    phi_q_t_lambda_q[10] = v_2_in_j_1;
+    phi_q_t_lambda_q[11] = v_2_in_j_2;
     gamma[5] = -(alphadot[1] * (f_i_cross_g_j_in_i_0 * omega_i[0] + f_i_cross_g_j_in_i_1 * omega_i[1] +
         f_i_cross_g_j_in_i_2 * omega_i[2] + cosine_0 * (alphadot[1] - h_j_dot_omega_j)));
-    const jg_real v_8_in_i_2 = v_7_in_i_2 - (v_4_in_i_2 + v_6_in_i_2);
-    gamma[2] = v_8_in_i_2;
-    const jg_real t102 = s_j_dot_lambda_0_1_2 + t73;
-    /* v_2_in_j = (cos(alpha_1) lambda_3 + sin(alpha_1) lambda_4) f_j + (cos(alpha_1) lambda_4 - sin(alpha_1) ... */
-    const jg_real v_2_in_j_0 = C_j[0] * t78 + C_j[3] * t79 - C_j[6] * t102 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
-    phi_q_t_lambda_q[9] = v_2_in_j_0;
-    const jg_real v_2_in_j_1 = C_j[1] * t78 + C_j[4] * t79 - C_j[7] * t102 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
-    phi_q_t_lambda_q[10] = v_2_in_j_1;
-    const jg_real v_2_in_j_2 = C_j[2] * t78 + C_j[5] * t79 - C_j[8] * t102 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
-    phi_q_t_lambda_q[11] = v_2_in_j_2;
 }
 
 void jg_cylindrical_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

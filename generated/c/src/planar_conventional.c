@@ -4,10 +4,6 @@
  * joint planar, form conventional, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/planar.h"
 
 const int *jg_planar_conventional_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_planar_conventional_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_planar_conventional_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -47,9 +42,9 @@ void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
@@ -61,22 +56,21 @@ void jg_planar_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
     phi[0] = f_i_dot_h_j;
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
     phi[1] = g_i_dot_h_j;
     phi[2] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2;
 }
 
-void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_planar_conventional_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -95,32 +89,26 @@ void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    phi_q[12] = h_i_world_0;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    phi_q[13] = h_i_world_1;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    phi_q[14] = h_i_world_2;
-    phi_q[0] = -h_i_world_0;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    phi_q[1] = -h_i_world_1;
-    phi_q[2] = -h_i_world_2;
+    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
     const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
-    const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
     const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
     const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
         r_ij_world_2;
+    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
+    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
         r_ij_world_2;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
-    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
-    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
     /* h_j_in_joint_i = h_j, axes of joint i */
     const jg_real h_j_in_joint_i_1 = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
     const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
@@ -134,12 +122,16 @@ void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
     /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
     const jg_real s_j_cross_h_i_in_j_0 = f_i_in_j_0 * s_j_dot_g_i - g_i_in_j_0 * s_j_dot_f_i;
+    phi_q[12] = h_i_world_0;
+    phi_q[13] = h_i_world_1;
+    phi_q[14] = h_i_world_2;
+    phi_q[0] = -h_i_world_0;
+    phi_q[1] = -h_i_world_1;
+    phi_q[2] = -h_i_world_2;
     phi_q[17] = s_j_cross_h_i_in_j_0;
     phi_q[5] = C_i[3] * t27 - C_i[0] * v_0_in_joint_i;
     phi_q[8] = C_i[4] * t27 - C_i[1] * v_0_in_joint_i;
     phi_q[11] = C_i[5] * t27 - C_i[2] * v_0_in_joint_i;
-    const jg_real s_j_cross_h_i_in_j_1 = f_i_in_j_1 * s_j_dot_g_i - g_i_in_j_1 * s_j_dot_f_i;
-    phi_q[20] = s_j_cross_h_i_in_j_1;
     phi_q[3] = h_j_in_joint_i_1 * C_i[6] - C_i[3] * h_j_in_joint_i_2;
     phi_q[4] = C_i[0] * h_j_in_joint_i_2 - h_j_in_joint_i_0 * C_i[6];
     phi_q[6] = h_j_in_joint_i_1 * C_i[7] - C_i[4] * h_j_in_joint_i_2;
@@ -148,20 +140,22 @@ void jg_planar_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_re
     phi_q[10] = C_i[2] * h_j_in_joint_i_2 - h_j_in_joint_i_0 * C_i[8];
     /* h_j_cross_f_i_in_j = h_j x f_i, axes of body j */
     const jg_real h_j_cross_f_i_in_j_0 = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
-    phi_q[15] = h_j_cross_f_i_in_j_0;
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_0 = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
-    phi_q[16] = h_j_cross_g_i_in_j_0;
+    const jg_real s_j_cross_h_i_in_j_1 = f_i_in_j_1 * s_j_dot_g_i - g_i_in_j_1 * s_j_dot_f_i;
     const jg_real h_j_cross_f_i_in_j_1 = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
-    phi_q[18] = h_j_cross_f_i_in_j_1;
     const jg_real h_j_cross_g_i_in_j_1 = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
-    phi_q[19] = h_j_cross_g_i_in_j_1;
-    const jg_real s_j_cross_h_i_in_j_2 = f_i_in_j_2 * s_j_dot_g_i - g_i_in_j_2 * s_j_dot_f_i;
-    phi_q[23] = s_j_cross_h_i_in_j_2;
     const jg_real h_j_cross_f_i_in_j_2 = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
-    phi_q[21] = h_j_cross_f_i_in_j_2;
     const jg_real h_j_cross_g_i_in_j_2 = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
+    const jg_real s_j_cross_h_i_in_j_2 = f_i_in_j_2 * s_j_dot_g_i - g_i_in_j_2 * s_j_dot_f_i;
+    phi_q[15] = h_j_cross_f_i_in_j_0;
+    phi_q[16] = h_j_cross_g_i_in_j_0;
+    phi_q[20] = s_j_cross_h_i_in_j_1;
+    phi_q[18] = h_j_cross_f_i_in_j_1;
+    phi_q[19] = h_j_cross_g_i_in_j_1;
+    phi_q[21] = h_j_cross_f_i_in_j_2;
     phi_q[22] = h_j_cross_g_i_in_j_2;
+    phi_q[23] = s_j_cross_h_i_in_j_2;
 }
 
 void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -173,9 +167,8 @@ void jg_planar_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg
     jg_scatter(jg_planar_conventional_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -185,77 +178,73 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real v_0_in_i_2 = lambda[2] * C_i[8];
     const jg_real v_0_in_i_0 = lambda[2] * C_i[6];
     const jg_real t3 = v_0_in_i_1 * A_i[6] - v_0_in_i_2 * A_i[3];
+    const jg_real t4 = v_0_in_i_2 * A_i[0] - v_0_in_i_0 * A_i[6];
+    const jg_real t5 = v_0_in_i_0 * A_i[3] - v_0_in_i_1 * A_i[0];
+    const jg_real t6 = v_0_in_i_1 * A_i[7] - v_0_in_i_2 * A_i[4];
     phi_q_t_lambda_q[15] = t3;
     phi_q_t_lambda_q[45] = t3;
-    const jg_real t4 = v_0_in_i_2 * A_i[0] - v_0_in_i_0 * A_i[6];
     phi_q_t_lambda_q[27] = t4;
     phi_q_t_lambda_q[46] = t4;
-    const jg_real t5 = v_0_in_i_0 * A_i[3] - v_0_in_i_1 * A_i[0];
     phi_q_t_lambda_q[39] = t5;
     phi_q_t_lambda_q[47] = t5;
-    const jg_real t6 = v_0_in_i_1 * A_i[7] - v_0_in_i_2 * A_i[4];
     phi_q_t_lambda_q[16] = t6;
     phi_q_t_lambda_q[48] = t6;
     const jg_real t7 = v_0_in_i_2 * A_i[1] - v_0_in_i_0 * A_i[7];
+    const jg_real t8 = v_0_in_i_0 * A_i[4] - v_0_in_i_1 * A_i[1];
+    const jg_real t9 = -t3;
+    const jg_real t10 = v_0_in_i_1 * A_i[8] - v_0_in_i_2 * A_i[5];
     phi_q_t_lambda_q[28] = t7;
     phi_q_t_lambda_q[49] = t7;
-    const jg_real t8 = v_0_in_i_0 * A_i[4] - v_0_in_i_1 * A_i[1];
     phi_q_t_lambda_q[40] = t8;
     phi_q_t_lambda_q[50] = t8;
-    const jg_real t9 = v_0_in_i_1 * A_i[8] - v_0_in_i_2 * A_i[5];
-    phi_q_t_lambda_q[17] = t9;
-    phi_q_t_lambda_q[51] = t9;
-    const jg_real t10 = v_0_in_i_2 * A_i[2] - v_0_in_i_0 * A_i[8];
-    phi_q_t_lambda_q[29] = t10;
-    phi_q_t_lambda_q[52] = t10;
-    const jg_real t11 = -t3;
-    phi_q_t_lambda_q[0] = t11;
-    phi_q_t_lambda_q[9] = t11;
-    const jg_real t12 = v_0_in_i_0 * A_i[5] - v_0_in_i_1 * A_i[2];
-    phi_q_t_lambda_q[41] = t12;
-    phi_q_t_lambda_q[53] = t12;
-    const jg_real t13 = -t4;
-    phi_q_t_lambda_q[1] = t13;
-    phi_q_t_lambda_q[21] = t13;
+    phi_q_t_lambda_q[0] = t9;
+    phi_q_t_lambda_q[9] = t9;
+    phi_q_t_lambda_q[17] = t10;
+    phi_q_t_lambda_q[51] = t10;
+    const jg_real t11 = -t4;
+    const jg_real t12 = -t5;
+    const jg_real t13 = v_0_in_i_2 * A_i[2] - v_0_in_i_0 * A_i[8];
+    const jg_real t14 = -t6;
+    phi_q_t_lambda_q[1] = t11;
+    phi_q_t_lambda_q[21] = t11;
+    phi_q_t_lambda_q[2] = t12;
+    phi_q_t_lambda_q[33] = t12;
+    phi_q_t_lambda_q[29] = t13;
+    phi_q_t_lambda_q[52] = t13;
+    phi_q_t_lambda_q[3] = t14;
+    phi_q_t_lambda_q[10] = t14;
+    const jg_real t15 = -t7;
+    const jg_real t16 = v_0_in_i_0 * A_i[5] - v_0_in_i_1 * A_i[2];
+    const jg_real t17 = -t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t15 = -t5;
-    phi_q_t_lambda_q[2] = t15;
-    phi_q_t_lambda_q[33] = t15;
+    const jg_real t19 = -t10;
+    phi_q_t_lambda_q[4] = t15;
+    phi_q_t_lambda_q[22] = t15;
+    phi_q_t_lambda_q[41] = t16;
+    phi_q_t_lambda_q[53] = t16;
+    phi_q_t_lambda_q[5] = t17;
+    phi_q_t_lambda_q[34] = t17;
+    phi_q_t_lambda_q[6] = t19;
+    phi_q_t_lambda_q[11] = t19;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t17 = -t6;
-    phi_q_t_lambda_q[3] = t17;
-    phi_q_t_lambda_q[10] = t17;
+    const jg_real t21 = -t13;
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t19 = -t7;
-    phi_q_t_lambda_q[4] = t19;
-    phi_q_t_lambda_q[22] = t19;
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real t21 = -t8;
-    phi_q_t_lambda_q[5] = t21;
-    phi_q_t_lambda_q[34] = t21;
-    const jg_real t22 = -t9;
-    phi_q_t_lambda_q[6] = t22;
-    phi_q_t_lambda_q[11] = t22;
-    const jg_real t23 = -t10;
-    phi_q_t_lambda_q[7] = t23;
-    phi_q_t_lambda_q[23] = t23;
+    const jg_real t23 = -t16;
     /* r_ij_world = r_ij, world axes */
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real t25 = -t12;
-    phi_q_t_lambda_q[8] = t25;
-    phi_q_t_lambda_q[35] = t25;
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     /* v_1_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
     const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
-    const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     /* r_ij_in_i = r_ij, axes of body i */
     const jg_real r_ij_in_i_1 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
+    const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
     const jg_real r_ij_in_i_2 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
@@ -265,87 +254,91 @@ void jg_planar_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, 
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real v_0_in_j_2 = v_0_in_i_0 * A_ij_6 + v_0_in_i_1 * A_ij_7 + v_0_in_i_2 * A_ij_8;
     /* v_1_in_j = lambda_0 f_i + lambda_1 g_i, axes of body j */
     const jg_real v_1_in_j_1 = A_ij_3 * v_1_in_i_0 + A_ij_4 * v_1_in_i_1 + A_ij_5 * v_1_in_i_2;
+    const jg_real v_1_in_j_2 = A_ij_6 * v_1_in_i_0 + A_ij_7 * v_1_in_i_1 + A_ij_8 * v_1_in_i_2;
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_1 = r_ij_in_i_1 + s_j_in_i_1;
-    const jg_real v_1_in_j_2 = A_ij_6 * v_1_in_i_0 + A_ij_7 * v_1_in_i_1 + A_ij_8 * v_1_in_i_2;
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real v_0_in_j_0 = v_0_in_i_0 * A_ij_0 + v_0_in_i_1 * A_ij_1 + v_0_in_i_2 * A_ij_2;
     const jg_real v_1_in_j_0 = A_ij_0 * v_1_in_i_0 + A_ij_1 * v_1_in_i_1 + A_ij_2 * v_1_in_i_2;
-    const jg_real r_ij_in_i_0 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
+    const jg_real v_0_in_j_2 = v_0_in_i_0 * A_ij_6 + v_0_in_i_1 * A_ij_7 + v_0_in_i_2 * A_ij_8;
+    const jg_real e_ij_in_i_2 = r_ij_in_i_2 + s_j_in_i_2;
     /* M_1_j_j = (lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in axes of body j, ... */
     const jg_real M_1_j_j_4 = s_j[1] * v_0_in_j_1 + C_j[7] * v_1_in_j_1;
     /* M_0_i_i = (lambda_2 r_ij + lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in ... */
     const jg_real M_0_i_i_4 = v_0_in_i_1 * e_ij_in_i_1 + h_j_in_i_1 * v_1_in_i_1;
     const jg_real M_0_i_i_3 = v_0_in_i_0 * e_ij_in_i_1 + h_j_in_i_1 * v_1_in_i_0;
-    phi_q_t_lambda_q[13] = M_0_i_i_3;
     const jg_real M_1_j_j_1 = s_j[0] * v_0_in_j_1 + C_j[6] * v_1_in_j_1;
-    phi_q_t_lambda_q[58] = M_1_j_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * v_0_in_j_2 + C_j[8] * v_1_in_j_2;
-    const jg_real M_1_j_j_7 = s_j[2] * v_0_in_j_1 + C_j[8] * v_1_in_j_1;
-    phi_q_t_lambda_q[70] = M_1_j_j_7;
-    const jg_real e_ij_in_i_2 = r_ij_in_i_2 + s_j_in_i_2;
-    const jg_real M_1_j_j_2 = s_j[0] * v_0_in_j_2 + C_j[6] * v_1_in_j_2;
-    phi_q_t_lambda_q[59] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * v_0_in_j_2 + C_j[7] * v_1_in_j_2;
-    phi_q_t_lambda_q[65] = M_1_j_j_5;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    const jg_real t60 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real M_1_j_j_6 = s_j[2] * v_0_in_j_0 + C_j[8] * v_1_in_j_0;
-    phi_q_t_lambda_q[69] = M_1_j_j_6;
     const jg_real M_1_j_j_3 = s_j[1] * v_0_in_j_0 + C_j[7] * v_1_in_j_0;
+    phi_q_t_lambda_q[7] = t21;
+    phi_q_t_lambda_q[23] = t21;
+    phi_q_t_lambda_q[8] = t23;
+    phi_q_t_lambda_q[35] = t23;
+    phi_q_t_lambda_q[13] = M_0_i_i_3;
+    phi_q_t_lambda_q[58] = M_1_j_j_1;
+    phi_q_t_lambda_q[69] = M_1_j_j_6;
     phi_q_t_lambda_q[63] = M_1_j_j_3;
-    const jg_real M_1_j_j_0 = s_j[0] * v_0_in_j_0 + C_j[6] * v_1_in_j_0;
-    const jg_real e_ij_in_i_0 = r_ij_in_i_0 + s_j_in_i_0;
+    const jg_real M_1_j_j_8 = s_j[2] * v_0_in_j_2 + C_j[8] * v_1_in_j_2;
     const jg_real M_0_i_i_8 = v_0_in_i_2 * e_ij_in_i_2 + h_j_in_i_2 * v_1_in_i_2;
     const jg_real M_0_i_i_6 = v_0_in_i_0 * e_ij_in_i_2 + h_j_in_i_2 * v_1_in_i_0;
-    phi_q_t_lambda_q[14] = M_0_i_i_6;
+    const jg_real M_1_j_j_0 = s_j[0] * v_0_in_j_0 + C_j[6] * v_1_in_j_0;
+    const jg_real M_1_j_j_7 = s_j[2] * v_0_in_j_1 + C_j[8] * v_1_in_j_1;
+    const jg_real t61 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real M_1_j_j_2 = s_j[0] * v_0_in_j_2 + C_j[6] * v_1_in_j_2;
+    const jg_real t63 = M_1_j_j_0 + M_1_j_j_8;
+    const jg_real t64 = M_1_j_j_0 + M_1_j_j_4;
+    const jg_real M_1_j_j_5 = s_j[1] * v_0_in_j_2 + C_j[7] * v_1_in_j_2;
+    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
+    const jg_real r_ij_in_i_0 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
     const jg_real M_0_i_i_7 = v_0_in_i_1 * e_ij_in_i_2 + h_j_in_i_2 * v_1_in_i_1;
-    phi_q_t_lambda_q[26] = M_0_i_i_7;
-    const jg_real t69 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t70 = M_1_j_j_0 + M_1_j_j_4;
-    const jg_real M_0_i_i_1 = v_0_in_i_1 * e_ij_in_i_0 + h_j_in_i_0 * v_1_in_i_1;
-    phi_q_t_lambda_q[24] = M_0_i_i_1;
-    const jg_real M_0_i_i_0 = v_0_in_i_0 * e_ij_in_i_0 + h_j_in_i_0 * v_1_in_i_0;
-    const jg_real M_0_i_i_2 = v_0_in_i_2 * e_ij_in_i_0 + h_j_in_i_0 * v_1_in_i_2;
-    phi_q_t_lambda_q[36] = M_0_i_i_2;
+    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real e_ij_in_i_0 = r_ij_in_i_0 + s_j_in_i_0;
+    const jg_real t71 = A_ij_6 * t64 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    phi_q_t_lambda_q[14] = M_0_i_i_6;
+    phi_q_t_lambda_q[70] = M_1_j_j_7;
+    phi_q_t_lambda_q[59] = M_1_j_j_2;
+    phi_q_t_lambda_q[65] = M_1_j_j_5;
     phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q_t_lambda_q[26] = M_0_i_i_7;
+    phi_q_t_lambda_q[20] = t71;
+    phi_q_t_lambda_q[66] = t71;
+    const jg_real t72 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t61 + A_ij_6 * M_1_j_j_6);
+    const jg_real t73 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t63 + A_ij_6 * M_1_j_j_7);
     const jg_real M_0_i_i_5 = v_0_in_i_2 * e_ij_in_i_1 + h_j_in_i_1 * v_1_in_i_2;
+    const jg_real M_0_i_i_1 = v_0_in_i_1 * e_ij_in_i_0 + h_j_in_i_0 * v_1_in_i_1;
+    const jg_real M_0_i_i_0 = v_0_in_i_0 * e_ij_in_i_0 + h_j_in_i_0 * v_1_in_i_0;
+    const jg_real t77 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t61 + A_ij_7 * M_1_j_j_6);
+    phi_q_t_lambda_q[18] = t72;
+    phi_q_t_lambda_q[54] = t72;
+    phi_q_t_lambda_q[19] = t73;
+    phi_q_t_lambda_q[60] = t73;
     phi_q_t_lambda_q[37] = M_0_i_i_5;
-    const jg_real t75 = A_ij_6 * t70 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[20] = t75;
-    phi_q_t_lambda_q[66] = t75;
-    const jg_real t76 = A_ij_7 * t70 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t76;
-    phi_q_t_lambda_q[67] = t76;
-    phi_q_t_lambda_q[57] = -t60;
-    phi_q_t_lambda_q[64] = -t69;
-    phi_q_t_lambda_q[71] = -t70;
-    const jg_real t77 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t60 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[18] = t77;
-    phi_q_t_lambda_q[54] = t77;
-    const jg_real t78 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t60 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t78;
-    phi_q_t_lambda_q[55] = t78;
+    phi_q_t_lambda_q[24] = M_0_i_i_1;
+    phi_q_t_lambda_q[30] = t77;
+    phi_q_t_lambda_q[55] = t77;
+    const jg_real t78 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t63 + A_ij_7 * M_1_j_j_7);
+    const jg_real t79 = A_ij_7 * t64 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real M_0_i_i_2 = v_0_in_i_2 * e_ij_in_i_0 + h_j_in_i_0 * v_1_in_i_2;
+    phi_q_t_lambda_q[31] = t78;
+    phi_q_t_lambda_q[61] = t78;
+    phi_q_t_lambda_q[32] = t79;
+    phi_q_t_lambda_q[67] = t79;
+    phi_q_t_lambda_q[36] = M_0_i_i_2;
+    phi_q_t_lambda_q[57] = -t61;
+    phi_q_t_lambda_q[64] = -t63;
+    phi_q_t_lambda_q[71] = -t64;
+    const jg_real t81 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t61 + A_ij_8 * M_1_j_j_6);
+    const jg_real t82 = A_ij_8 * t64 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t83 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t63 + A_ij_8 * M_1_j_j_7);
     phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
     phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t79 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t60 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[42] = t79;
-    phi_q_t_lambda_q[56] = t79;
-    const jg_real t80 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t69 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[19] = t80;
-    phi_q_t_lambda_q[60] = t80;
-    const jg_real t81 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t69 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[31] = t81;
-    phi_q_t_lambda_q[61] = t81;
-    const jg_real t82 = A_ij_8 * t70 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    phi_q_t_lambda_q[42] = t81;
+    phi_q_t_lambda_q[56] = t81;
     phi_q_t_lambda_q[44] = t82;
     phi_q_t_lambda_q[68] = t82;
-    const jg_real t83 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t69 + A_ij_8 * M_1_j_j_7);
     phi_q_t_lambda_q[43] = t83;
     phi_q_t_lambda_q[62] = t83;
 }
@@ -359,9 +352,8 @@ void jg_planar_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_
     jg_scatter(jg_planar_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_planar_conventional_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -381,31 +373,29 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     /* omega_j_world = omega_j, world axes */
     const jg_real omega_j_world_0 = omega_j[0] * A_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
-    const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
-    const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
     const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
     const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
+    const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
+    const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
     /* omega_i_world = omega_i, world axes */
     const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
     const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
     const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j_world_0 * omega_j_world_0 + omega_j_world_1 * omega_j_world_1 +
         omega_j_world_2 * omega_j_world_2;
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = omega_j_world_0 * f_i_world_0 + omega_j_world_1 * f_i_world_1 + omega_j_world_2
         * f_i_world_2;
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i_world_0 * omega_i_world_0 + omega_i_world_1 * omega_i_world_1 +
         omega_i_world_2 * omega_i_world_2;
@@ -415,60 +405,61 @@ void jg_planar_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i_world_0 + h_j_world_1 * omega_i_world_1 + h_j_world_2 *
         omega_i_world_2;
-    /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = omega_j_world_0 * g_i_world_0 + omega_j_world_1 * g_i_world_1 + omega_j_world_2
-        * g_i_world_2;
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i_world_0 + f_i_world_1 * omega_i_world_1 + f_i_world_2 *
         omega_i_world_2;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i_world_0 + g_i_world_1 * omega_i_world_1 + g_i_world_2 *
         omega_i_world_2;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = omega_j_world_0 * g_i_world_0 + omega_j_world_1 * g_i_world_1 + omega_j_world_2
+        * g_i_world_2;
+    const jg_real t29 = omega_j_dot_omega_i * JG_REAL(2.0) - (omega_j_dot_omega_j + omega_i_dot_omega_i);
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real t32 = omega_j_dot_omega_i * JG_REAL(2.0) - (omega_j_dot_omega_j + omega_i_dot_omega_i);
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
     const jg_real h_i_cross_omega_i_world_0 = g_i_world_0 * f_i_dot_omega_i - f_i_world_0 * g_i_dot_omega_i;
     const jg_real h_i_cross_omega_i_world_1 = g_i_world_1 * f_i_dot_omega_i - f_i_world_1 * g_i_dot_omega_i;
     const jg_real h_i_cross_omega_i_world_2 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = omega_j_world_0 * h_i_world_0 + omega_j_world_1 * h_i_world_1 + omega_j_world_2
         * h_i_world_2;
-    /* h_i_dot_omega_i = h_i . omega_i */
-    const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = omega_i_world_0 * s_j_world_0 + omega_i_world_1 * s_j_world_1 + omega_i_world_2
         * s_j_world_2;
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* s_j_dot_h_i = s_j . h_i */
     const jg_real s_j_dot_h_i = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 * s_j_world_2;
     /* r_ij_dot_h_i = r_ij . h_i */
     const jg_real r_ij_dot_h_i = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
         r_ij_world_2;
-    gamma[0] = -(f_i_dot_h_j * t32 + f_i_dot_omega_j * (omega_j_dot_h_j - h_j_dot_omega_i * JG_REAL(2.0)) +
-        h_j_dot_omega_i * f_i_dot_omega_i);
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = omega_i_world_0 * r_ij_world_0 + omega_i_world_1 * r_ij_world_1 +
         omega_i_world_2 * r_ij_world_2;
-    gamma[1] = -(t32 * g_i_dot_h_j + h_j_dot_omega_i * (g_i_dot_omega_i - JG_REAL(2.0) * g_i_dot_omega_j) +
-        omega_j_dot_h_j * g_i_dot_omega_j);
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = omega_j[0] * s_j[0] + omega_j[1] * s_j[1] + omega_j[2] * s_j[2];
-    gamma[2] = s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j - h_i_dot_omega_i) - t32 * s_j_dot_h_i +
+    gamma[0] = -(f_i_dot_h_j * t29 + f_i_dot_omega_j * (omega_j_dot_h_j - h_j_dot_omega_i * JG_REAL(2.0)) +
+        h_j_dot_omega_i * f_i_dot_omega_i);
+    gamma[1] = -(t29 * g_i_dot_h_j + h_j_dot_omega_i * (g_i_dot_omega_i - JG_REAL(2.0) * g_i_dot_omega_j) +
+        omega_j_dot_h_j * g_i_dot_omega_j);
+    gamma[2] = s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j - h_i_dot_omega_i) - t29 * s_j_dot_h_i +
         omega_i_dot_omega_i * r_ij_dot_h_i - r_ij_dot_omega_i * h_i_dot_omega_i - s_j_dot_omega_j * h_i_dot_omega_j
         - JG_REAL(2.0) * (h_i_cross_omega_i_world_0 * v_i[0] + h_i_cross_omega_i_world_1 * v_i[1] +
         h_i_cross_omega_i_world_2 * v_i[2]) + JG_REAL(2.0) * (h_i_cross_omega_i_world_0 * v_j[0] +
         h_i_cross_omega_i_world_1 * v_j[1] + h_i_cross_omega_i_world_2 * v_j[2]);
 }
 
-void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_planar_conventional_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -479,42 +470,35 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real *const omega_j = velocity + 9;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
+    const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
     const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
     const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
     const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
-    /* r_ij_dot_g_i = r_ij . g_i */
-    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
-        r_ij_world_2;
-    /* h_i_dot_v_i = h_i . v_i */
-    const jg_real h_i_dot_v_i = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
-    /* h_i_dot_v_j = h_i . v_j */
-    const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
     const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
-    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    /* r_ij_dot_f_i = r_ij . f_i */
-    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
         r_ij_world_2;
+    const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
     /* h_j_in_joint_i = h_j, axes of joint i */
     const jg_real h_j_in_joint_i_1 = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
     /* omega_j_in_joint_i = omega_j, axes of joint i */
@@ -526,11 +510,18 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
     const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
     const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    /* h_i_dot_v_i = h_i . v_i */
+    const jg_real h_i_dot_v_i = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
     const jg_real omega_j_in_joint_i_0 = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 *
         omega_j[2];
     const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
+    /* h_i_dot_v_j = h_i . v_j */
+    const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
     const jg_real omega_j_in_joint_i_2 = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 *
         omega_j[2];
     const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
@@ -543,72 +534,65 @@ void jg_planar_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_rea
         omega_i_in_joint_i_1 * s_j_dot_f_i) + h_i_dot_v_i - h_i_dot_v_j);
 }
 
-void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_planar_conventional_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* v_3_in_j = lambda_2 s_j, axes of body j */
-    const jg_real v_3_in_j_0 = lambda[2] * s_j[0];
-    const jg_real v_3_in_j_1 = lambda[2] * s_j[1];
     /* v_1_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
     const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
-    const jg_real v_3_in_j_2 = lambda[2] * s_j[2];
     const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
+    const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
     const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
+    /* v_3_in_j = lambda_2 s_j, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[2] * s_j[0];
     const jg_real h_i_world_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
+    const jg_real v_3_in_j_1 = lambda[2] * s_j[1];
+    const jg_real v_3_in_j_2 = lambda[2] * s_j[2];
     /* v_0_world = lambda_2 h_i, world axes */
     const jg_real v_0_world_0 = lambda[2] * h_i_world_0;
-    phi_q_t_lambda[6] = v_0_world_0;
     const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
-    phi_q_t_lambda[7] = v_0_world_1;
-    const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     const jg_real v_0_world_2 = lambda[2] * h_i_world_2;
-    phi_q_t_lambda[8] = v_0_world_2;
-    phi_q_t_lambda[0] = -v_0_world_0;
-    phi_q_t_lambda[1] = -v_0_world_1;
-    phi_q_t_lambda[2] = -v_0_world_2;
-    /* v_3_world = lambda_2 s_j, world axes */
-    const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
-    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
-    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
+    const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* v_1_world = lambda_0 f_i + lambda_1 g_i, world axes */
     const jg_real v_1_world_1 = A_i[1] * v_1_in_i_0 + A_i[4] * v_1_in_i_1 + A_i[7] * v_1_in_i_2;
     const jg_real v_1_world_2 = A_i[2] * v_1_in_i_0 + A_i[5] * v_1_in_i_1 + A_i[8] * v_1_in_i_2;
-    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* v_3_world = lambda_2 s_j, world axes */
+    const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
     const jg_real v_3_world_2 = A_j[2] * v_3_in_j_0 + A_j[5] * v_3_in_j_1 + A_j[8] * v_3_in_j_2;
-    /* v_6_world = lambda_2 r_ij x h_i, world axes */
-    const jg_real v_6_world_0 = lambda[2] * r_ij_cross_h_i_world_0;
-    const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
-    const jg_real v_3_world_0 = A_j[0] * v_3_in_j_0 + A_j[3] * v_3_in_j_1 + A_j[6] * v_3_in_j_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
     /* v_2_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j, world axes */
     const jg_real v_2_world_0 = h_j_world_2 * v_1_world_1 - h_j_world_1 * v_1_world_2;
-    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
-    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
+    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
+    /* v_6_world = lambda_2 r_ij x h_i, world axes */
+    const jg_real v_6_world_0 = lambda[2] * r_ij_cross_h_i_world_0;
+    const jg_real v_3_world_0 = A_j[0] * v_3_in_j_0 + A_j[3] * v_3_in_j_1 + A_j[6] * v_3_in_j_2;
     /* v_4_world = lambda_2 s_j x h_i, world axes */
     const jg_real v_4_world_0 = h_i_world_2 * v_3_world_1 - h_i_world_1 * v_3_world_2;
-    const jg_real v_6_world_1 = lambda[2] * r_ij_cross_h_i_world_1;
-    const jg_real v_2_world_1 = h_j_world_0 * v_1_world_2 - h_j_world_2 * v_1_world_0;
-    const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - h_j_world_0 * v_1_world_1;
-    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
-    const jg_real v_4_world_1 = h_i_world_0 * v_3_world_2 - h_i_world_2 * v_3_world_0;
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
     /* v_5_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 s_j x h_i, world axes */
     const jg_real v_5_world_0 = v_2_world_0 - v_4_world_0;
-    const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
-    const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
+    const jg_real v_2_world_1 = h_j_world_0 * v_1_world_2 - h_j_world_2 * v_1_world_0;
+    const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - h_j_world_0 * v_1_world_1;
+    const jg_real v_6_world_1 = lambda[2] * r_ij_cross_h_i_world_1;
+    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
+    const jg_real v_4_world_1 = h_i_world_0 * v_3_world_2 - h_i_world_2 * v_3_world_0;
     /* v_7_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_ij x h_i - lambda_2 s_j x h_i, world axes */
     const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
+    const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
+    const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
     const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
     const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
     const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
@@ -618,8 +602,14 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     const jg_real v_5_in_j_2 = A_j[6] * v_5_world_0 + A_j[7] * v_5_world_1 + A_j[8] * v_5_world_2;
     /* v_7_in_i = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_ij x h_i - lambda_2 s_j x h_i, axes of ... */
     const jg_real v_7_in_i_0 = A_i[0] * v_7_world_0 + A_i[1] * v_7_world_1 + A_i[2] * v_7_world_2;
-    phi_q_t_lambda[3] = v_7_in_i_0;
     const jg_real v_7_in_i_1 = A_i[3] * v_7_world_0 + A_i[4] * v_7_world_1 + A_i[5] * v_7_world_2;
+    phi_q_t_lambda[6] = v_0_world_0;
+    phi_q_t_lambda[7] = v_0_world_1;
+    phi_q_t_lambda[8] = v_0_world_2;
+    phi_q_t_lambda[0] = -v_0_world_0;
+    phi_q_t_lambda[1] = -v_0_world_1;
+    phi_q_t_lambda[2] = -v_0_world_2;
+    phi_q_t_lambda[3] = v_7_in_i_0;
     phi_q_t_lambda[4] = v_7_in_i_1;
     const jg_real v_7_in_i_2 = A_i[6] * v_7_world_0 + A_i[7] * v_7_world_1 + A_i[8] * v_7_world_2;
     phi_q_t_lambda[5] = v_7_in_i_2;
@@ -628,10 +618,9 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
     phi_q_t_lambda[11] = -v_5_in_j_2;
 }
 
-void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_planar_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -641,242 +630,247 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    phi_q[12] = h_i_world_0;
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    phi_q[13] = h_i_world_1;
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    phi_q[14] = h_i_world_2;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    phi_q[0] = -h_i_world_0;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    /* s_i_dot_h_i = s_i . h_i */
-    const jg_real s_i_dot_h_i = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
-    phi_q[1] = -h_i_world_1;
-    phi_q[2] = -h_i_world_2;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_2 = C_i[0] * A_ij_6 + C_i[1] * A_ij_7 + C_i[2] * A_ij_8;
-    const jg_real f_i_in_j_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
+    const jg_real f_i_in_j_2 = C_i[0] * A_ij_6 + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
     const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
-        h_i_world_2;
-    /* e_ij_world = r_ij + s_j, world axes */
-    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    const jg_real f_i_in_j_0 = C_i[0] * A_ij_0 + C_i[1] * A_ij_1 + C_i[2] * A_ij_2;
+    const jg_real f_i_in_j_1 = C_i[0] * A_ij_3 + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
     const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
+    /* s_i_dot_h_i = s_i . h_i */
+    const jg_real s_i_dot_h_i = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
+    const jg_real t24 = h_i_in_j_0 * s_j[0];
+    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
+    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    phi_q[15] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
-    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
-    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    phi_q[16] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
-    const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
-    phi_q[3] = f_i_cross_h_j_in_i_0;
-    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
-    const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
-    phi_q[4] = g_i_cross_h_j_in_i_0;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    phi[0] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
+    phi_q[12] = h_i_world_0;
+    phi_q[13] = h_i_world_1;
+    phi_q[14] = h_i_world_2;
+    phi_q[0] = -h_i_world_0;
+    phi_q[1] = -h_i_world_1;
+    phi_q[2] = -h_i_world_2;
+    phi[0] = f_i_dot_h_j;
     phi[1] = g_i_dot_h_j;
-    phi_q[18] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
-    phi_q[19] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    const jg_real t31 = h_i_in_j_2 * s_j[2];
+    const jg_real t32 = h_i_in_j_1 * s_j[1];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
+    const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
+    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
+    const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    /* s_j_dot_h_i = s_j . h_i */
+    const jg_real s_j_dot_h_i = t32 + t24 + t31;
+    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real t42 = h_i_in_j_2 * s_j[1];
+    const jg_real t43 = s_j[2] * h_i_in_j_1;
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
     const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
-    phi_q[6] = f_i_cross_h_j_in_i_1;
     const jg_real g_i_cross_h_j_in_i_1 = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
-    phi_q[7] = g_i_cross_h_j_in_i_1;
     const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
-    phi_q[9] = f_i_cross_h_j_in_i_2;
     const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
+    phi_q[3] = f_i_cross_h_j_in_i_0;
+    phi_q[4] = g_i_cross_h_j_in_i_0;
+    phi_q[15] = C_j[7] * f_i_in_j_2 - f_i_in_j_1 * C_j[8];
+    phi[2] = s_j_dot_h_i + r_ij_dot_h_i - s_i_dot_h_i;
+    phi_q[6] = f_i_cross_h_j_in_i_1;
+    phi_q[7] = g_i_cross_h_j_in_i_1;
+    phi_q[9] = f_i_cross_h_j_in_i_2;
     phi_q[10] = g_i_cross_h_j_in_i_2;
     /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
-    const jg_real s_j_cross_h_i_in_j_0 = h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2];
-    phi_q[17] = s_j_cross_h_i_in_j_0;
+    const jg_real s_j_cross_h_i_in_j_0 = t42 - t43;
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
-    const jg_real s_j_cross_h_i_in_j_1 = h_i_in_j_0 * s_j[2] - h_i_in_j_2 * s_j[0];
-    phi_q[20] = s_j_cross_h_i_in_j_1;
+    const jg_real t52 = h_i_in_j_2 * s_j[0];
+    const jg_real t53 = s_j[2] * h_i_in_j_0;
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
+    const jg_real s_j_cross_h_i_in_j_1 = t53 - t52;
+    const jg_real t56 = h_i_in_j_1 * s_j[0];
+    const jg_real t57 = s_j[1] * h_i_in_j_0;
     /* v_1_in_i = lambda_2 h_i, axes of body i */
     const jg_real v_1_in_i_1 = C_i[7] * lambda[2];
-    /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = h_i_in_j_0 * s_j[0] + h_i_in_j_1 * s_j[1] + h_i_in_j_2 * s_j[2];
+    phi_q[16] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    phi_q[17] = s_j_cross_h_i_in_j_0;
+    phi_q[18] = f_i_in_j_0 * C_j[8] - C_j[6] * f_i_in_j_2;
+    phi_q[19] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    phi_q[20] = s_j_cross_h_i_in_j_1;
+    phi_q[21] = C_j[6] * f_i_in_j_1 - f_i_in_j_0 * C_j[7];
+    phi_q[22] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    phi_q[5] = C_i[7] * e_ij_in_i_2 - C_i[8] * e_ij_in_i_1;
     const jg_real v_1_in_i_2 = C_i[8] * lambda[2];
     const jg_real v_1_in_i_0 = C_i[6] * lambda[2];
-    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
-    phi_q[21] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
-    phi_q[22] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    const jg_real s_j_cross_h_i_in_j_2 = h_i_in_j_1 * s_j[0] - h_i_in_j_0 * s_j[1];
-    phi_q[23] = s_j_cross_h_i_in_j_2;
-    phi_q[5] = C_i[7] * e_ij_in_i_2 - C_i[8] * e_ij_in_i_1;
-    phi[2] = r_ij_dot_h_i + s_j_dot_h_i - s_i_dot_h_i;
-    const jg_real t53 = A_i[6] * v_1_in_i_1 - A_i[3] * v_1_in_i_2;
-    phi_q_t_lambda_q[15] = t53;
-    phi_q_t_lambda_q[45] = t53;
+    const jg_real s_j_cross_h_i_in_j_2 = t56 - t57;
+    const jg_real t62 = A_i[6] * v_1_in_i_1 - A_i[3] * v_1_in_i_2;
+    const jg_real t63 = A_i[0] * v_1_in_i_2 - A_i[6] * v_1_in_i_0;
+    const jg_real t64 = A_i[3] * v_1_in_i_0 - A_i[0] * v_1_in_i_1;
     phi_q[8] = C_i[8] * e_ij_in_i_0 - C_i[6] * e_ij_in_i_2;
     phi_q[11] = C_i[6] * e_ij_in_i_1 - C_i[7] * e_ij_in_i_0;
-    const jg_real t54 = A_i[0] * v_1_in_i_2 - A_i[6] * v_1_in_i_0;
-    phi_q_t_lambda_q[27] = t54;
-    phi_q_t_lambda_q[46] = t54;
-    const jg_real t55 = A_i[3] * v_1_in_i_0 - A_i[0] * v_1_in_i_1;
-    phi_q_t_lambda_q[39] = t55;
-    phi_q_t_lambda_q[47] = t55;
-    const jg_real t56 = A_i[7] * v_1_in_i_1 - A_i[4] * v_1_in_i_2;
-    phi_q_t_lambda_q[16] = t56;
-    phi_q_t_lambda_q[48] = t56;
-    const jg_real t57 = A_i[1] * v_1_in_i_2 - A_i[7] * v_1_in_i_0;
-    phi_q_t_lambda_q[28] = t57;
-    phi_q_t_lambda_q[49] = t57;
+    phi_q[23] = s_j_cross_h_i_in_j_2;
+    phi_q_t_lambda_q[15] = t62;
+    phi_q_t_lambda_q[45] = t62;
+    phi_q_t_lambda_q[27] = t63;
+    phi_q_t_lambda_q[46] = t63;
+    phi_q_t_lambda_q[39] = t64;
+    phi_q_t_lambda_q[47] = t64;
+    const jg_real t65 = A_i[7] * v_1_in_i_1 - A_i[4] * v_1_in_i_2;
+    const jg_real t66 = A_i[1] * v_1_in_i_2 - A_i[7] * v_1_in_i_0;
+    const jg_real t67 = A_i[4] * v_1_in_i_0 - A_i[1] * v_1_in_i_1;
     /* v_2_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
     const jg_real v_2_in_i_1 = C_i[1] * lambda[0] + C_i[4] * lambda[1];
-    const jg_real t59 = A_i[4] * v_1_in_i_0 - A_i[1] * v_1_in_i_1;
-    phi_q_t_lambda_q[40] = t59;
-    phi_q_t_lambda_q[50] = t59;
-    const jg_real v_2_in_i_2 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
-    const jg_real t61 = -t53;
-    phi_q_t_lambda_q[0] = t61;
-    phi_q_t_lambda_q[9] = t61;
-    const jg_real t62 = A_i[8] * v_1_in_i_1 - A_i[5] * v_1_in_i_2;
-    phi_q_t_lambda_q[17] = t62;
-    phi_q_t_lambda_q[51] = t62;
-    const jg_real t63 = -t54;
-    phi_q_t_lambda_q[1] = t63;
-    phi_q_t_lambda_q[21] = t63;
-    const jg_real t64 = -t55;
-    phi_q_t_lambda_q[2] = t64;
-    phi_q_t_lambda_q[33] = t64;
-    const jg_real t65 = A_i[2] * v_1_in_i_2 - A_i[8] * v_1_in_i_0;
-    phi_q_t_lambda_q[29] = t65;
-    phi_q_t_lambda_q[52] = t65;
-    const jg_real t66 = -t56;
-    phi_q_t_lambda_q[3] = t66;
-    phi_q_t_lambda_q[10] = t66;
-    const jg_real t67 = -t57;
-    phi_q_t_lambda_q[4] = t67;
-    phi_q_t_lambda_q[22] = t67;
-    const jg_real t68 = A_i[5] * v_1_in_i_0 - A_i[2] * v_1_in_i_1;
-    phi_q_t_lambda_q[41] = t68;
-    phi_q_t_lambda_q[53] = t68;
-    const jg_real t69 = -t59;
-    phi_q_t_lambda_q[5] = t69;
-    phi_q_t_lambda_q[34] = t69;
-    /* v_3_in_j = lambda_2 s_j, axes of body j */
-    const jg_real v_3_in_j_1 = s_j[1] * lambda[2];
-    const jg_real t71 = -t62;
-    phi_q_t_lambda_q[6] = t71;
-    phi_q_t_lambda_q[11] = t71;
-    const jg_real v_3_in_j_2 = s_j[2] * lambda[2];
-    const jg_real v_2_in_i_0 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    const jg_real t69 = A_i[8] * v_1_in_i_1 - A_i[5] * v_1_in_i_2;
+    phi_q_t_lambda_q[16] = t65;
+    phi_q_t_lambda_q[48] = t65;
+    phi_q_t_lambda_q[28] = t66;
+    phi_q_t_lambda_q[49] = t66;
+    phi_q_t_lambda_q[40] = t67;
+    phi_q_t_lambda_q[50] = t67;
+    phi_q_t_lambda_q[17] = t69;
+    phi_q_t_lambda_q[51] = t69;
+    const jg_real t70 = -t62;
+    const jg_real t71 = -t63;
+    const jg_real t72 = -t64;
+    const jg_real t73 = A_i[2] * v_1_in_i_2 - A_i[8] * v_1_in_i_0;
+    phi_q_t_lambda_q[0] = t70;
+    phi_q_t_lambda_q[9] = t70;
+    phi_q_t_lambda_q[1] = t71;
+    phi_q_t_lambda_q[21] = t71;
+    phi_q_t_lambda_q[2] = t72;
+    phi_q_t_lambda_q[33] = t72;
+    phi_q_t_lambda_q[29] = t73;
+    phi_q_t_lambda_q[52] = t73;
     const jg_real t74 = -t65;
-    phi_q_t_lambda_q[7] = t74;
-    phi_q_t_lambda_q[23] = t74;
-    const jg_real t75 = -t68;
-    phi_q_t_lambda_q[8] = t75;
-    phi_q_t_lambda_q[35] = t75;
+    const jg_real v_2_in_i_2 = C_i[2] * lambda[0] + C_i[5] * lambda[1];
+    const jg_real t76 = -t66;
+    const jg_real t77 = A_i[5] * v_1_in_i_0 - A_i[2] * v_1_in_i_1;
+    const jg_real t78 = -t67;
+    phi_q_t_lambda_q[3] = t74;
+    phi_q_t_lambda_q[10] = t74;
+    phi_q_t_lambda_q[4] = t76;
+    phi_q_t_lambda_q[22] = t76;
+    phi_q_t_lambda_q[41] = t77;
+    phi_q_t_lambda_q[53] = t77;
+    phi_q_t_lambda_q[5] = t78;
+    phi_q_t_lambda_q[34] = t78;
+    const jg_real t79 = -t69;
+    const jg_real t80 = -t73;
+    const jg_real t81 = -t77;
     /* M_0_i_i = (lambda_2 r_ij + lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * v_1_in_i_1 + h_j_in_i_1 * v_2_in_i_1;
-    const jg_real v_3_in_j_0 = s_j[0] * lambda[2];
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * v_1_in_i_2 + h_j_in_i_2 * v_2_in_i_2;
+    const jg_real M_0_i_i_4 = h_j_in_i_1 * v_2_in_i_1 + e_ij_in_i_1 * v_1_in_i_1;
+    const jg_real v_2_in_i_0 = C_i[0] * lambda[0] + C_i[3] * lambda[1];
+    const jg_real M_0_i_i_8 = h_j_in_i_2 * v_2_in_i_2 + e_ij_in_i_2 * v_1_in_i_2;
     /* v_2_in_j = lambda_0 f_i + lambda_1 g_i, axes of body j */
     const jg_real v_2_in_j_1 = f_i_in_j_1 * lambda[0] + g_i_in_j_1 * lambda[1];
     const jg_real v_2_in_j_2 = f_i_in_j_2 * lambda[0] + g_i_in_j_2 * lambda[1];
     const jg_real v_2_in_j_0 = f_i_in_j_0 * lambda[0] + g_i_in_j_0 * lambda[1];
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * v_1_in_i_0 + h_j_in_i_1 * v_2_in_i_0;
+    const jg_real M_0_i_i_3 = h_j_in_i_1 * v_2_in_i_0 + e_ij_in_i_1 * v_1_in_i_0;
+    const jg_real M_0_i_i_6 = h_j_in_i_2 * v_2_in_i_0 + e_ij_in_i_2 * v_1_in_i_0;
+    phi_q_t_lambda_q[6] = t79;
+    phi_q_t_lambda_q[11] = t79;
+    phi_q_t_lambda_q[7] = t80;
+    phi_q_t_lambda_q[23] = t80;
+    phi_q_t_lambda_q[8] = t81;
+    phi_q_t_lambda_q[35] = t81;
     phi_q_t_lambda_q[13] = M_0_i_i_3;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * v_1_in_i_0 + h_j_in_i_2 * v_2_in_i_0;
     phi_q_t_lambda_q[14] = M_0_i_i_6;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_1_in_i_1 + h_j_in_i_0 * v_2_in_i_1;
-    phi_q_t_lambda_q[24] = M_0_i_i_1;
-    phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_1_in_i_0 + h_j_in_i_0 * v_2_in_i_0;
     /* M_1_j_j = (lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in axes of body j, ... */
-    const jg_real M_1_j_j_4 = h_i_in_j_1 * v_3_in_j_1 + C_j[7] * v_2_in_j_1;
-    const jg_real M_1_j_j_1 = h_i_in_j_1 * v_3_in_j_0 + C_j[6] * v_2_in_j_1;
+    const jg_real M_1_j_j_4 = t32 * lambda[2] + C_j[7] * v_2_in_j_1;
+    const jg_real M_1_j_j_1 = t56 * lambda[2] + C_j[6] * v_2_in_j_1;
+    const jg_real M_1_j_j_7 = t43 * lambda[2] + C_j[8] * v_2_in_j_1;
+    const jg_real M_0_i_i_1 = h_j_in_i_0 * v_2_in_i_1 + e_ij_in_i_0 * v_1_in_i_1;
+    const jg_real M_1_j_j_8 = t31 * lambda[2] + C_j[8] * v_2_in_j_2;
+    const jg_real M_1_j_j_3 = C_j[7] * v_2_in_j_0 + t57 * lambda[2];
+    const jg_real M_1_j_j_6 = C_j[8] * v_2_in_j_0 + t53 * lambda[2];
+    const jg_real M_1_j_j_0 = C_j[6] * v_2_in_j_0 + t24 * lambda[2];
+    const jg_real M_1_j_j_2 = t52 * lambda[2] + C_j[6] * v_2_in_j_2;
+    const jg_real M_1_j_j_5 = t42 * lambda[2] + C_j[7] * v_2_in_j_2;
+    phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
     phi_q_t_lambda_q[58] = M_1_j_j_1;
-    const jg_real M_1_j_j_7 = h_i_in_j_1 * v_3_in_j_2 + C_j[8] * v_2_in_j_1;
     phi_q_t_lambda_q[70] = M_1_j_j_7;
-    const jg_real M_1_j_j_8 = h_i_in_j_2 * v_3_in_j_2 + C_j[8] * v_2_in_j_2;
-    const jg_real M_1_j_j_2 = h_i_in_j_2 * v_3_in_j_0 + C_j[6] * v_2_in_j_2;
-    phi_q_t_lambda_q[59] = M_1_j_j_2;
-    const jg_real M_1_j_j_3 = h_i_in_j_0 * v_3_in_j_1 + C_j[7] * v_2_in_j_0;
+    phi_q_t_lambda_q[24] = M_0_i_i_1;
     phi_q_t_lambda_q[63] = M_1_j_j_3;
-    const jg_real M_1_j_j_6 = h_i_in_j_0 * v_3_in_j_2 + C_j[8] * v_2_in_j_0;
     phi_q_t_lambda_q[69] = M_1_j_j_6;
-    const jg_real M_1_j_j_0 = h_i_in_j_0 * v_3_in_j_0 + C_j[6] * v_2_in_j_0;
-    const jg_real M_1_j_j_5 = h_i_in_j_2 * v_3_in_j_1 + C_j[7] * v_2_in_j_2;
+    phi_q_t_lambda_q[59] = M_1_j_j_2;
     phi_q_t_lambda_q[65] = M_1_j_j_5;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_1_in_i_1 + h_j_in_i_2 * v_2_in_i_1;
+    const jg_real M_0_i_i_0 = h_j_in_i_0 * v_2_in_i_0 + e_ij_in_i_0 * v_1_in_i_0;
+    const jg_real t101 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t102 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t103 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_0_i_i_7 = h_j_in_i_2 * v_2_in_i_1 + e_ij_in_i_2 * v_1_in_i_1;
+    const jg_real t105 = A_ij_6 * t103 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real M_0_i_i_2 = h_j_in_i_0 * v_2_in_i_2 + e_ij_in_i_0 * v_1_in_i_2;
+    const jg_real t107 = A_ij_7 * t103 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real M_0_i_i_5 = h_j_in_i_1 * v_2_in_i_2 + e_ij_in_i_1 * v_1_in_i_2;
     phi_q_t_lambda_q[26] = M_0_i_i_7;
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_1_in_i_2 + h_j_in_i_0 * v_2_in_i_2;
+    phi_q_t_lambda_q[25] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[20] = t105;
+    phi_q_t_lambda_q[66] = t105;
     phi_q_t_lambda_q[36] = M_0_i_i_2;
-    const jg_real t97 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t98 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t99 = M_1_j_j_0 + M_1_j_j_4;
-    phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * v_1_in_i_2 + h_j_in_i_1 * v_2_in_i_2;
+    phi_q_t_lambda_q[32] = t107;
+    phi_q_t_lambda_q[67] = t107;
     phi_q_t_lambda_q[37] = M_0_i_i_5;
-    phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[57] = -t97;
-    phi_q_t_lambda_q[64] = -t98;
-    const jg_real t101 = A_ij_6 * t99 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[20] = t101;
-    phi_q_t_lambda_q[66] = t101;
-    phi_q_t_lambda_q[71] = -t99;
-    const jg_real t102 = A_ij_7 * t99 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t102;
-    phi_q_t_lambda_q[67] = t102;
-    const jg_real t103 = A_ij_8 * t99 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[44] = t103;
-    phi_q_t_lambda_q[68] = t103;
-    const jg_real t104 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t97 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[18] = t104;
-    phi_q_t_lambda_q[54] = t104;
-    const jg_real t105 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t97 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t105;
-    phi_q_t_lambda_q[55] = t105;
-    const jg_real t106 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t97 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[42] = t106;
-    phi_q_t_lambda_q[56] = t106;
-    const jg_real t107 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t98 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[19] = t107;
-    phi_q_t_lambda_q[60] = t107;
-    const jg_real t108 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t98 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[31] = t108;
-    phi_q_t_lambda_q[61] = t108;
+    const jg_real t109 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t101 + A_ij_6 * M_1_j_j_6);
+    const jg_real t110 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t101 + A_ij_7 * M_1_j_j_6);
+    const jg_real t111 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t102 + A_ij_6 * M_1_j_j_7);
+    const jg_real t112 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t102 + A_ij_7 * M_1_j_j_7);
+    phi_q_t_lambda_q[38] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[18] = t109;
+    phi_q_t_lambda_q[54] = t109;
+    phi_q_t_lambda_q[30] = t110;
+    phi_q_t_lambda_q[55] = t110;
+    phi_q_t_lambda_q[19] = t111;
+    phi_q_t_lambda_q[60] = t111;
+    phi_q_t_lambda_q[31] = t112;
+    phi_q_t_lambda_q[61] = t112;
+    const jg_real t113 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t101 + A_ij_8 * M_1_j_j_6);
+    const jg_real t114 = A_ij_8 * t103 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t115 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t102 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[57] = -t101;
+    phi_q_t_lambda_q[64] = -t102;
+    phi_q_t_lambda_q[71] = -t103;
+    phi_q_t_lambda_q[42] = t113;
+    phi_q_t_lambda_q[56] = t113;
+    phi_q_t_lambda_q[44] = t114;
+    phi_q_t_lambda_q[68] = t114;
+    phi_q_t_lambda_q[43] = t115;
+    phi_q_t_lambda_q[62] = t115;
     /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
-    const jg_real t110 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t98 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[43] = t110;
-    phi_q_t_lambda_q[62] = t110;
+    const jg_real h_i_dot_omega_j = h_i_in_j_1 * omega_j[1] + h_i_in_j_0 * omega_j[0] + h_i_in_j_2 * omega_j[2];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
     /* g_i_dot_omega_j = g_i . omega_j */
@@ -889,18 +883,13 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
+        h_i_dot_omega_j * h_i_dot_omega_j;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
-        h_i_dot_omega_j * h_i_dot_omega_j;
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
-    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
-    const jg_real h_i_cross_omega_i_world_2 = h_i_world_0 * omega_i_world_1 - h_i_world_1 * omega_i_world_0;
-    const jg_real h_i_cross_omega_i_world_0 = h_i_world_1 * omega_i_world_2 - h_i_world_2 * omega_i_world_1;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i_world_0 + h_i_world_1 * omega_i_world_1 + h_i_world_2 *
         omega_i_world_2;
@@ -910,19 +899,24 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i_world_0 + r_ij_world_1 * omega_i_world_1 + r_ij_world_2
         * omega_i_world_2;
-    const jg_real h_i_cross_omega_i_world_1 = h_i_world_2 * omega_i_world_0 - h_i_world_0 * omega_i_world_2;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = f_i_dot_omega_i * f_i_dot_omega_i + g_i_dot_omega_i * g_i_dot_omega_i +
         h_i_dot_omega_i * h_i_dot_omega_i;
     /* omega_j_dot_omega_i = omega_j . omega_i */
     const jg_real omega_j_dot_omega_i = f_i_dot_omega_j * f_i_dot_omega_i + g_i_dot_omega_j * g_i_dot_omega_i +
         h_i_dot_omega_j * h_i_dot_omega_i;
-    const jg_real t130 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
-    gamma[0] = f_i_dot_h_j * t130 + f_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) -
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
+    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
+    const jg_real h_i_cross_omega_i_world_0 = h_i_world_1 * omega_i_world_2 - h_i_world_2 * omega_i_world_1;
+    const jg_real h_i_cross_omega_i_world_1 = h_i_world_2 * omega_i_world_0 - h_i_world_0 * omega_i_world_2;
+    const jg_real h_i_cross_omega_i_world_2 = h_i_world_0 * omega_i_world_1 - h_i_world_1 * omega_i_world_0;
+    const jg_real t136 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
+    gamma[0] = f_i_dot_h_j * t136 + f_i_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) -
         f_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[1] = g_i_dot_h_j * t130 + h_j_dot_omega_i * (g_i_dot_omega_j * JG_REAL(2.0) - g_i_dot_omega_i) -
+    gamma[1] = g_i_dot_h_j * t136 + h_j_dot_omega_i * (g_i_dot_omega_j * JG_REAL(2.0) - g_i_dot_omega_i) -
         g_i_dot_omega_j * h_j_dot_omega_j;
-    gamma[2] = s_j_dot_h_i * t130 + s_j_dot_omega_i * (h_i_dot_omega_j * JG_REAL(2.0) - h_i_dot_omega_i) +
+    gamma[2] = s_j_dot_h_i * t136 + (h_i_dot_omega_j * JG_REAL(2.0) - h_i_dot_omega_i) * s_j_dot_omega_i +
         r_ij_dot_h_i * omega_i_dot_omega_i - h_i_dot_omega_i * r_ij_dot_omega_i - h_i_dot_omega_j * s_j_dot_omega_j
         - JG_REAL(2.0) * (h_i_cross_omega_i_world_0 * v_i[0] + h_i_cross_omega_i_world_1 * v_i[1] +
         h_i_cross_omega_i_world_2 * v_i[2]) + JG_REAL(2.0) * (h_i_cross_omega_i_world_0 * v_j[0] +

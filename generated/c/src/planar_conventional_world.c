@@ -4,10 +4,6 @@
  * joint planar, form conventional, derivative exact, variation world, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/planar.h"
 
 const int *jg_planar_conventional_world_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_planar_conventional_world_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_planar_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_planar_conventional_world_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -47,9 +42,9 @@ void jg_planar_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
@@ -61,92 +56,91 @@ void jg_planar_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
     phi[0] = f_i_dot_h_j;
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
     phi[1] = g_i_dot_h_j;
     phi[2] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2;
 }
 
-void jg_planar_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_planar_conventional_world_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    phi_q[12] = h_i_world_0;
-    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    phi_q[13] = h_i_world_1;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    phi_q[14] = h_i_world_2;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* f_i_cross_h_j_world = f_i x h_j, world axes */
     const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[3] = f_i_cross_h_j_world_0;
-    phi_q[0] = -h_i_world_0;
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    phi_q[4] = g_i_cross_h_j_world_0;
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    phi_q[12] = h_i_world_0;
+    phi_q[13] = h_i_world_1;
+    phi_q[14] = h_i_world_2;
+    phi_q[0] = -h_i_world_0;
+    phi_q[3] = f_i_cross_h_j_world_0;
     phi_q[1] = -h_i_world_1;
     phi_q[2] = -h_i_world_2;
-    phi_q[15] = -f_i_cross_h_j_world_0;
-    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[6] = f_i_cross_h_j_world_1;
-    phi_q[16] = -g_i_cross_h_j_world_0;
+    phi_q[4] = g_i_cross_h_j_world_0;
+    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
     const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
     /* s_j_cross_h_i_world = s_j x h_i, world axes */
     const jg_real s_j_cross_h_i_world_0 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
-    phi_q[17] = s_j_cross_h_i_world_0;
-    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
-    phi_q[7] = g_i_cross_h_j_world_1;
     const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[9] = f_i_cross_h_j_world_2;
-    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
-    phi_q[10] = g_i_cross_h_j_world_2;
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
-    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
-    phi_q[20] = s_j_cross_h_i_world_1;
-    phi_q[18] = -f_i_cross_h_j_world_1;
-    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
-    phi_q[23] = s_j_cross_h_i_world_2;
     /* v_0_world = r_ij x h_i + s_j x h_i, world axes */
     const jg_real v_0_world_0 = r_ij_cross_h_i_world_0 + s_j_cross_h_i_world_0;
-    phi_q[19] = -g_i_cross_h_j_world_1;
-    phi_q[21] = -f_i_cross_h_j_world_2;
-    phi_q[22] = -g_i_cross_h_j_world_2;
+    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
+    phi_q[15] = -f_i_cross_h_j_world_0;
+    phi_q[17] = s_j_cross_h_i_world_0;
+    phi_q[16] = -g_i_cross_h_j_world_0;
+    phi_q[6] = f_i_cross_h_j_world_1;
+    phi_q[7] = g_i_cross_h_j_world_1;
+    phi_q[9] = f_i_cross_h_j_world_2;
+    phi_q[10] = g_i_cross_h_j_world_2;
+    phi_q[5] = -v_0_world_0;
+    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
+    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
     const jg_real v_0_world_1 = r_ij_cross_h_i_world_1 + s_j_cross_h_i_world_1;
     const jg_real v_0_world_2 = r_ij_cross_h_i_world_2 + s_j_cross_h_i_world_2;
-    phi_q[5] = -v_0_world_0;
+    phi_q[18] = -f_i_cross_h_j_world_1;
+    phi_q[19] = -g_i_cross_h_j_world_1;
+    phi_q[20] = s_j_cross_h_i_world_1;
+    phi_q[21] = -f_i_cross_h_j_world_2;
+    phi_q[22] = -g_i_cross_h_j_world_2;
+    phi_q[23] = s_j_cross_h_i_world_2;
     phi_q[8] = -v_0_world_1;
     phi_q[11] = -v_0_world_2;
 }
@@ -160,131 +154,130 @@ void jg_planar_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, co
     jg_scatter(jg_planar_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_planar_conventional_world_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    /* v_1_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
-    const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
-    const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
-    const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
+    /* v_1_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
+    const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
+    const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     /* v_0_world = lambda_2 h_i, world axes */
     const jg_real v_0_world_2 = lambda[2] * h_i_world_2;
+    const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
     phi_q_t_lambda_q[2] = v_0_world_2;
     phi_q_t_lambda_q[6] = v_0_world_2;
     phi_q_t_lambda_q[21] = v_0_world_2;
     phi_q_t_lambda_q[36] = v_0_world_2;
-    const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
     phi_q_t_lambda_q[1] = v_0_world_1;
     phi_q_t_lambda_q[12] = v_0_world_1;
     phi_q_t_lambda_q[26] = v_0_world_1;
     phi_q_t_lambda_q[40] = v_0_world_1;
+    const jg_real v_0_world_0 = lambda[2] * h_i_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real v_0_world_0 = lambda[2] * h_i_world_0;
+    const jg_real t12 = -v_0_world_2;
     phi_q_t_lambda_q[5] = v_0_world_0;
     phi_q_t_lambda_q[17] = v_0_world_0;
     phi_q_t_lambda_q[32] = v_0_world_0;
     phi_q_t_lambda_q[39] = v_0_world_0;
+    phi_q_t_lambda_q[0] = t12;
+    phi_q_t_lambda_q[11] = t12;
+    phi_q_t_lambda_q[16] = t12;
+    phi_q_t_lambda_q[38] = t12;
+    const jg_real t13 = -v_0_world_1;
+    const jg_real t14 = -v_0_world_0;
+    phi_q_t_lambda_q[4] = t13;
+    phi_q_t_lambda_q[7] = t13;
+    phi_q_t_lambda_q[31] = t13;
+    phi_q_t_lambda_q[37] = t13;
+    phi_q_t_lambda_q[3] = t14;
+    phi_q_t_lambda_q[22] = t14;
+    phi_q_t_lambda_q[27] = t14;
+    phi_q_t_lambda_q[41] = t14;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real t15 = -v_0_world_2;
-    phi_q_t_lambda_q[0] = t15;
-    phi_q_t_lambda_q[11] = t15;
-    phi_q_t_lambda_q[16] = t15;
-    phi_q_t_lambda_q[38] = t15;
-    const jg_real t16 = -v_0_world_1;
-    phi_q_t_lambda_q[4] = t16;
-    phi_q_t_lambda_q[7] = t16;
-    phi_q_t_lambda_q[31] = t16;
-    phi_q_t_lambda_q[37] = t16;
-    const jg_real t17 = -v_0_world_0;
-    phi_q_t_lambda_q[3] = t17;
-    phi_q_t_lambda_q[22] = t17;
-    phi_q_t_lambda_q[27] = t17;
-    phi_q_t_lambda_q[41] = t17;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* v_1_world = lambda_0 f_i + lambda_1 g_i, world axes */
     const jg_real v_1_world_1 = A_i[1] * v_1_in_i_0 + A_i[4] * v_1_in_i_1 + A_i[7] * v_1_in_i_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real v_1_world_2 = A_i[2] * v_1_in_i_0 + A_i[5] * v_1_in_i_1 + A_i[8] * v_1_in_i_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
     /* M_0_world_world = (lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in world axes, ...
         */
     const jg_real M_0_world_world_4 = v_0_world_1 * s_j_world_1 + h_j_world_1 * v_1_world_1;
     const jg_real M_0_world_world_8 = v_0_world_2 * s_j_world_2 + h_j_world_2 * v_1_world_2;
-    const jg_real M_0_world_world_5 = v_0_world_2 * s_j_world_1 + h_j_world_1 * v_1_world_2;
-    phi_q_t_lambda_q[58] = M_0_world_world_5;
-    const jg_real M_0_world_world_7 = v_0_world_1 * s_j_world_2 + h_j_world_2 * v_1_world_1;
-    phi_q_t_lambda_q[53] = M_0_world_world_7;
-    const jg_real M_0_world_world_1 = v_0_world_1 * s_j_world_0 + h_j_world_0 * v_1_world_1;
-    phi_q_t_lambda_q[51] = M_0_world_world_1;
-    const jg_real M_0_world_world_2 = v_0_world_2 * s_j_world_0 + h_j_world_0 * v_1_world_2;
-    phi_q_t_lambda_q[57] = M_0_world_world_2;
+    const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
     /* M_1_world_world = (lambda_2 r_ij + lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in
         ... */
     const jg_real M_1_world_world_4 = M_0_world_world_4 + v_0_world_1 * r_ij_world_1;
+    const jg_real M_0_world_world_5 = v_0_world_2 * s_j_world_1 + h_j_world_1 * v_1_world_2;
+    const jg_real M_0_world_world_7 = v_0_world_1 * s_j_world_2 + h_j_world_2 * v_1_world_1;
     const jg_real M_1_world_world_8 = M_0_world_world_8 + v_0_world_2 * r_ij_world_2;
-    const jg_real t32 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t32;
-    phi_q_t_lambda_q[42] = t32;
+    const jg_real t30 = M_0_world_world_4 + M_0_world_world_8;
+    const jg_real M_0_world_world_1 = v_0_world_1 * s_j_world_0 + h_j_world_0 * v_1_world_1;
+    const jg_real M_0_world_world_2 = v_0_world_2 * s_j_world_0 + h_j_world_0 * v_1_world_2;
     const jg_real M_1_world_world_5 = M_0_world_world_5 + v_0_world_2 * r_ij_world_1;
+    const jg_real t34 = -M_0_world_world_5;
+    phi_q_t_lambda_q[58] = M_0_world_world_5;
+    phi_q_t_lambda_q[53] = M_0_world_world_7;
+    phi_q_t_lambda_q[13] = t30;
+    phi_q_t_lambda_q[42] = t30;
+    phi_q_t_lambda_q[51] = M_0_world_world_1;
+    phi_q_t_lambda_q[57] = M_0_world_world_2;
     phi_q_t_lambda_q[20] = M_1_world_world_5;
-    const jg_real M_0_world_world_3 = v_0_world_0 * s_j_world_1 + h_j_world_1 * v_1_world_0;
-    phi_q_t_lambda_q[46] = M_0_world_world_3;
-    const jg_real M_0_world_world_0 = v_0_world_0 * s_j_world_0 + h_j_world_0 * v_1_world_0;
-    const jg_real t36 = -M_0_world_world_5;
-    phi_q_t_lambda_q[25] = t36;
-    phi_q_t_lambda_q[55] = t36;
-    const jg_real M_0_world_world_6 = v_0_world_0 * s_j_world_2 + h_j_world_2 * v_1_world_0;
-    phi_q_t_lambda_q[47] = M_0_world_world_6;
+    phi_q_t_lambda_q[25] = t34;
+    phi_q_t_lambda_q[55] = t34;
     const jg_real M_1_world_world_7 = M_0_world_world_7 + v_0_world_1 * r_ij_world_2;
-    phi_q_t_lambda_q[29] = M_1_world_world_7;
-    const jg_real t39 = -M_0_world_world_7;
-    phi_q_t_lambda_q[34] = t39;
-    phi_q_t_lambda_q[50] = t39;
+    const jg_real t36 = -M_0_world_world_7;
+    const jg_real M_0_world_world_3 = v_0_world_0 * s_j_world_1 + h_j_world_1 * v_1_world_0;
     const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * r_ij_world_0;
+    const jg_real t39 = -M_0_world_world_1;
+    phi_q_t_lambda_q[29] = M_1_world_world_7;
+    phi_q_t_lambda_q[34] = t36;
+    phi_q_t_lambda_q[50] = t36;
+    phi_q_t_lambda_q[45] = -t30;
+    phi_q_t_lambda_q[46] = M_0_world_world_3;
     phi_q_t_lambda_q[9] = M_1_world_world_1;
+    phi_q_t_lambda_q[14] = t39;
+    phi_q_t_lambda_q[48] = t39;
     const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * r_ij_world_0;
-    phi_q_t_lambda_q[10] = M_1_world_world_2;
-    const jg_real t42 = -M_0_world_world_1;
-    phi_q_t_lambda_q[14] = t42;
-    phi_q_t_lambda_q[48] = t42;
-    const jg_real t43 = -M_0_world_world_2;
-    phi_q_t_lambda_q[15] = t43;
-    phi_q_t_lambda_q[54] = t43;
-    phi_q_t_lambda_q[45] = -t32;
+    const jg_real t41 = -M_0_world_world_2;
+    const jg_real M_0_world_world_0 = v_0_world_0 * s_j_world_0 + h_j_world_0 * v_1_world_0;
+    const jg_real M_0_world_world_6 = v_0_world_0 * s_j_world_2 + h_j_world_2 * v_1_world_0;
     const jg_real M_1_world_world_3 = M_0_world_world_3 + v_0_world_0 * r_ij_world_1;
+    const jg_real t45 = -M_0_world_world_3;
+    phi_q_t_lambda_q[10] = M_1_world_world_2;
+    phi_q_t_lambda_q[15] = t41;
+    phi_q_t_lambda_q[54] = t41;
+    phi_q_t_lambda_q[47] = M_0_world_world_6;
+    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
     phi_q_t_lambda_q[18] = M_1_world_world_3;
+    phi_q_t_lambda_q[23] = t45;
+    phi_q_t_lambda_q[43] = t45;
     const jg_real M_1_world_world_0 = M_0_world_world_0 + v_0_world_0 * r_ij_world_0;
-    const jg_real t46 = -M_0_world_world_3;
-    phi_q_t_lambda_q[23] = t46;
-    phi_q_t_lambda_q[43] = t46;
     const jg_real t47 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
+    const jg_real t49 = -M_0_world_world_6;
+    const jg_real t50 = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[24] = t47;
     phi_q_t_lambda_q[49] = t47;
-    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
     phi_q_t_lambda_q[28] = M_1_world_world_6;
-    const jg_real t49 = -M_0_world_world_6;
     phi_q_t_lambda_q[33] = t49;
     phi_q_t_lambda_q[44] = t49;
-    const jg_real t50 = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[35] = t50;
     phi_q_t_lambda_q[56] = t50;
-    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
     phi_q_t_lambda_q[52] = -t47;
     phi_q_t_lambda_q[59] = -t50;
     phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
@@ -300,9 +293,8 @@ void jg_planar_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTR
     jg_scatter(jg_planar_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_planar_conventional_world_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -322,64 +314,64 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
     const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
-    /* omega_i_dot_g_i = omega_i . g_i */
-    const jg_real omega_i_dot_g_i = omega_i[0] * g_i_world_0 + omega_i[1] * g_i_world_1 + omega_i[2] * g_i_world_2;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_world_0 + omega_i[1] * h_j_world_1 + omega_i[2] * h_j_world_2;
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    const jg_real t20 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
+    /* omega_i_dot_g_i = omega_i . g_i */
+    const jg_real omega_i_dot_g_i = omega_i[0] * g_i_world_0 + omega_i[1] * g_i_world_1 + omega_i[2] * g_i_world_2;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
-    const jg_real t20 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* r_ij_world = r_ij, world axes */
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* omega_i_dot_h_i = omega_i . h_i */
     const jg_real omega_i_dot_h_i = omega_i[0] * h_i_world_0 + omega_i[1] * h_i_world_1 + omega_i[2] * h_i_world_2;
-    /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
-        r_ij_world_2;
-    /* omega_i_cross_h_i_world = omega_i x h_i, world axes */
-    const jg_real omega_i_cross_h_i_world_0 = omega_i[1] * h_i_world_2 - omega_i[2] * h_i_world_1;
-    const jg_real omega_i_cross_h_i_world_1 = omega_i[2] * h_i_world_0 - omega_i[0] * h_i_world_2;
-    gamma[1] = omega_i_dot_h_j * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t20 * g_i_dot_h_j -
-        h_j_dot_omega_j * g_i_dot_omega_j;
-    /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
         r_ij_world_2;
     /* s_j_dot_h_i = s_j . h_i */
     const jg_real s_j_dot_h_i = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 * s_j_world_2;
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
+    /* h_i_dot_omega_j = h_i . omega_j */
+    const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = omega_j[0] * s_j_world_0 + omega_j[1] * s_j_world_1 + omega_j[2] * s_j_world_2;
+    /* omega_i_cross_h_i_world = omega_i x h_i, world axes */
+    const jg_real omega_i_cross_h_i_world_0 = omega_i[1] * h_i_world_2 - omega_i[2] * h_i_world_1;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
+    const jg_real omega_i_cross_h_i_world_1 = omega_i[2] * h_i_world_0 - omega_i[0] * h_i_world_2;
     const jg_real omega_i_cross_h_i_world_2 = omega_i[0] * h_i_world_1 - omega_i[1] * h_i_world_0;
+    gamma[1] = omega_i_dot_h_j * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t20 * g_i_dot_h_j -
+        h_j_dot_omega_j * g_i_dot_omega_j;
     gamma[0] = -(f_i_dot_h_j * t20 + omega_i_dot_h_j * (omega_i_dot_f_i - f_i_dot_omega_j * JG_REAL(2.0)) +
         h_j_dot_omega_j * f_i_dot_omega_j);
     gamma[2] = h_i_dot_omega_j * (JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j) - (t20 * s_j_dot_h_i +
@@ -389,9 +381,8 @@ void jg_planar_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg
         omega_i_cross_h_i_world_2 * v_i[2]);
 }
 
-void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_planar_conventional_world_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -410,36 +401,36 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
+    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
     const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
-    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
-    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
-    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
-    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
-    /* s_j_cross_h_i_world = s_j x h_i, world axes */
-    const jg_real s_j_cross_h_i_world_0 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
-    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
-    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
     /* f_i_cross_h_j_world = f_i x h_j, world axes */
     const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    /* s_j_cross_h_i_world = s_j x h_i, world axes */
+    const jg_real s_j_cross_h_i_world_0 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
+    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
+    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
     /* h_i_dot_v_i = h_i . v_i */
     const jg_real h_i_dot_v_i = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
     /* h_i_dot_v_j = h_i . v_j */
@@ -456,9 +447,8 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
         s_j_cross_h_i_world_1 + omega_j[2] * s_j_cross_h_i_world_2));
 }
 
-void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -466,77 +456,72 @@ void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
     /* v_1_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
     const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
     const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
-    const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real v_1_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5];
     const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real h_i_world_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
+    /* v_0_world = lambda_2 h_i, world axes */
+    const jg_real v_0_world_0 = h_i_world_0 * lambda[2];
+    const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
-    /* v_0_world = lambda_2 h_i, world axes */
-    const jg_real v_0_world_0 = lambda[2] * h_i_world_0;
-    phi_q_t_lambda[6] = v_0_world_0;
-    const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
-    phi_q_t_lambda[7] = v_0_world_1;
-    const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     const jg_real v_0_world_2 = lambda[2] * h_i_world_2;
-    phi_q_t_lambda[8] = v_0_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    phi_q_t_lambda[0] = -v_0_world_0;
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    phi_q_t_lambda[1] = -v_0_world_1;
-    phi_q_t_lambda[2] = -v_0_world_2;
-    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
-    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
-    /* v_3_world = lambda_2 s_j, world axes */
-    const jg_real v_3_world_1 = lambda[2] * s_j_world_1;
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* v_1_world = lambda_0 f_i + lambda_1 g_i, world axes */
     const jg_real v_1_world_1 = A_i[1] * v_1_in_i_0 + A_i[4] * v_1_in_i_1 + A_i[7] * v_1_in_i_2;
     const jg_real v_1_world_2 = A_i[2] * v_1_in_i_0 + A_i[5] * v_1_in_i_1 + A_i[8] * v_1_in_i_2;
-    const jg_real v_3_world_2 = lambda[2] * s_j_world_2;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    /* v_2_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j, world axes */
+    const jg_real v_2_world_0 = v_1_world_1 * h_j_world_2 - v_1_world_2 * h_j_world_1;
     /* v_6_world = lambda_2 r_ij x h_i, world axes */
     const jg_real v_6_world_0 = lambda[2] * r_ij_cross_h_i_world_0;
     const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
-    /* v_2_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j, world axes */
-    const jg_real v_2_world_0 = h_j_world_2 * v_1_world_1 - h_j_world_1 * v_1_world_2;
-    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
     /* v_4_world = lambda_2 s_j x h_i, world axes */
-    const jg_real v_4_world_0 = h_i_world_2 * v_3_world_1 - h_i_world_1 * v_3_world_2;
-    const jg_real v_3_world_0 = lambda[2] * s_j_world_0;
-    const jg_real v_6_world_1 = lambda[2] * r_ij_cross_h_i_world_1;
-    const jg_real v_2_world_1 = h_j_world_0 * v_1_world_2 - h_j_world_2 * v_1_world_0;
-    const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - h_j_world_0 * v_1_world_1;
-    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
+    const jg_real v_4_world_0 = v_0_world_2 * s_j_world_1 - v_0_world_1 * s_j_world_2;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
     /* v_5_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 s_j x h_i, world axes */
     const jg_real v_5_world_0 = v_2_world_0 - v_4_world_0;
+    const jg_real v_2_world_1 = v_1_world_2 * h_j_world_0 - h_j_world_2 * v_1_world_0;
+    const jg_real v_6_world_1 = lambda[2] * r_ij_cross_h_i_world_1;
+    const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - v_1_world_1 * h_j_world_0;
+    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
     /* v_7_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_ij x h_i - lambda_2 s_j x h_i, world axes */
     const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
+    phi_q_t_lambda[6] = v_0_world_0;
+    phi_q_t_lambda[7] = v_0_world_1;
+    phi_q_t_lambda[8] = v_0_world_2;
+    phi_q_t_lambda[0] = -v_0_world_0;
+    phi_q_t_lambda[1] = -v_0_world_1;
+    phi_q_t_lambda[2] = -v_0_world_2;
     phi_q_t_lambda[3] = v_7_world_0;
     phi_q_t_lambda[9] = -v_5_world_0;
-    const jg_real v_4_world_1 = h_i_world_0 * v_3_world_2 - h_i_world_2 * v_3_world_0;
-    const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
+    const jg_real v_4_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
+    const jg_real v_4_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
     const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
     const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
     const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
-    phi_q_t_lambda[4] = v_7_world_1;
     const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
+    phi_q_t_lambda[4] = v_7_world_1;
     phi_q_t_lambda[5] = v_7_world_2;
     phi_q_t_lambda[10] = -v_5_world_1;
     phi_q_t_lambda[11] = -v_5_world_2;
 }
 
-void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_planar_conventional_world_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -548,203 +533,196 @@ void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_r
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    /* f_i_cross_h_j_world = f_i x h_j, world axes */
-    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[3] = f_i_cross_h_j_world_0;
-    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[6] = f_i_cross_h_j_world_1;
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[0] = f_i_dot_h_j;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    phi_q[14] = h_i_world_2;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    phi_q[12] = h_i_world_0;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    phi_q[13] = h_i_world_1;
-    /* s_i_dot_h_i = s_i . h_i */
-    const jg_real s_i_dot_h_i = s_i[0] * C_i[6] + s_i[1] * C_i[7] + s_i[2] * C_i[8];
-    phi_q[15] = -f_i_cross_h_j_world_0;
-    /* g_i_cross_h_j_world = g_i x h_j, world axes */
-    const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    phi_q[4] = g_i_cross_h_j_world_0;
-    phi_q[18] = -f_i_cross_h_j_world_1;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
+    /* f_i_cross_h_j_world = f_i x h_j, world axes */
+    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    phi[0] = f_i_dot_h_j;
+    phi_q[14] = h_i_world_2;
+    phi_q[12] = h_i_world_0;
+    phi_q[13] = h_i_world_1;
     phi[1] = g_i_dot_h_j;
-    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
-    phi_q[7] = g_i_cross_h_j_world_1;
     phi_q[2] = -h_i_world_2;
+    phi_q[3] = f_i_cross_h_j_world_0;
     phi_q[0] = -h_i_world_0;
-    phi_q[1] = -h_i_world_1;
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[9] = f_i_cross_h_j_world_2;
-    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
-    phi_q[10] = g_i_cross_h_j_world_2;
-    phi_q[16] = -g_i_cross_h_j_world_0;
+    /* s_i_dot_h_i = s_i . h_i */
+    const jg_real s_i_dot_h_i = s_i[0] * C_i[6] + s_i[1] * C_i[7] + s_i[2] * C_i[8];
+    /* g_i_cross_h_j_world = g_i x h_j, world axes */
+    const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
     /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
     const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
-    phi_q[19] = -g_i_cross_h_j_world_1;
     /* s_j_cross_h_i_world = s_j x h_i, world axes */
     const jg_real s_j_cross_h_i_world_0 = h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2;
+    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    /* s_j_dot_h_i = s_j . h_i */
+    const jg_real s_j_dot_h_i = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 * s_j_world_2;
+    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
+    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
+    /* v_0_world = r_ij x h_i + s_j x h_i, world axes */
+    const jg_real v_0_world_0 = r_ij_cross_h_i_world_0 + s_j_cross_h_i_world_0;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    phi_q[1] = -h_i_world_1;
+    phi_q[4] = g_i_cross_h_j_world_0;
     phi_q[17] = s_j_cross_h_i_world_0;
+    phi_q[6] = f_i_cross_h_j_world_1;
+    phi_q[7] = g_i_cross_h_j_world_1;
+    phi_q[20] = s_j_cross_h_i_world_1;
+    phi_q[9] = f_i_cross_h_j_world_2;
+    phi_q[15] = -f_i_cross_h_j_world_0;
+    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
+    const jg_real v_0_world_1 = r_ij_cross_h_i_world_1 + s_j_cross_h_i_world_1;
+    const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
     /* v_1_world = lambda_2 h_i, world axes */
     const jg_real v_1_world_2 = h_i_world_2 * lambda[2];
+    phi_q[16] = -g_i_cross_h_j_world_0;
+    phi_q[18] = -f_i_cross_h_j_world_1;
+    phi_q[10] = g_i_cross_h_j_world_2;
+    phi_q[19] = -g_i_cross_h_j_world_1;
+    phi_q[5] = -v_0_world_0;
     phi_q_t_lambda_q[2] = v_1_world_2;
     phi_q_t_lambda_q[6] = v_1_world_2;
     phi_q_t_lambda_q[21] = v_1_world_2;
     phi_q_t_lambda_q[36] = v_1_world_2;
-    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
+    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
     const jg_real v_1_world_1 = h_i_world_1 * lambda[2];
+    const jg_real v_1_world_0 = h_i_world_0 * lambda[2];
+    phi_q[21] = -f_i_cross_h_j_world_2;
+    phi_q[23] = s_j_cross_h_i_world_2;
     phi_q_t_lambda_q[1] = v_1_world_1;
     phi_q_t_lambda_q[12] = v_1_world_1;
     phi_q_t_lambda_q[26] = v_1_world_1;
     phi_q_t_lambda_q[40] = v_1_world_1;
-    const jg_real s_j_cross_h_i_world_1 = h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0;
-    phi_q[20] = s_j_cross_h_i_world_1;
-    phi_q[21] = -f_i_cross_h_j_world_2;
-    phi_q[22] = -g_i_cross_h_j_world_2;
-    const jg_real v_1_world_0 = h_i_world_0 * lambda[2];
     phi_q_t_lambda_q[5] = v_1_world_0;
     phi_q_t_lambda_q[17] = v_1_world_0;
     phi_q_t_lambda_q[32] = v_1_world_0;
     phi_q_t_lambda_q[39] = v_1_world_0;
-    /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
-        h_i_world_2;
-    const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
-    /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 * s_j_world_2;
-    /* v_2_world = lambda_0 f_i + lambda_1 g_i, world axes */
-    const jg_real v_2_world_1 = f_i_world_1 * lambda[0] + g_i_world_1 * lambda[1];
-    const jg_real s_j_cross_h_i_world_2 = h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1;
-    phi_q[23] = s_j_cross_h_i_world_2;
-    /* v_0_world = r_ij x h_i + s_j x h_i, world axes */
-    const jg_real v_0_world_0 = r_ij_cross_h_i_world_0 + s_j_cross_h_i_world_0;
     const jg_real t40 = -v_1_world_2;
+    const jg_real v_0_world_2 = r_ij_cross_h_i_world_2 + s_j_cross_h_i_world_2;
+    const jg_real t42 = -v_1_world_1;
+    phi[2] = r_ij_dot_h_i + s_j_dot_h_i - s_i_dot_h_i;
+    phi_q[22] = -g_i_cross_h_j_world_2;
+    phi_q[8] = -v_0_world_1;
     phi_q_t_lambda_q[0] = t40;
     phi_q_t_lambda_q[11] = t40;
     phi_q_t_lambda_q[16] = t40;
     phi_q_t_lambda_q[38] = t40;
-    const jg_real t41 = -v_1_world_1;
-    phi_q_t_lambda_q[4] = t41;
-    phi_q_t_lambda_q[7] = t41;
-    phi_q_t_lambda_q[31] = t41;
-    phi_q_t_lambda_q[37] = t41;
-    const jg_real v_0_world_1 = r_ij_cross_h_i_world_1 + s_j_cross_h_i_world_1;
+    phi_q_t_lambda_q[4] = t42;
+    phi_q_t_lambda_q[7] = t42;
+    phi_q_t_lambda_q[31] = t42;
+    phi_q_t_lambda_q[37] = t42;
     const jg_real t43 = -v_1_world_0;
+    /* v_2_world = lambda_0 f_i + lambda_1 g_i, world axes */
+    const jg_real v_2_world_1 = f_i_world_1 * lambda[0] + g_i_world_1 * lambda[1];
+    const jg_real v_2_world_2 = f_i_world_2 * lambda[0] + g_i_world_2 * lambda[1];
+    const jg_real v_2_world_0 = f_i_world_0 * lambda[0] + g_i_world_0 * lambda[1];
+    /* M_0_world_world = (lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in world axes, ...
+        */
+    const jg_real M_0_world_world_4 = s_j_world_1 * v_1_world_1 + h_j_world_1 * v_2_world_1;
+    const jg_real M_0_world_world_1 = s_j_world_0 * v_1_world_1 + h_j_world_0 * v_2_world_1;
+    const jg_real M_0_world_world_8 = s_j_world_2 * v_1_world_2 + h_j_world_2 * v_2_world_2;
+    const jg_real M_0_world_world_2 = s_j_world_0 * v_1_world_2 + h_j_world_0 * v_2_world_2;
+    const jg_real M_0_world_world_5 = s_j_world_1 * v_1_world_2 + h_j_world_1 * v_2_world_2;
     phi_q_t_lambda_q[3] = t43;
     phi_q_t_lambda_q[22] = t43;
     phi_q_t_lambda_q[27] = t43;
     phi_q_t_lambda_q[41] = t43;
-    const jg_real v_0_world_2 = r_ij_cross_h_i_world_2 + s_j_cross_h_i_world_2;
-    const jg_real v_2_world_2 = f_i_world_2 * lambda[0] + g_i_world_2 * lambda[1];
-    phi_q[5] = -v_0_world_0;
-    phi_q[8] = -v_0_world_1;
-    const jg_real v_2_world_0 = f_i_world_0 * lambda[0] + g_i_world_0 * lambda[1];
-    phi[2] = r_ij_dot_h_i + s_j_dot_h_i - s_i_dot_h_i;
-    /* M_0_world_world = (lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in world axes, ...
-        */
-    const jg_real M_0_world_world_4 = s_j_world_1 * v_1_world_1 + h_j_world_1 * v_2_world_1;
     phi_q[11] = -v_0_world_2;
-    const jg_real M_0_world_world_1 = s_j_world_0 * v_1_world_1 + h_j_world_0 * v_2_world_1;
     phi_q_t_lambda_q[51] = M_0_world_world_1;
+    phi_q_t_lambda_q[57] = M_0_world_world_2;
+    phi_q_t_lambda_q[58] = M_0_world_world_5;
+    const jg_real M_0_world_world_7 = s_j_world_2 * v_1_world_1 + h_j_world_2 * v_2_world_1;
     /* M_1_world_world = (lambda_2 r_ij + lambda_2 s_j) h_i^T + (lambda_0 h_j) f_i^T + (lambda_1 h_j) g_i^T; rows in
         ... */
     const jg_real M_1_world_world_4 = M_0_world_world_4 + r_ij_world_1 * v_1_world_1;
-    const jg_real M_0_world_world_8 = s_j_world_2 * v_1_world_2 + h_j_world_2 * v_2_world_2;
     const jg_real M_1_world_world_1 = M_0_world_world_1 + r_ij_world_0 * v_1_world_1;
-    phi_q_t_lambda_q[9] = M_1_world_world_1;
-    const jg_real M_0_world_world_2 = s_j_world_0 * v_1_world_2 + h_j_world_0 * v_2_world_2;
-    phi_q_t_lambda_q[57] = M_0_world_world_2;
-    const jg_real t53 = -M_0_world_world_1;
-    phi_q_t_lambda_q[14] = t53;
-    phi_q_t_lambda_q[48] = t53;
-    const jg_real M_0_world_world_5 = s_j_world_1 * v_1_world_2 + h_j_world_1 * v_2_world_2;
-    phi_q_t_lambda_q[58] = M_0_world_world_5;
-    const jg_real M_0_world_world_3 = s_j_world_1 * v_1_world_0 + h_j_world_1 * v_2_world_0;
-    phi_q_t_lambda_q[46] = M_0_world_world_3;
-    const jg_real M_0_world_world_0 = s_j_world_0 * v_1_world_0 + h_j_world_0 * v_2_world_0;
-    const jg_real M_0_world_world_6 = s_j_world_2 * v_1_world_0 + h_j_world_2 * v_2_world_0;
-    phi_q_t_lambda_q[47] = M_0_world_world_6;
-    const jg_real M_0_world_world_7 = s_j_world_2 * v_1_world_1 + h_j_world_2 * v_2_world_1;
-    phi_q_t_lambda_q[53] = M_0_world_world_7;
     const jg_real M_1_world_world_8 = M_0_world_world_8 + r_ij_world_2 * v_1_world_2;
-    const jg_real t60 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t60;
-    phi_q_t_lambda_q[42] = t60;
     const jg_real M_1_world_world_2 = M_0_world_world_2 + r_ij_world_0 * v_1_world_2;
+    const jg_real t57 = M_0_world_world_4 + M_0_world_world_8;
+    const jg_real t58 = -M_0_world_world_1;
+    const jg_real t59 = -M_0_world_world_2;
+    phi_q_t_lambda_q[53] = M_0_world_world_7;
+    phi_q_t_lambda_q[9] = M_1_world_world_1;
     phi_q_t_lambda_q[10] = M_1_world_world_2;
-    const jg_real t62 = -M_0_world_world_2;
-    phi_q_t_lambda_q[15] = t62;
-    phi_q_t_lambda_q[54] = t62;
+    phi_q_t_lambda_q[13] = t57;
+    phi_q_t_lambda_q[42] = t57;
+    phi_q_t_lambda_q[14] = t58;
+    phi_q_t_lambda_q[48] = t58;
+    phi_q_t_lambda_q[15] = t59;
+    phi_q_t_lambda_q[54] = t59;
     const jg_real M_1_world_world_5 = M_0_world_world_5 + r_ij_world_1 * v_1_world_2;
-    phi_q_t_lambda_q[20] = M_1_world_world_5;
-    const jg_real t64 = -M_0_world_world_5;
-    phi_q_t_lambda_q[25] = t64;
-    phi_q_t_lambda_q[55] = t64;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 + r_ij_world_1 * v_1_world_0;
-    phi_q_t_lambda_q[18] = M_1_world_world_3;
-    const jg_real M_1_world_world_0 = M_0_world_world_0 + r_ij_world_0 * v_1_world_0;
-    const jg_real t67 = -M_0_world_world_3;
-    phi_q_t_lambda_q[23] = t67;
-    phi_q_t_lambda_q[43] = t67;
-    const jg_real t68 = M_0_world_world_0 + M_0_world_world_8;
-    phi_q_t_lambda_q[24] = t68;
-    phi_q_t_lambda_q[49] = t68;
-    const jg_real M_1_world_world_6 = M_0_world_world_6 + r_ij_world_2 * v_1_world_0;
-    phi_q_t_lambda_q[28] = M_1_world_world_6;
+    const jg_real M_0_world_world_3 = s_j_world_1 * v_1_world_0 + h_j_world_1 * v_2_world_0;
+    const jg_real M_0_world_world_0 = s_j_world_0 * v_1_world_0 + h_j_world_0 * v_2_world_0;
+    const jg_real t63 = -M_0_world_world_5;
+    const jg_real M_0_world_world_6 = s_j_world_2 * v_1_world_0 + h_j_world_2 * v_2_world_0;
     const jg_real M_1_world_world_7 = M_0_world_world_7 + r_ij_world_2 * v_1_world_1;
+    const jg_real t66 = -M_0_world_world_7;
+    phi_q_t_lambda_q[20] = M_1_world_world_5;
+    phi_q_t_lambda_q[46] = M_0_world_world_3;
+    phi_q_t_lambda_q[25] = t63;
+    phi_q_t_lambda_q[55] = t63;
+    phi_q_t_lambda_q[47] = M_0_world_world_6;
     phi_q_t_lambda_q[29] = M_1_world_world_7;
-    const jg_real t71 = -M_0_world_world_6;
-    phi_q_t_lambda_q[33] = t71;
-    phi_q_t_lambda_q[44] = t71;
-    const jg_real t72 = -M_0_world_world_7;
-    phi_q_t_lambda_q[34] = t72;
-    phi_q_t_lambda_q[50] = t72;
+    phi_q_t_lambda_q[34] = t66;
+    phi_q_t_lambda_q[50] = t66;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 + r_ij_world_1 * v_1_world_0;
+    const jg_real M_1_world_world_0 = M_0_world_world_0 + r_ij_world_0 * v_1_world_0;
+    const jg_real t69 = -M_0_world_world_3;
+    const jg_real t70 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + r_ij_world_2 * v_1_world_0;
+    const jg_real t72 = -M_0_world_world_6;
+    phi_q_t_lambda_q[45] = -t57;
+    phi_q_t_lambda_q[18] = M_1_world_world_3;
+    phi_q_t_lambda_q[23] = t69;
+    phi_q_t_lambda_q[43] = t69;
+    phi_q_t_lambda_q[24] = t70;
+    phi_q_t_lambda_q[49] = t70;
+    phi_q_t_lambda_q[28] = M_1_world_world_6;
+    phi_q_t_lambda_q[33] = t72;
+    phi_q_t_lambda_q[44] = t72;
     const jg_real t73 = M_0_world_world_0 + M_0_world_world_4;
-    phi_q_t_lambda_q[35] = t73;
-    phi_q_t_lambda_q[56] = t73;
-    phi_q_t_lambda_q[45] = -t60;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
-    phi_q_t_lambda_q[52] = -t68;
-    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
-    phi_q_t_lambda_q[59] = -t73;
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
-    phi_q_t_lambda_q[30] = -(M_1_world_world_0 + M_1_world_world_4);
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i[0] + h_j_world_1 * omega_i[1] + h_j_world_2 * omega_i[2];
-    const jg_real t80 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
+    const jg_real t81 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
     /* g_i_dot_omega_i = g_i . omega_i */
@@ -758,17 +736,24 @@ void jg_planar_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_r
         omega_i[2];
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
     /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
     const jg_real h_i_cross_omega_i_world_0 = g_i_world_0 * f_i_dot_omega_i - f_i_world_0 * g_i_dot_omega_i;
-    const jg_real h_i_cross_omega_i_world_1 = g_i_world_1 * f_i_dot_omega_i - f_i_world_1 * g_i_dot_omega_i;
-    const jg_real h_i_cross_omega_i_world_2 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
-    gamma[0] = f_i_dot_h_j * t80 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
+    phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
+    phi_q_t_lambda_q[35] = t73;
+    phi_q_t_lambda_q[56] = t73;
+    phi_q_t_lambda_q[52] = -t70;
+    phi_q_t_lambda_q[59] = -t73;
+    phi_q_t_lambda_q[19] = -(M_1_world_world_0 + M_1_world_world_8);
+    phi_q_t_lambda_q[30] = -(M_1_world_world_0 + M_1_world_world_4);
+    gamma[0] = f_i_dot_h_j * t81 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
         h_j_dot_omega_j * f_i_dot_omega_j;
-    gamma[1] = g_i_dot_h_j * t80 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
+    const jg_real h_i_cross_omega_i_world_1 = g_i_world_1 * f_i_dot_omega_i - f_i_world_1 * g_i_dot_omega_i;
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
+    const jg_real h_i_cross_omega_i_world_2 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
+    gamma[1] = g_i_dot_h_j * t81 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
         h_j_dot_omega_j * g_i_dot_omega_j;
-    gamma[2] = s_j_dot_h_i * t80 - h_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + h_i_dot_omega_j *
+    gamma[2] = s_j_dot_h_i * t81 - h_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + h_i_dot_omega_j *
         (JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j) + r_ij_dot_h_i * omega_i_dot_omega_i + JG_REAL(2.0) *
         (h_i_cross_omega_i_world_0 * v_j[0] + h_i_cross_omega_i_world_1 * v_j[1] + h_i_cross_omega_i_world_2 *
         v_j[2]) - JG_REAL(2.0) * (h_i_cross_omega_i_world_0 * v_i[0] + h_i_cross_omega_i_world_1 * v_i[1] +

@@ -4,10 +4,6 @@
  * joint planar, form parametric, rows table4, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/planar.h"
 
 const int *jg_planar_parametric_table4_substituted_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(voi
     return pattern;
 }
 
-void jg_planar_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_planar_parametric_table4_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -44,49 +39,49 @@ void jg_planar_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i,
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     /* v_1_in_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of body i */
     const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[0] + alpha[1] * C_i[3];
     const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[1] + alpha[1] * C_i[4];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[2] + alpha[1] * C_i[5];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 f_i - alpha_1 g_i, axes of body i */
+    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
+    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
+    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 f_i - alpha_1 g_i, axes of body i */
-    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi[3] = f_i_dot_h_j;
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_f_j - jg_cos(alpha[2]);
 }
 
@@ -97,12 +92,12 @@ void jg_planar_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    const jg_real t0 = -C_i[3];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[16] = C_i[2];
     phi_q[11] = C_i[1];
-    const jg_real t0 = -C_i[3];
     phi_q[5] = t0;
     phi_q[48] = t0;
     phi_q[6] = C_i[0];
@@ -110,70 +105,70 @@ void jg_planar_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
     const jg_real t3 = -C_i[4];
+    const jg_real t4 = -C_i[5];
+    /* v_0_in_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of body i */
+    const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[2] + alpha[1] * C_i[5];
     phi_q[10] = t3;
     phi_q[49] = t3;
-    const jg_real t4 = -C_i[5];
     phi_q[15] = t4;
     phi_q[50] = t4;
     phi_q[45] = -C_i[0];
     phi_q[46] = -C_i[1];
     phi_q[47] = -C_i[2];
-    /* v_0_in_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of body i */
-    const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[2] + alpha[1] * C_i[5];
     phi_q[3] = v_0_in_i_2;
     const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[1] + alpha[1] * C_i[4];
-    phi_q[13] = v_0_in_i_1;
     const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[0] + alpha[1] * C_i[3];
+    /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
+    const jg_real f_i_cross_f_j_in_i_0 = sine_0 * C_i[6];
+    const jg_real f_i_cross_f_j_in_i_1 = sine_0 * C_i[7];
+    phi_q[13] = v_0_in_i_1;
     phi_q[9] = v_0_in_i_0;
     phi_q[8] = -v_0_in_i_2;
     phi_q[4] = -v_0_in_i_1;
     phi_q[14] = -v_0_in_i_0;
     phi_q[51] = sine_0;
-    /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
-    const jg_real f_i_cross_f_j_in_i_0 = sine_0 * C_i[6];
     phi_q[7] = f_i_cross_f_j_in_i_0;
-    const jg_real f_i_cross_f_j_in_i_1 = sine_0 * C_i[7];
     phi_q[12] = f_i_cross_f_j_in_i_1;
     const jg_real f_i_cross_f_j_in_i_2 = sine_0 * C_i[8];
-    phi_q[17] = f_i_cross_f_j_in_i_2;
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = sine_0 * C_j[6];
-    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_2 = sine_0 * C_j[8];
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - C_j[4] * sine_0;
+    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
     const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + C_j[4] * cosine_0;
-    phi_q[36] = A_joint_i_j_4;
+    const jg_real f_i_cross_f_j_in_j_2 = sine_0 * C_j[8];
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
     const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
-    phi_q[42] = A_joint_i_j_7;
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + cosine_0 * C_j[3];
+    phi_q[17] = f_i_cross_f_j_in_i_2;
+    phi_q[36] = A_joint_i_j_4;
+    phi_q[42] = A_joint_i_j_7;
     phi_q[30] = A_joint_i_j_1;
     phi_q[31] = sine_0 * C_j[3] - cosine_0 * C_j[0];
     phi_q[32] = -f_i_cross_f_j_in_j_0;
-    phi_q[38] = -f_i_cross_f_j_in_j_1;
-    phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q[37] = -A_joint_i_j_3;
-    phi_q[43] = -A_joint_i_j_6;
+    phi_q[38] = -f_i_cross_f_j_in_j_1;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_j[7] * C_i[7];
-    phi_q[22] = A_ij_4;
     const jg_real A_ij_5 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_j[7] * C_i[8];
-    phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
-    phi_q[25] = A_ij_7;
     const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * C_j[8];
-    phi_q[24] = A_ij_6;
     const jg_real A_ij_3 = C_i[0] * A_joint_i_j_3 + C_i[3] * A_joint_i_j_4 + C_j[7] * C_i[6];
+    phi_q[43] = -A_joint_i_j_6;
+    phi_q[44] = -f_i_cross_f_j_in_j_2;
+    phi_q[22] = A_ij_4;
+    phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
+    phi_q[25] = A_ij_7;
+    phi_q[24] = A_ij_6;
     phi_q[21] = A_ij_3;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[18] = A_ij_0;
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
     phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
@@ -193,8 +188,8 @@ void jg_planar_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTR
     jg_scatter(jg_planar_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -202,12 +197,6 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    phi_q_t_lambda_q[0] = C_i[2] * lambda[1] - C_i[1] * lambda[2];
-    phi_q_t_lambda_q[1] = C_i[0] * lambda[2] - C_i[2] * lambda[0];
-    phi_q_t_lambda_q[2] = C_i[1] * lambda[0] - C_i[0] * lambda[1];
-    phi_q_t_lambda_q[3] = lambda[1] * C_i[5] - lambda[2] * C_i[4];
-    phi_q_t_lambda_q[4] = lambda[2] * C_i[3] - lambda[0] * C_i[5];
-    phi_q_t_lambda_q[5] = lambda[0] * C_i[4] - lambda[1] * C_i[3];
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_0 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
@@ -221,14 +210,18 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *
     const jg_real t8 = lambda_0_1_2_in_joint_i_2 * s_j_dot_h_j;
     /* v_0_in_joint_i = lambda_5 f_i x g_j, axes of joint i */
     const jg_real v_0_in_joint_i_2 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[15] = v_0_in_joint_i_2;
     /* v_0_in_i = lambda_5 f_i x g_j, axes of body i */
     const jg_real v_0_in_i_0 = v_0_in_joint_i_2 * C_i[6];
+    phi_q_t_lambda_q[0] = C_i[2] * lambda[1] - C_i[1] * lambda[2];
+    phi_q_t_lambda_q[1] = C_i[0] * lambda[2] - C_i[2] * lambda[0];
+    phi_q_t_lambda_q[2] = C_i[1] * lambda[0] - C_i[0] * lambda[1];
+    phi_q_t_lambda_q[3] = lambda[1] * C_i[5] - lambda[2] * C_i[4];
+    phi_q_t_lambda_q[4] = lambda[2] * C_i[3] - lambda[0] * C_i[5];
+    phi_q_t_lambda_q[5] = lambda[0] * C_i[4] - lambda[1] * C_i[3];
+    phi_q_t_lambda_q[15] = v_0_in_joint_i_2;
     phi_q_t_lambda_q[6] = v_0_in_i_0;
     const jg_real v_0_in_i_1 = v_0_in_joint_i_2 * C_i[7];
-    phi_q_t_lambda_q[7] = v_0_in_i_1;
     const jg_real v_0_in_i_2 = v_0_in_joint_i_2 * C_i[8];
-    phi_q_t_lambda_q[8] = v_0_in_i_2;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_i_1 - lambda_0_1_2_in_joint_i_0 *
         sine_0;
@@ -237,13 +230,10 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *
     /* lambda_0_1_2_cross_h_j_in_j = lambda_0_1_2 x h_j, axes of body j */
     const jg_real lambda_0_1_2_cross_h_j_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 *
         C_j[3];
-    phi_q_t_lambda_q[9] = lambda_0_1_2_cross_h_j_in_j_0;
     const jg_real lambda_0_1_2_cross_h_j_in_j_1 = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 *
         C_j[4];
-    phi_q_t_lambda_q[10] = lambda_0_1_2_cross_h_j_in_j_1;
     const jg_real lambda_0_1_2_cross_h_j_in_j_2 = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 *
         C_j[5];
-    phi_q_t_lambda_q[11] = lambda_0_1_2_cross_h_j_in_j_2;
     /* v_1_in_joint_j = (s_j . h_j) lambda_0_1_2 + (cos(alpha_2) lambda_3 + sin(alpha_2) lambda_4) f_j + ... */
     const jg_real v_1_in_joint_j_0 = cosine_0 * lambda[3] + sine_0 * lambda[4] + lambda_0_1_2_in_joint_j_0 *
         s_j_dot_h_j;
@@ -255,10 +245,15 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *
     const jg_real v_1_in_joint_j_2 = t8 - (v_0_in_joint_i_2 + s_j_dot_lambda_0_1_2);
     /* v_1_in_j = (s_j . h_j) lambda_0_1_2 + (cos(alpha_2) lambda_3 + sin(alpha_2) lambda_4) f_j + ... */
     const jg_real v_1_in_j_0 = C_j[0] * v_1_in_joint_j_0 + C_j[3] * v_1_in_joint_j_1 + C_j[6] * v_1_in_joint_j_2;
-    phi_q_t_lambda_q[12] = v_1_in_j_0;
     const jg_real v_1_in_j_1 = C_j[1] * v_1_in_joint_j_0 + C_j[4] * v_1_in_joint_j_1 + C_j[7] * v_1_in_joint_j_2;
-    phi_q_t_lambda_q[13] = v_1_in_j_1;
     const jg_real v_1_in_j_2 = C_j[2] * v_1_in_joint_j_0 + C_j[5] * v_1_in_joint_j_1 + C_j[8] * v_1_in_joint_j_2;
+    phi_q_t_lambda_q[7] = v_0_in_i_1;
+    phi_q_t_lambda_q[8] = v_0_in_i_2;
+    phi_q_t_lambda_q[9] = lambda_0_1_2_cross_h_j_in_j_0;
+    phi_q_t_lambda_q[10] = lambda_0_1_2_cross_h_j_in_j_1;
+    phi_q_t_lambda_q[11] = lambda_0_1_2_cross_h_j_in_j_2;
+    phi_q_t_lambda_q[12] = v_1_in_j_0;
+    phi_q_t_lambda_q[13] = v_1_in_j_1;
     phi_q_t_lambda_q[14] = v_1_in_j_2;
 }
 
@@ -270,8 +265,8 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_rea
     jg_scatter(jg_planar_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_planar_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_planar_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -291,64 +286,64 @@ void jg_planar_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT al
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
-    const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
-    /* v_0_in_i = alphadot_0 f_i + alphadot_1 g_i - v_i, axes of body i */
-    const jg_real v_0_in_i_1 = alphadot[0] * C_i[1] + alphadot[1] * C_i[4] - v_i[1];
-    const jg_real v_0_in_i_2 = alphadot[0] * C_i[2] + alphadot[1] * C_i[5] - v_i[2];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
     /* v_3_in_joint_j = alphadot_2 h_j - omega_j, axes of joint j */
     const jg_real v_3_in_joint_j_2 = alphadot[2] - h_j_dot_omega_j;
-    const jg_real v_0_in_i_0 = alphadot[0] * C_i[0] + alphadot[1] * C_i[3] - v_i[0];
+    /* v_0_in_i = alphadot_0 f_i + alphadot_1 g_i - v_i, axes of body i */
+    const jg_real v_0_in_i_1 = alphadot[0] * C_i[1] + alphadot[1] * C_i[4] - v_i[1];
+    const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
+    const jg_real v_0_in_i_2 = alphadot[0] * C_i[2] + alphadot[1] * C_i[5] - v_i[2];
+    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
     /* v_4_in_joint_j = alphadot_2 h_j x v_j + v_j x omega_j, axes of joint j */
     const jg_real v_4_in_joint_j_2 = v_j_in_joint_j_0 * g_j_dot_omega_j - v_j_in_joint_j_1 * f_j_dot_omega_j;
+    const jg_real v_4_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_3_in_joint_j_2;
+    const jg_real t16 = v_j_in_joint_j_1 * v_3_in_joint_j_2 + v_j_in_joint_j_2 * g_j_dot_omega_j;
     /* v_1_in_i = alphadot_0 f_i x omega_i + alphadot_1 g_i x omega_i + omega_i x v_i, axes of body i */
     const jg_real v_1_in_i_0 = omega_i[2] * v_0_in_i_1 - omega_i[1] * v_0_in_i_2;
-    const jg_real v_4_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_3_in_joint_j_2;
-    const jg_real t18 = v_j_in_joint_j_1 * v_3_in_joint_j_2 + v_j_in_joint_j_2 * g_j_dot_omega_j;
+    const jg_real v_0_in_i_0 = alphadot[0] * C_i[0] + alphadot[1] * C_i[3] - v_i[0];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
-    const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
-    const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
     /* v_6_in_joint_j = alphadot_2 (h_j . omega_j) s_j - alphadot_2 (s_j . h_j) omega_j, axes of joint j */
     const jg_real v_6_in_joint_j_1 = alphadot[2] * s_j_cross_omega_j_in_joint_j_0;
-    const jg_real t24 = alphadot[2] * s_j_cross_omega_j_in_joint_j_1;
+    const jg_real t22 = alphadot[2] * s_j_cross_omega_j_in_joint_j_1;
+    const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
+    const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
     /* v_4_in_joint_i = alphadot_2 h_j x v_j + v_j x omega_j, axes of joint i */
-    const jg_real v_4_in_joint_i_1 = v_4_in_joint_j_1 * cosine_0 - t18 * sine_0;
-    const jg_real t26 = t18 * cosine_0 + v_4_in_joint_j_1 * sine_0;
+    const jg_real v_4_in_joint_i_1 = v_4_in_joint_j_1 * cosine_0 - t16 * sine_0;
+    const jg_real t26 = t16 * cosine_0 + v_4_in_joint_j_1 * sine_0;
     /* v_6_in_joint_i = alphadot_2 (h_j . omega_j) s_j - alphadot_2 (s_j . h_j) omega_j, axes of joint i */
-    const jg_real v_6_in_joint_i_1 = cosine_0 * v_6_in_joint_j_1 - sine_0 * t24;
-    const jg_real t28 = cosine_0 * t24 + sine_0 * v_6_in_joint_j_1;
+    const jg_real v_6_in_joint_i_1 = cosine_0 * v_6_in_joint_j_1 - sine_0 * t22;
+    const jg_real t28 = cosine_0 * t22 + sine_0 * v_6_in_joint_j_1;
     /* v_6_in_i = alphadot_2 (h_j . omega_j) s_j - alphadot_2 (s_j . h_j) omega_j, axes of body i */
     const jg_real v_6_in_i_0 = C_i[3] * v_6_in_joint_i_1 - C_i[0] * t28;
     const jg_real v_6_in_i_1 = C_i[4] * v_6_in_joint_i_1 - C_i[1] * t28;
     const jg_real v_6_in_i_2 = C_i[5] * v_6_in_joint_i_1 - C_i[2] * t28;
-    gamma[3] = -(alphadot[2] * (f_j_dot_omega_j * cosine_0 - g_j_dot_omega_j * sine_0));
-    gamma[4] = -(alphadot[2] * (g_j_dot_omega_j * cosine_0 + f_j_dot_omega_j * sine_0));
     /* v_4_in_i = alphadot_2 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_4_in_i_0 = C_i[3] * v_4_in_joint_i_1 - C_i[0] * t26 + v_4_in_joint_j_2 * C_i[6];
     const jg_real v_4_in_i_1 = C_i[4] * v_4_in_joint_i_1 - C_i[1] * t26 + v_4_in_joint_j_2 * C_i[7];
     const jg_real v_4_in_i_2 = C_i[5] * v_4_in_joint_i_1 - C_i[2] * t26 + v_4_in_joint_j_2 * C_i[8];
     /* v_7_in_i = alphadot_2 (h_j . omega_j) s_j - alphadot_2 h_j x v_j - alphadot_0 f_i x omega_i - ... */
     const jg_real v_7_in_i_0 = v_6_in_i_0 - (v_1_in_i_0 + v_4_in_i_0);
-    gamma[0] = v_7_in_i_0;
     const jg_real v_7_in_i_1 = v_6_in_i_1 - (v_1_in_i_1 + v_4_in_i_1);
-    gamma[1] = v_7_in_i_1;
     const jg_real v_7_in_i_2 = v_6_in_i_2 - (v_1_in_i_2 + v_4_in_i_2);
+    gamma[3] = -(alphadot[2] * (f_j_dot_omega_j * cosine_0 - g_j_dot_omega_j * sine_0));
+    gamma[4] = -(alphadot[2] * (g_j_dot_omega_j * cosine_0 + f_j_dot_omega_j * sine_0));
+    gamma[0] = v_7_in_i_0;
+    gamma[1] = v_7_in_i_1;
     gamma[2] = v_7_in_i_2;
     gamma[5] = -(alphadot[2] * (cosine_0 * C_i[6] * omega_i[0] + cosine_0 * C_i[7] * omega_i[1] + cosine_0 * C_i[8]
         * omega_i[2] + v_3_in_joint_j_2 * cosine_0));
 }
 
-void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -372,31 +367,31 @@ void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real s_i_in_joint_i_1 = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
     const jg_real omega_i_in_joint_i_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     const jg_real s_i_in_joint_i_2 = C_i[6] * s_i[0] + C_i[7] * s_i[1] + C_i[8] * s_i[2];
-    /* v_i_in_joint_i = v_i, axes of joint i */
-    const jg_real v_i_in_joint_i_0 = C_i[0] * v_i[0] + C_i[1] * v_i[1] + C_i[2] * v_i[2];
     /* v_0_in_joint_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of joint i */
     const jg_real v_0_in_joint_i_1 = s_i_in_joint_i_1 + alpha[1];
+    /* v_i_in_joint_i = v_i, axes of joint i */
+    const jg_real v_i_in_joint_i_0 = C_i[0] * v_i[0] + C_i[1] * v_i[1] + C_i[2] * v_i[2];
     const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real s_i_in_joint_i_0 = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
     const jg_real v_i_in_joint_i_1 = C_i[3] * v_i[0] + C_i[4] * v_i[1] + C_i[5] * v_i[2];
     /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
     const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
         C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
-    const jg_real v_i_in_joint_i_2 = C_i[6] * v_i[0] + C_i[7] * v_i[1] + C_i[8] * v_i[2];
     const jg_real v_0_in_joint_i_0 = s_i_in_joint_i_0 + alpha[0];
+    /* v_1_in_joint_i = s_i x omega_i + alpha_0 f_i x omega_i + alpha_1 g_i x omega_i, axes of joint i */
+    const jg_real v_1_in_joint_i_0 = omega_i_in_joint_i_2 * v_0_in_joint_i_1 - omega_i_in_joint_i_1 *
+        s_i_in_joint_i_2;
+    const jg_real v_i_in_joint_i_2 = C_i[6] * v_i[0] + C_i[7] * v_i[1] + C_i[8] * v_i[2];
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* omega_j_in_joint_i = omega_j, axes of joint i */
     const jg_real omega_j_in_joint_i_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    /* v_1_in_joint_i = s_i x omega_i + alpha_0 f_i x omega_i + alpha_1 g_i x omega_i, axes of joint i */
-    const jg_real v_1_in_joint_i_0 = omega_i_in_joint_i_2 * v_0_in_joint_i_1 - omega_i_in_joint_i_1 *
-        s_i_in_joint_i_2;
-    /* v_2_in_joint_i = v_i - v_j + alphadot_0 f_i + alphadot_1 g_i, axes of joint i */
-    const jg_real v_2_in_joint_i_2 = v_i_in_joint_i_2 - v_j_in_joint_i_2;
     const jg_real v_1_in_joint_i_1 = omega_i_in_joint_i_0 * s_i_in_joint_i_2 - omega_i_in_joint_i_2 *
         v_0_in_joint_i_0;
     const jg_real v_1_in_joint_i_2 = omega_i_in_joint_i_1 * v_0_in_joint_i_0 - omega_i_in_joint_i_0 *
         v_0_in_joint_i_1;
+    /* v_2_in_joint_i = v_i - v_j + alphadot_0 f_i + alphadot_1 g_i, axes of joint i */
+    const jg_real v_2_in_joint_i_2 = v_i_in_joint_i_2 - v_j_in_joint_i_2;
     /* v_3_in_joint_i = v_i - v_j + alphadot_0 f_i + alphadot_1 g_i - s_i x omega_i - alpha_0 f_i x omega_i - ... */
     const jg_real v_3_in_joint_i_2 = s_j_cross_omega_j_in_joint_i_2 - v_1_in_joint_i_2 + v_2_in_joint_i_2;
     /* A_joint_i_j = turns j axes to joint i axes */
@@ -406,7 +401,6 @@ void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + C_j[3] * cosine_0;
     const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * C_j[4];
     const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
-    phi_q_v[5] = omega_i_in_joint_i_2 * sine_0 + sine_0 * alphadot[2] - sine_0 * omega_j_in_joint_i_2;
     const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_j_0 * A_joint_i_j_0 +
         s_j_cross_omega_j_in_j_1 * A_joint_i_j_3 + s_j_cross_omega_j_in_j_2 * A_joint_i_j_6;
     const jg_real v_j_in_joint_i_0 = A_joint_i_j_0 * v_j[0] + A_joint_i_j_3 * v_j[1] + A_joint_i_j_6 * v_j[2];
@@ -417,8 +411,6 @@ void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT 
         A_joint_i_j_7;
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * A_joint_i_j_0 + omega_j[1] * A_joint_i_j_3 + omega_j[2] *
         A_joint_i_j_6;
-    phi_q_v[3] = omega_j_in_joint_i_1 - omega_i_in_joint_i_1;
-    phi_q_v[4] = omega_i_in_joint_i_0 - omega_j_in_joint_i_0;
     const jg_real v_2_in_joint_i_0 = v_i_in_joint_i_0 - v_j_in_joint_i_0 + alphadot[0];
     const jg_real v_2_in_joint_i_1 = v_i_in_joint_i_1 - v_j_in_joint_i_1 + alphadot[1];
     const jg_real v_3_in_joint_i_0 = s_j_cross_omega_j_in_joint_i_0 - v_1_in_joint_i_0 + v_2_in_joint_i_0;
@@ -427,21 +419,21 @@ void jg_planar_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1 + C_i[6] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1 + C_i[7] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1 + C_i[8] * v_3_in_joint_i_2;
+    phi_q_v[5] = omega_i_in_joint_i_2 * sine_0 + sine_0 * alphadot[2] - sine_0 * omega_j_in_joint_i_2;
+    phi_q_v[3] = omega_j_in_joint_i_1 - omega_i_in_joint_i_1;
+    phi_q_v[4] = omega_i_in_joint_i_0 - omega_j_in_joint_i_0;
     phi_q_v[0] = -v_3_in_i_0;
     phi_q_v[1] = -v_3_in_i_1;
     phi_q_v[2] = -v_3_in_i_2;
 }
 
-void jg_planar_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_planar_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
@@ -459,47 +451,46 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RE
     const jg_real lambda_0_1_2_dot_g_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
     const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
-    phi_q_t_lambda[12] = -lambda_0_1_2_dot_f_i;
     /* v_1_in_i = s_i x lambda_0_1_2 - alpha_0 lambda_0_1_2 x f_i - alpha_1 lambda_0_1_2 x g_i, axes of body i */
     const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
-    phi_q_t_lambda[13] = -lambda_0_1_2_dot_g_i;
     const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     /* v_2_in_joint_i = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of joint i */
     const jg_real v_2_in_joint_i_2 = sine_0 * lambda[5];
-    phi_q_t_lambda[14] = v_2_in_joint_i_2;
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_0 = C_j[0] * cosine_0 - sine_0 * C_j[3];
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + C_j[3] * cosine_0;
     const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
     const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * C_j[4];
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     /* v_2_in_i = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of body i */
     const jg_real v_2_in_i_0 = v_2_in_joint_i_2 * C_i[6] - C_i[3] * lambda[3];
     const jg_real v_2_in_i_1 = v_2_in_joint_i_2 * C_i[7] - C_i[4] * lambda[3];
     const jg_real v_2_in_i_2 = v_2_in_joint_i_2 * C_i[8] - C_i[5] * lambda[3];
     /* v_3_in_j = lambda_4 g_i x h_j, axes of body j */
     const jg_real v_3_in_j_0 = lambda[4] * A_joint_i_j_0;
+    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     const jg_real v_3_in_j_1 = lambda[4] * A_joint_i_j_3;
-    const jg_real v_3_in_j_2 = lambda[4] * A_joint_i_j_6;
     /* v_2_in_j = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of body j */
     const jg_real v_2_in_j_0 = v_2_in_joint_i_2 * C_j[6] - lambda[3] * A_joint_i_j_1;
     const jg_real v_2_in_j_1 = v_2_in_joint_i_2 * C_j[7] - lambda[3] * A_joint_i_j_4;
-    const jg_real v_2_in_j_2 = v_2_in_joint_i_2 * C_j[8] - lambda[3] * A_joint_i_j_7;
+    const jg_real v_3_in_j_2 = lambda[4] * A_joint_i_j_6;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[12] = -lambda_0_1_2_dot_f_i;
+    phi_q_t_lambda[13] = -lambda_0_1_2_dot_g_i;
+    phi_q_t_lambda[14] = v_2_in_joint_i_2;
     phi_q_t_lambda[3] = v_3_in_i_0 - (v_1_in_i_0 - v_2_in_i_0);
     phi_q_t_lambda[4] = v_3_in_i_1 - (v_1_in_i_1 - v_2_in_i_1);
-    phi_q_t_lambda[5] = v_3_in_i_2 - (v_1_in_i_2 - v_2_in_i_2);
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_dot_f_i * A_joint_i_j_0 + lambda_0_1_2_dot_g_i * A_joint_i_j_1
         + lambda_0_1_2_dot_h_i * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    const jg_real v_2_in_j_2 = v_2_in_joint_i_2 * C_j[8] - lambda[3] * A_joint_i_j_7;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_dot_f_i * A_joint_i_j_3 + lambda_0_1_2_dot_g_i * A_joint_i_j_4
         + lambda_0_1_2_dot_h_i * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_dot_f_i * A_joint_i_j_6 + lambda_0_1_2_dot_g_i * A_joint_i_j_7
         + lambda_0_1_2_dot_h_i * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
@@ -508,16 +499,18 @@ void jg_planar_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RE
     const jg_real v_5_in_j_2 = v_2_in_j_2 - s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2;
     const jg_real v_5_in_j_0 = v_2_in_j_0 - s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0;
     const jg_real v_5_in_j_1 = v_2_in_j_1 - s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1;
+    phi_q_t_lambda[5] = v_3_in_i_2 - (v_1_in_i_2 - v_2_in_i_2);
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda[11] = -v_5_in_j_2;
     phi_q_t_lambda[9] = -v_5_in_j_0;
     phi_q_t_lambda[10] = -v_5_in_j_1;
 }
 
-void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_planar_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -532,77 +525,79 @@ void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    phi_q[6] = C_i[0];
-    phi_q[11] = C_i[1];
-    phi_q[16] = C_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* v_1_in_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[0] + alpha[1] * C_i[3];
-    phi_q[9] = v_1_in_i_0;
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[1] + alpha[1] * C_i[4];
-    phi_q[13] = v_1_in_i_1;
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* v_1_in_i = s_i + alpha_0 f_i + alpha_1 g_i, axes of body i */
+    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[0] + alpha[1] * C_i[3];
+    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[1] + alpha[1] * C_i[4];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[2] + alpha[1] * C_i[5];
-    phi_q[3] = v_1_in_i_2;
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 f_i - alpha_1 g_i, axes of body i */
+    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
+    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
+    phi_q[6] = C_i[0];
+    phi_q[11] = C_i[1];
+    phi_q[16] = C_i[2];
+    phi_q[9] = v_1_in_i_0;
+    phi_q[13] = v_1_in_i_1;
+    phi_q[3] = v_1_in_i_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real t29 = -C_i[3];
+    phi[2] = v_2_in_i_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -v_1_in_i_1;
-    const jg_real t25 = -C_i[3];
-    phi_q[5] = t25;
-    phi_q[48] = t25;
+    phi_q[5] = t29;
+    phi_q[48] = t29;
     phi_q[8] = -v_1_in_i_2;
-    const jg_real t26 = -C_i[4];
-    phi_q[10] = t26;
-    phi_q[49] = t26;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 f_i - alpha_1 g_i, axes of body i */
-    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    phi_q[14] = -v_1_in_i_0;
+    const jg_real t31 = -C_i[4];
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real t33 = -C_i[5];
-    phi_q[15] = t33;
-    phi_q[50] = t33;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    phi[3] = f_i_dot_h_j;
+    phi_q[10] = t31;
+    phi_q[49] = t31;
+    phi_q[14] = -v_1_in_i_0;
+    phi_q[15] = t33;
+    phi_q[50] = t33;
     phi_q[45] = -C_i[0];
     phi_q[46] = -C_i[1];
-    phi_q[47] = -C_i[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
+    /* f_i_dot_f_j = f_i . f_j */
+    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    phi_q[47] = -C_i[2];
     phi[4] = g_i_dot_h_j;
     phi_q_t_lambda_q[0] = C_i[2] * lambda[1] - C_i[1] * lambda[2];
     phi_q_t_lambda_q[1] = C_i[0] * lambda[2] - C_i[2] * lambda[0];
@@ -610,143 +605,141 @@ void jg_planar_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q_t_lambda_q[3] = C_i[5] * lambda[1] - C_i[4] * lambda[2];
     phi_q_t_lambda_q[4] = C_i[3] * lambda[2] - C_i[5] * lambda[0];
     phi_q_t_lambda_q[5] = C_i[4] * lambda[0] - C_i[3] * lambda[1];
-    /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
     /* v_5_in_j = alphadot_2 h_j - omega_j, axes of body j */
     const jg_real v_5_in_j_1 = C_j[7] * alphadot[2] - omega_j[1];
     const jg_real v_5_in_j_2 = C_j[8] * alphadot[2] - omega_j[2];
-    const jg_real v_5_in_j_0 = C_j[6] * alphadot[2] - omega_j[0];
     /* s_j_dot_h_j = s_j . h_j */
     const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
+    const jg_real v_5_in_j_0 = C_j[6] * alphadot[2] - omega_j[0];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     const jg_real t43 = s_j_dot_h_j * alphadot[2];
     /* v_3_in_i = alphadot_0 f_i + alphadot_1 g_i - v_i, axes of body i */
     const jg_real v_3_in_i_1 = C_i[1] * alphadot[0] + C_i[4] * alphadot[1] - v_i[1];
     const jg_real v_3_in_i_2 = C_i[2] * alphadot[0] + C_i[5] * alphadot[1] - v_i[2];
+    const jg_real t46 = alphadot[2] * h_j_dot_omega_j;
     const jg_real v_3_in_i_0 = C_i[0] * alphadot[0] + C_i[3] * alphadot[1] - v_i[0];
-    const jg_real t47 = alphadot[2] * h_j_dot_omega_j;
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* v_6_in_j = alphadot_2 h_j x v_j + v_j x omega_j, axes of body j */
     const jg_real v_6_in_j_0 = v_j[2] * v_5_in_j_1 - v_j[1] * v_5_in_j_2;
     const jg_real v_6_in_j_1 = v_j[0] * v_5_in_j_2 - v_j[2] * v_5_in_j_0;
     const jg_real v_6_in_j_2 = v_j[1] * v_5_in_j_0 - v_j[0] * v_5_in_j_1;
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* v_4_in_i = alphadot_0 f_i x omega_i + alphadot_1 g_i x omega_i + omega_i x v_i, axes of body i */
     const jg_real v_4_in_i_0 = omega_i[2] * v_3_in_i_1 - omega_i[1] * v_3_in_i_2;
-    const jg_real v_4_in_i_1 = omega_i[0] * v_3_in_i_2 - omega_i[2] * v_3_in_i_0;
     /* v_7_in_j = alphadot_2 (h_j . omega_j) s_j - (s_j . h_j) alphadot_2 omega_j, axes of body j */
-    const jg_real v_7_in_j_0 = s_j[0] * t47 - omega_j[0] * t43;
-    const jg_real v_7_in_j_1 = s_j[1] * t47 - omega_j[1] * t43;
-    const jg_real v_7_in_j_2 = s_j[2] * t47 - omega_j[2] * t43;
+    const jg_real v_7_in_j_0 = s_j[0] * t46 - omega_j[0] * t43;
+    const jg_real v_7_in_j_1 = s_j[1] * t46 - omega_j[1] * t43;
+    const jg_real v_7_in_j_2 = s_j[2] * t46 - omega_j[2] * t43;
+    const jg_real v_4_in_i_1 = omega_i[0] * v_3_in_i_2 - omega_i[2] * v_3_in_i_0;
     const jg_real v_4_in_i_2 = omega_i[1] * v_3_in_i_0 - omega_i[0] * v_3_in_i_1;
-    phi[5] = f_i_dot_f_j - cosine_0;
-    phi_q[51] = sine_0;
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_0 = sine_0 * C_i[6];
-    phi_q[7] = f_i_cross_f_j_in_i_0;
     const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
-    phi_q[12] = f_i_cross_f_j_in_i_1;
     const jg_real f_i_cross_f_j_in_i_2 = sine_0 * C_i[8];
-    phi_q[17] = f_i_cross_f_j_in_i_2;
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = C_j[6] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_2 = C_j[8] * sine_0;
-    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
-    const jg_real f_i_cross_g_j_in_i_0 = cosine_0 * C_i[6];
-    const jg_real f_i_cross_g_j_in_i_1 = cosine_0 * C_i[7];
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
-    const jg_real f_i_cross_g_j_in_i_2 = cosine_0 * C_i[8];
+    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
     const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + cosine_0 * C_j[4];
-    phi_q[36] = A_joint_i_j_4;
-    const jg_real t70 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[15] = t70;
+    const jg_real f_i_cross_f_j_in_j_2 = C_j[8] * sine_0;
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
+    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
+    const jg_real f_i_cross_g_j_in_i_0 = cosine_0 * C_i[6];
     const jg_real A_joint_i_j_7 = C_j[2] * sine_0 + cosine_0 * C_j[5];
-    phi_q[42] = A_joint_i_j_7;
+    const jg_real f_i_cross_g_j_in_i_1 = cosine_0 * C_i[7];
     const jg_real A_joint_i_j_0 = cosine_0 * C_j[0] - C_j[3] * sine_0;
+    const jg_real f_i_cross_g_j_in_i_2 = cosine_0 * C_i[8];
     const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + cosine_0 * C_j[3];
+    phi[5] = f_i_dot_f_j - cosine_0;
+    phi_q[51] = sine_0;
+    phi_q[7] = f_i_cross_f_j_in_i_0;
+    phi_q[12] = f_i_cross_f_j_in_i_1;
+    phi_q[17] = f_i_cross_f_j_in_i_2;
+    phi_q[36] = A_joint_i_j_4;
+    phi_q[42] = A_joint_i_j_7;
     phi_q[30] = A_joint_i_j_1;
     phi_q[32] = -f_i_cross_f_j_in_j_0;
+    phi_q[31] = -A_joint_i_j_0;
+    phi_q[37] = -A_joint_i_j_3;
     phi_q[38] = -f_i_cross_f_j_in_j_1;
+    phi_q[43] = -A_joint_i_j_6;
     phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q_t_lambda_q[6] = lambda[5] * f_i_cross_g_j_in_i_0;
     phi_q_t_lambda_q[7] = lambda[5] * f_i_cross_g_j_in_i_1;
-    phi_q[31] = -A_joint_i_j_0;
-    phi_q[37] = -A_joint_i_j_3;
-    phi_q[43] = -A_joint_i_j_6;
-    phi_q_t_lambda_q[8] = lambda[5] * f_i_cross_g_j_in_i_2;
-    const jg_real t75 = cosine_0 * lambda[3] + sine_0 * lambda[4];
-    const jg_real t76 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_j[7] * C_i[7];
-    phi_q[22] = A_ji_4;
     const jg_real A_ji_7 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_j[7] * C_i[8];
-    phi_q[23] = A_ji_7;
+    const jg_real t76 = cosine_0 * lambda[5];
     const jg_real A_ji_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_j[8] * C_i[8];
-    phi_q[26] = A_ji_8;
     const jg_real A_ji_5 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_j[8] * C_i[7];
-    phi_q[25] = A_ji_5;
     const jg_real A_ji_3 = C_i[1] * A_joint_i_j_0 + C_i[4] * A_joint_i_j_1 + C_j[6] * C_i[7];
-    phi_q[19] = A_ji_3;
     const jg_real A_ji_6 = C_i[2] * A_joint_i_j_0 + C_i[5] * A_joint_i_j_1 + C_j[6] * C_i[8];
+    phi_q_t_lambda_q[8] = lambda[5] * f_i_cross_g_j_in_i_2;
+    phi_q[22] = A_ji_4;
+    phi_q[23] = A_ji_7;
+    phi_q_t_lambda_q[15] = t76;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
+    phi_q[19] = A_ji_3;
     phi_q[20] = A_ji_6;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[18] = A_ji_0;
     phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[24] = A_ji_2;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real t84 = cosine_0 * lambda[3] + sine_0 * lambda[4];
+    const jg_real t85 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* v_7_in_i = alphadot_2 (h_j . omega_j) s_j - (s_j . h_j) alphadot_2 omega_j, axes of body i */
     const jg_real v_7_in_i_0 = A_ji_0 * v_7_in_j_0 + A_ji_1 * v_7_in_j_1 + A_ji_2 * v_7_in_j_2;
     /* v_6_in_i = alphadot_2 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
     const jg_real v_7_in_i_1 = A_ji_3 * v_7_in_j_0 + A_ji_4 * v_7_in_j_1 + A_ji_5 * v_7_in_j_2;
-    gamma[3] = -(alphadot[2] * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
-    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
-    const jg_real v_7_in_i_2 = A_ji_6 * v_7_in_j_0 + A_ji_7 * v_7_in_j_1 + A_ji_8 * v_7_in_j_2;
-    gamma[4] = -(alphadot[2] * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
-    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
-    phi_q_t_lambda_q[9] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[10] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[11] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
-    /* v_8_in_i = alphadot_2 (h_j . omega_j) s_j - alphadot_2 h_j x v_j - alphadot_0 f_i x omega_i - ... */
-    const jg_real v_8_in_i_0 = v_7_in_i_0 - (v_4_in_i_0 + v_6_in_i_0);
-    gamma[0] = v_8_in_i_0;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
+    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
+    const jg_real t94 = s_j_dot_lambda_0_1_2 + t76;
+    const jg_real v_7_in_i_2 = A_ji_6 * v_7_in_j_0 + A_ji_7 * v_7_in_j_1 + A_ji_8 * v_7_in_j_2;
+    /* v_8_in_i = alphadot_2 (h_j . omega_j) s_j - alphadot_2 h_j x v_j - alphadot_0 f_i x omega_i - ... */
+    const jg_real v_8_in_i_0 = v_7_in_i_0 - (v_4_in_i_0 + v_6_in_i_0);
+    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    phi_q_t_lambda_q[9] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[10] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[11] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
+    gamma[0] = v_8_in_i_0;
+    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
     const jg_real v_8_in_i_1 = v_7_in_i_1 - (v_4_in_i_1 + v_6_in_i_1);
+    const jg_real v_8_in_i_2 = v_7_in_i_2 - (v_4_in_i_2 + v_6_in_i_2);
+    /* v_2_in_j = (cos(alpha_2) lambda_3 + sin(alpha_2) lambda_4) f_j + (cos(alpha_2) lambda_4 - sin(alpha_2) ... */
+    const jg_real v_2_in_j_0 = C_j[0] * t84 + C_j[3] * t85 - C_j[6] * t94 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
+    const jg_real v_2_in_j_1 = C_j[1] * t84 + C_j[4] * t85 - C_j[7] * t94 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
+    const jg_real v_2_in_j_2 = C_j[2] * t84 + C_j[5] * t85 - C_j[8] * t94 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
+    gamma[3] = -(alphadot[2] * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
     gamma[1] = v_8_in_i_1;
+    gamma[4] = -(alphadot[2] * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
+    gamma[2] = v_8_in_i_2;
+    phi_q_t_lambda_q[12] = v_2_in_j_0;
+    phi_q_t_lambda_q[13] = v_2_in_j_1;
+    phi_q_t_lambda_q[14] = v_2_in_j_2;
     gamma[5] = -(alphadot[2] * (f_i_cross_g_j_in_i_0 * omega_i[0] + f_i_cross_g_j_in_i_1 * omega_i[1] +
         f_i_cross_g_j_in_i_2 * omega_i[2] + cosine_0 * (alphadot[2] - h_j_dot_omega_j)));
-    const jg_real v_8_in_i_2 = v_7_in_i_2 - (v_4_in_i_2 + v_6_in_i_2);
-    gamma[2] = v_8_in_i_2;
-    const jg_real t99 = s_j_dot_lambda_0_1_2 + t70;
-    /* v_2_in_j = (cos(alpha_2) lambda_3 + sin(alpha_2) lambda_4) f_j + (cos(alpha_2) lambda_4 - sin(alpha_2) ... */
-    const jg_real v_2_in_j_0 = C_j[0] * t75 + C_j[3] * t76 - C_j[6] * t99 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
-    phi_q_t_lambda_q[12] = v_2_in_j_0;
-    const jg_real v_2_in_j_1 = C_j[1] * t75 + C_j[4] * t76 - C_j[7] * t99 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
-    phi_q_t_lambda_q[13] = v_2_in_j_1;
-    const jg_real v_2_in_j_2 = C_j[2] * t75 + C_j[5] * t76 - C_j[8] * t99 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
-    phi_q_t_lambda_q[14] = v_2_in_j_2;
 }
 
 void jg_planar_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

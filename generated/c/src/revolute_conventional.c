@@ -4,10 +4,6 @@
  * joint revolute, form conventional, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/revolute.h"
 
 const int *jg_revolute_conventional_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_revolute_conventional_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_revolute_conventional_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -48,72 +43,72 @@ void jg_revolute_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = r_ij_world_0 + s_j_world_0 - s_i_world_0;
-    phi[0] = d_ij_world_0;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real d_ij_world_1 = r_ij_world_1 + s_j_world_1 - s_i_world_1;
-    phi[1] = d_ij_world_1;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real d_ij_world_2 = r_ij_world_2 + s_j_world_2 - s_i_world_2;
-    phi[2] = d_ij_world_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     const jg_real h_j_in_i_1 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
-    phi[3] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
+    phi[2] = d_ij_world_2;
+    phi[3] = f_i_dot_h_j;
     phi[4] = g_i_dot_h_j;
 }
 
-void jg_revolute_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_revolute_conventional_phi_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     phi_q[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
     phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[8] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     phi_q[9] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
+    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
+    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    phi_q[10] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
+    phi_q[13] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
+    phi_q[14] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     phi_q[18] = JG_REAL(1.0);
     phi_q[19] = JG_REAL(1.0);
     phi_q[20] = JG_REAL(1.0);
-    phi_q[10] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    phi_q[13] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[14] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     phi_q[15] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
     phi_q[21] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
     phi_q[22] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
-    const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     phi_q[23] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
     phi_q[26] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
-    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
-    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     phi_q[27] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
     phi_q[28] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
     phi_q[31] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
     phi_q[32] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     phi_q[33] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
     const jg_real h_j_in_i_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
     const jg_real h_j_in_i_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
     /* h_j_cross_f_i_in_i = h_j x f_i, axes of body i */
@@ -124,31 +119,31 @@ void jg_revolute_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real h_j_cross_g_i_in_i_1 = h_j_in_i_2 * C_i[3] - h_j_in_i_0 * C_i[5];
     const jg_real h_j_cross_f_i_in_i_2 = h_j_in_i_0 * C_i[1] - h_j_in_i_1 * C_i[0];
     const jg_real h_j_cross_g_i_in_i_2 = h_j_in_i_0 * C_i[4] - h_j_in_i_1 * C_i[3];
+    /* h_j_cross_f_i_in_j = h_j x f_i, axes of body j */
+    const jg_real h_j_cross_f_i_in_j_0 = A_ij_0 * h_j_cross_f_i_in_i_0 + A_ij_1 * h_j_cross_f_i_in_i_1 + A_ij_2 *
+        h_j_cross_f_i_in_i_2;
+    /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
+    const jg_real h_j_cross_g_i_in_j_0 = A_ij_0 * h_j_cross_g_i_in_i_0 + A_ij_1 * h_j_cross_g_i_in_i_1 + A_ij_2 *
+        h_j_cross_g_i_in_i_2;
     phi_q[6] = -h_j_cross_f_i_in_i_0;
     phi_q[7] = -h_j_cross_g_i_in_i_0;
     phi_q[11] = -h_j_cross_f_i_in_i_1;
     phi_q[12] = -h_j_cross_g_i_in_i_1;
     phi_q[16] = -h_j_cross_f_i_in_i_2;
     phi_q[17] = -h_j_cross_g_i_in_i_2;
-    /* h_j_cross_f_i_in_j = h_j x f_i, axes of body j */
-    const jg_real h_j_cross_f_i_in_j_0 = A_ij_0 * h_j_cross_f_i_in_i_0 + A_ij_1 * h_j_cross_f_i_in_i_1 + A_ij_2 *
-        h_j_cross_f_i_in_i_2;
     phi_q[24] = h_j_cross_f_i_in_j_0;
-    /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
-    const jg_real h_j_cross_g_i_in_j_0 = A_ij_0 * h_j_cross_g_i_in_i_0 + A_ij_1 * h_j_cross_g_i_in_i_1 + A_ij_2 *
-        h_j_cross_g_i_in_i_2;
     phi_q[25] = h_j_cross_g_i_in_j_0;
     const jg_real h_j_cross_f_i_in_j_1 = A_ij_3 * h_j_cross_f_i_in_i_0 + A_ij_4 * h_j_cross_f_i_in_i_1 + A_ij_5 *
         h_j_cross_f_i_in_i_2;
-    phi_q[29] = h_j_cross_f_i_in_j_1;
     const jg_real h_j_cross_g_i_in_j_1 = A_ij_3 * h_j_cross_g_i_in_i_0 + A_ij_4 * h_j_cross_g_i_in_i_1 + A_ij_5 *
         h_j_cross_g_i_in_i_2;
-    phi_q[30] = h_j_cross_g_i_in_j_1;
     const jg_real h_j_cross_f_i_in_j_2 = A_ij_6 * h_j_cross_f_i_in_i_0 + A_ij_7 * h_j_cross_f_i_in_i_1 + A_ij_8 *
         h_j_cross_f_i_in_i_2;
-    phi_q[34] = h_j_cross_f_i_in_j_2;
     const jg_real h_j_cross_g_i_in_j_2 = A_ij_6 * h_j_cross_g_i_in_i_0 + A_ij_7 * h_j_cross_g_i_in_i_1 + A_ij_8 *
         h_j_cross_g_i_in_i_2;
+    phi_q[29] = h_j_cross_f_i_in_j_1;
+    phi_q[30] = h_j_cross_g_i_in_j_1;
+    phi_q[34] = h_j_cross_f_i_in_j_2;
     phi_q[35] = h_j_cross_g_i_in_j_2;
 }
 
@@ -160,8 +155,8 @@ void jg_revolute_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const 
     jg_scatter(jg_revolute_conventional_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -175,104 +170,104 @@ void jg_revolute_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     /* v_0_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
     const jg_real v_0_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    const jg_real v_0_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
-    const jg_real v_0_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real v_0_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
+    const jg_real v_0_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    /* v_0_in_j = lambda_3 f_i + lambda_4 g_i, axes of body j */
-    const jg_real v_0_in_j_1 = A_ij_3 * v_0_in_i_0 + A_ij_4 * v_0_in_i_1 + A_ij_5 * v_0_in_i_2;
-    const jg_real v_0_in_j_2 = A_ij_6 * v_0_in_i_0 + A_ij_7 * v_0_in_i_1 + A_ij_8 * v_0_in_i_2;
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = lambda_0_1_2_in_j_0 * A_ij_1 + lambda_0_1_2_in_j_1 * A_ij_4 +
         lambda_0_1_2_in_j_2 * A_ij_7;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    /* v_0_in_j = lambda_3 f_i + lambda_4 g_i, axes of body j */
+    const jg_real v_0_in_j_1 = A_ij_3 * v_0_in_i_0 + A_ij_4 * v_0_in_i_1 + A_ij_5 * v_0_in_i_2;
+    const jg_real v_0_in_j_2 = A_ij_6 * v_0_in_i_0 + A_ij_7 * v_0_in_i_1 + A_ij_8 * v_0_in_i_2;
     const jg_real t19 = C_j[7] * v_0_in_j_1;
     const jg_real t20 = C_j[8] * v_0_in_j_2;
     /* M_1_i_j = (lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body i, columns in axes of body j */
     const jg_real M_1_i_j_4 = h_j_in_i_1 * v_0_in_j_1;
+    /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows in axes of body i, ... */
+    const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - v_0_in_i_1 * h_j_in_i_1;
     const jg_real M_1_i_j_5 = h_j_in_i_1 * v_0_in_j_2;
     const jg_real lambda_0_1_2_in_i_2 = lambda_0_1_2_in_j_0 * A_ij_2 + lambda_0_1_2_in_j_1 * A_ij_5 +
         lambda_0_1_2_in_j_2 * A_ij_8;
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real v_0_in_j_0 = A_ij_0 * v_0_in_i_0 + A_ij_1 * v_0_in_i_1 + A_ij_2 * v_0_in_i_2;
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real lambda_0_1_2_in_i_0 = lambda_0_1_2_in_j_0 * A_ij_0 + lambda_0_1_2_in_j_1 * A_ij_3 +
-        lambda_0_1_2_in_j_2 * A_ij_6;
     /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body j, ... */
     const jg_real M_2_j_j_4 = t19 + lambda_0_1_2_in_j_1 * s_j[1];
+    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real M_2_j_j_8 = t20 + lambda_0_1_2_in_j_2 * s_j[2];
-    const jg_real M_2_j_j_1 = lambda_0_1_2_in_j_1 * s_j[0] + C_j[6] * v_0_in_j_1;
-    phi_q_t_lambda_q[22] = M_2_j_j_1;
-    const jg_real M_2_j_j_2 = lambda_0_1_2_in_j_2 * s_j[0] + C_j[6] * v_0_in_j_2;
-    phi_q_t_lambda_q[23] = M_2_j_j_2;
-    /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows in axes of body i, ... */
-    const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - v_0_in_i_1 * h_j_in_i_1;
-    const jg_real M_2_j_j_5 = lambda_0_1_2_in_j_2 * s_j[1] + C_j[7] * v_0_in_j_2;
-    phi_q_t_lambda_q[29] = M_2_j_j_5;
-    phi_q_t_lambda_q[1] = v_0_in_i_0 * h_j_in_i_1 - s_i[0] * lambda_0_1_2_in_i_1;
-    const jg_real M_2_j_j_7 = lambda_0_1_2_in_j_1 * s_j[2] + C_j[8] * v_0_in_j_1;
-    phi_q_t_lambda_q[34] = M_2_j_j_7;
-    const jg_real t35 = C_j[6] * v_0_in_j_0;
+    const jg_real lambda_0_1_2_in_i_0 = lambda_0_1_2_in_j_0 * A_ij_0 + lambda_0_1_2_in_j_1 * A_ij_3 +
+        lambda_0_1_2_in_j_2 * A_ij_6;
+    const jg_real t31 = C_j[6] * v_0_in_j_0;
     const jg_real M_1_i_j_0 = h_j_in_i_0 * v_0_in_j_0;
     const jg_real M_1_i_j_1 = h_j_in_i_0 * v_0_in_j_1;
     const jg_real M_1_i_j_2 = h_j_in_i_0 * v_0_in_j_2;
-    const jg_real M_1_i_j_3 = h_j_in_i_1 * v_0_in_j_0;
     const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - v_0_in_i_2 * h_j_in_i_2;
-    phi_q_t_lambda_q[13] = v_0_in_i_2 * h_j_in_i_1 - s_i[2] * lambda_0_1_2_in_i_1;
-    phi_q_t_lambda_q[2] = v_0_in_i_0 * h_j_in_i_2 - s_i[0] * lambda_0_1_2_in_i_2;
+    const jg_real M_1_i_j_3 = h_j_in_i_1 * v_0_in_j_0;
     const jg_real M_1_i_j_6 = h_j_in_i_2 * v_0_in_j_0;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - v_0_in_i_0 * h_j_in_i_0;
     const jg_real M_1_i_j_7 = h_j_in_i_2 * v_0_in_j_1;
     const jg_real M_1_i_j_8 = h_j_in_i_2 * v_0_in_j_2;
+    const jg_real t41 = t31 + t19 + t20;
+    const jg_real M_2_j_j_1 = lambda_0_1_2_in_j_1 * s_j[0] + C_j[6] * v_0_in_j_1;
+    phi_q_t_lambda_q[1] = v_0_in_i_0 * h_j_in_i_1 - s_i[0] * lambda_0_1_2_in_i_1;
+    phi_q_t_lambda_q[2] = v_0_in_i_0 * h_j_in_i_2 - s_i[0] * lambda_0_1_2_in_i_2;
+    phi_q_t_lambda_q[13] = v_0_in_i_2 * h_j_in_i_1 - s_i[2] * lambda_0_1_2_in_i_1;
     phi_q_t_lambda_q[6] = v_0_in_i_1 * h_j_in_i_0 - s_i[1] * lambda_0_1_2_in_i_0;
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - v_0_in_i_0 * h_j_in_i_0;
-    const jg_real M_2_j_j_0 = t35 + lambda_0_1_2_in_j_0 * s_j[0];
-    phi_q_t_lambda_q[8] = v_0_in_i_1 * h_j_in_i_2 - s_i[1] * lambda_0_1_2_in_i_2;
-    phi_q_t_lambda_q[12] = v_0_in_i_2 * h_j_in_i_0 - s_i[2] * lambda_0_1_2_in_i_0;
     phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
-    const jg_real t46 = t35 + t19 + t20;
-    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
+    phi_q_t_lambda_q[8] = v_0_in_i_1 * h_j_in_i_2 - s_i[1] * lambda_0_1_2_in_i_2;
+    phi_q_t_lambda_q[22] = M_2_j_j_1;
+    phi_q_t_lambda_q[12] = v_0_in_i_2 * h_j_in_i_0 - s_i[2] * lambda_0_1_2_in_i_0;
+    const jg_real M_2_j_j_2 = lambda_0_1_2_in_j_2 * s_j[0] + C_j[6] * v_0_in_j_2;
+    const jg_real M_2_j_j_0 = t31 + lambda_0_1_2_in_j_0 * s_j[0];
+    const jg_real M_2_j_j_5 = lambda_0_1_2_in_j_2 * s_j[1] + C_j[7] * v_0_in_j_2;
     const jg_real M_2_j_j_3 = lambda_0_1_2_in_j_0 * s_j[1] + C_j[7] * v_0_in_j_0;
-    phi_q_t_lambda_q[27] = M_2_j_j_3;
+    const jg_real t47 = A_ij_0 * t41 - M_1_i_j_0;
+    phi_q_t_lambda_q[23] = M_2_j_j_2;
     phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
     phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
+    phi_q_t_lambda_q[29] = M_2_j_j_5;
+    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
+    phi_q_t_lambda_q[27] = M_2_j_j_3;
+    phi_q_t_lambda_q[3] = t47;
+    phi_q_t_lambda_q[18] = t47;
+    const jg_real t48 = A_ij_3 * t41 - M_1_i_j_1;
+    const jg_real t49 = A_ij_6 * t41 - M_1_i_j_2;
+    const jg_real t50 = A_ij_1 * t41 - M_1_i_j_3;
+    const jg_real t51 = A_ij_4 * t41 - M_1_i_j_4;
+    phi_q_t_lambda_q[4] = t48;
+    phi_q_t_lambda_q[24] = t48;
+    phi_q_t_lambda_q[5] = t49;
+    phi_q_t_lambda_q[30] = t49;
+    phi_q_t_lambda_q[9] = t50;
+    phi_q_t_lambda_q[19] = t50;
+    phi_q_t_lambda_q[10] = t51;
+    phi_q_t_lambda_q[25] = t51;
+    const jg_real t52 = A_ij_7 * t41 - M_1_i_j_5;
+    const jg_real t53 = A_ij_2 * t41 - M_1_i_j_6;
+    const jg_real t54 = A_ij_5 * t41 - M_1_i_j_7;
+    const jg_real t55 = A_ij_8 * t41 - M_1_i_j_8;
+    phi_q_t_lambda_q[11] = t52;
+    phi_q_t_lambda_q[31] = t52;
+    phi_q_t_lambda_q[15] = t53;
+    phi_q_t_lambda_q[20] = t53;
+    phi_q_t_lambda_q[16] = t54;
+    phi_q_t_lambda_q[26] = t54;
+    phi_q_t_lambda_q[17] = t55;
+    phi_q_t_lambda_q[32] = t55;
     const jg_real M_2_j_j_6 = lambda_0_1_2_in_j_0 * s_j[2] + C_j[8] * v_0_in_j_0;
+    const jg_real M_2_j_j_7 = lambda_0_1_2_in_j_1 * s_j[2] + C_j[8] * v_0_in_j_1;
     phi_q_t_lambda_q[33] = M_2_j_j_6;
+    phi_q_t_lambda_q[34] = M_2_j_j_7;
     phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
     phi_q_t_lambda_q[35] = -(M_2_j_j_0 + M_2_j_j_4);
-    const jg_real t49 = A_ij_0 * t46 - M_1_i_j_0;
-    phi_q_t_lambda_q[3] = t49;
-    phi_q_t_lambda_q[18] = t49;
-    const jg_real t50 = A_ij_3 * t46 - M_1_i_j_1;
-    phi_q_t_lambda_q[4] = t50;
-    phi_q_t_lambda_q[24] = t50;
-    const jg_real t51 = A_ij_6 * t46 - M_1_i_j_2;
-    phi_q_t_lambda_q[5] = t51;
-    phi_q_t_lambda_q[30] = t51;
-    const jg_real t52 = A_ij_1 * t46 - M_1_i_j_3;
-    phi_q_t_lambda_q[9] = t52;
-    phi_q_t_lambda_q[19] = t52;
-    const jg_real t53 = A_ij_4 * t46 - M_1_i_j_4;
-    phi_q_t_lambda_q[10] = t53;
-    phi_q_t_lambda_q[25] = t53;
-    const jg_real t54 = A_ij_7 * t46 - M_1_i_j_5;
-    phi_q_t_lambda_q[11] = t54;
-    phi_q_t_lambda_q[31] = t54;
-    const jg_real t55 = A_ij_2 * t46 - M_1_i_j_6;
-    phi_q_t_lambda_q[15] = t55;
-    phi_q_t_lambda_q[20] = t55;
-    const jg_real t56 = A_ij_5 * t46 - M_1_i_j_7;
-    phi_q_t_lambda_q[16] = t56;
-    phi_q_t_lambda_q[26] = t56;
-    const jg_real t57 = A_ij_8 * t46 - M_1_i_j_8;
-    phi_q_t_lambda_q[17] = t57;
-    phi_q_t_lambda_q[32] = t57;
 }
 
 void jg_revolute_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -283,8 +278,8 @@ void jg_revolute_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT 
     jg_scatter(jg_revolute_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_revolute_conventional_gamma(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -304,72 +299,72 @@ void jg_revolute_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_rea
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* s_i_dot_omega_i = s_i . omega_i */
     const jg_real s_i_dot_omega_i = omega_i[0] * s_i[0] + omega_i[1] * s_i[1] + omega_i[2] * s_i[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j_world_0 * omega_j_world_0 + omega_j_world_1 * omega_j_world_1 +
         omega_j_world_2 * omega_j_world_2;
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = omega_j_world_0 * A_i[0] + omega_j_world_1 * A_i[1] + omega_j_world_2 * A_i[2];
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = omega_j_world_0 * s_j_world_0 + omega_j_world_1 * s_j_world_1 + omega_j_world_2
+        * s_j_world_2;
+    const jg_real omega_j_in_i_1 = omega_j_world_0 * A_i[3] + omega_j_world_1 * A_i[4] + omega_j_world_2 * A_i[5];
     /* v_1_in_i = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, axes of body i */
     const jg_real v_1_in_i_0 = omega_i_dot_omega_i * s_i[0] - omega_i[0] * s_i_dot_omega_i;
     const jg_real v_1_in_i_1 = omega_i_dot_omega_i * s_i[1] - omega_i[1] * s_i_dot_omega_i;
     const jg_real v_1_in_i_2 = omega_i_dot_omega_i * s_i[2] - omega_i[2] * s_i_dot_omega_i;
-    const jg_real omega_j_in_i_1 = omega_j_world_0 * A_i[3] + omega_j_world_1 * A_i[4] + omega_j_world_2 * A_i[5];
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = omega_j_world_0 * s_j_world_0 + omega_j_world_1 * s_j_world_1 + omega_j_world_2
-        * s_j_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real omega_j_in_i_2 = omega_j_world_0 * A_i[6] + omega_j_world_1 * A_i[7] + omega_j_world_2 * A_i[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* v_0_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
     const jg_real v_0_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_j_world_0 * s_j_dot_omega_j;
     const jg_real v_0_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_j_world_1 * s_j_dot_omega_j;
     const jg_real v_0_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_j_world_2 * s_j_dot_omega_j;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     /* v_1_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
     const jg_real v_1_world_0 = v_1_in_i_0 * A_i[0] + v_1_in_i_1 * A_i[3] + v_1_in_i_2 * A_i[6];
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real v_1_world_1 = v_1_in_i_0 * A_i[1] + v_1_in_i_1 * A_i[4] + v_1_in_i_2 * A_i[7];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real v_1_world_2 = v_1_in_i_0 * A_i[2] + v_1_in_i_1 * A_i[5] + v_1_in_i_2 * A_i[8];
     /* omega_j_dot_omega_i = omega_j . omega_i */
     const jg_real omega_j_dot_omega_i = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
         omega_j_in_i_2;
-    const jg_real h_j_in_i_1 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_2_world_0 = v_0_world_0 - v_1_world_0;
-    gamma[0] = v_2_world_0;
-    const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     const jg_real v_2_world_1 = v_0_world_1 - v_1_world_1;
-    gamma[1] = v_2_world_1;
+    const jg_real v_2_world_2 = v_0_world_2 - v_1_world_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t29 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
+    /* omega_j_dot_f_i = omega_j . f_i */
+    const jg_real omega_j_dot_f_i = omega_j_in_i_0 * C_i[0] + omega_j_in_i_1 * C_i[1] + omega_j_in_i_2 * C_i[2];
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    const jg_real h_j_in_i_1 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = omega_j_world_0 * h_j_world_0 + omega_j_world_1 * h_j_world_1 + omega_j_world_2
         * h_j_world_2;
-    const jg_real v_2_world_2 = v_0_world_2 - v_1_world_2;
-    gamma[2] = v_2_world_2;
-    /* omega_i_dot_g_i = omega_i . g_i */
-    const jg_real omega_i_dot_g_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
-    /* omega_j_dot_f_i = omega_j . f_i */
-    const jg_real omega_j_dot_f_i = omega_j_in_i_0 * C_i[0] + omega_j_in_i_1 * C_i[1] + omega_j_in_i_2 * C_i[2];
     /* omega_j_dot_g_i = omega_j . g_i */
     const jg_real omega_j_dot_g_i = omega_j_in_i_0 * C_i[3] + omega_j_in_i_1 * C_i[4] + omega_j_in_i_2 * C_i[5];
-    const jg_real t37 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
+    /* omega_i_dot_g_i = omega_i . g_i */
+    const jg_real omega_i_dot_g_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_in_i_0 + omega_i[1] * h_j_in_i_1 + omega_i[2] * h_j_in_i_2;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
-    gamma[4] = t37 * g_i_dot_h_j + omega_i_dot_h_j * (JG_REAL(2.0) * omega_j_dot_g_i - omega_i_dot_g_i) -
+    gamma[0] = v_2_world_0;
+    gamma[1] = v_2_world_1;
+    gamma[2] = v_2_world_2;
+    gamma[4] = t29 * g_i_dot_h_j + omega_i_dot_h_j * (JG_REAL(2.0) * omega_j_dot_g_i - omega_i_dot_g_i) -
         omega_j_dot_h_j * omega_j_dot_g_i;
-    gamma[3] = f_i_dot_h_j * t37 + omega_j_dot_f_i * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) -
+    gamma[3] = f_i_dot_h_j * t29 + omega_j_dot_f_i * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) -
         omega_i_dot_h_j * omega_i_dot_f_i;
 }
 
-void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_revolute_conventional_phi_q_v(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -387,37 +382,34 @@ void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_r
     const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
     const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* s_i_cross_omega_i_world = s_i x omega_i, world axes */
     const jg_real s_i_cross_omega_i_world_0 = s_i_cross_omega_i_in_i_0 * A_i[0] + s_i_cross_omega_i_in_i_1 * A_i[3]
         + s_i_cross_omega_i_in_i_2 * A_i[6];
     const jg_real s_i_cross_omega_i_world_1 = s_i_cross_omega_i_in_i_0 * A_i[1] + s_i_cross_omega_i_in_i_1 * A_i[4]
         + s_i_cross_omega_i_in_i_2 * A_i[7];
-    /* omega_j_world = omega_j, world axes */
-    const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
     const jg_real s_j_cross_omega_j_world_0 = s_j_cross_omega_j_in_j_0 * A_j[0] + s_j_cross_omega_j_in_j_1 * A_j[3]
         + s_j_cross_omega_j_in_j_2 * A_j[6];
     const jg_real s_j_cross_omega_j_world_1 = s_j_cross_omega_j_in_j_0 * A_j[1] + s_j_cross_omega_j_in_j_1 * A_j[4]
         + s_j_cross_omega_j_in_j_2 * A_j[7];
-    const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real s_i_cross_omega_i_world_2 = s_i_cross_omega_i_in_i_0 * A_i[2] + s_i_cross_omega_i_in_i_1 * A_i[5]
         + s_i_cross_omega_i_in_i_2 * A_i[8];
     const jg_real s_j_cross_omega_j_world_2 = s_j_cross_omega_j_in_j_0 * A_j[2] + s_j_cross_omega_j_in_j_1 * A_j[5]
         + s_j_cross_omega_j_in_j_2 * A_j[8];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real omega_j_world_0 = omega_j[0] * A_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
+    /* omega_j_world = omega_j, world axes */
+    const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* v_0_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
     const jg_real v_0_world_0 = v_j[0] - v_i[0] - s_j_cross_omega_j_world_0 + s_i_cross_omega_i_world_0;
-    phi_q_v[0] = v_0_world_0;
     const jg_real v_0_world_1 = v_j[1] - v_i[1] - s_j_cross_omega_j_world_1 + s_i_cross_omega_i_world_1;
-    phi_q_v[1] = v_0_world_1;
+    const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
+    const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real omega_j_world_0 = omega_j[0] * A_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
     /* omega_j_cross_h_j_world = omega_j x h_j, world axes */
     const jg_real omega_j_cross_h_j_world_0 = h_j_world_2 * omega_j_world_1 - h_j_world_1 * omega_j_world_2;
-    const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
-    phi_q_v[2] = v_0_world_2;
     const jg_real omega_j_cross_h_j_world_1 = h_j_world_0 * omega_j_world_2 - h_j_world_2 * omega_j_world_0;
     const jg_real omega_j_cross_h_j_world_2 = h_j_world_1 * omega_j_world_0 - h_j_world_0 * omega_j_world_1;
     /* h_j_in_i = h_j, axes of body i */
@@ -426,15 +418,18 @@ void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_r
     const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     /* omega_i_cross_h_j_in_i = omega_i x h_j, axes of body i */
     const jg_real omega_i_cross_h_j_in_i_0 = omega_i[1] * h_j_in_i_2 - omega_i[2] * h_j_in_i_1;
+    const jg_real omega_i_cross_h_j_in_i_1 = omega_i[2] * h_j_in_i_0 - omega_i[0] * h_j_in_i_2;
     /* omega_j_cross_h_j_in_i = omega_j x h_j, axes of body i */
     const jg_real omega_j_cross_h_j_in_i_0 = A_i[0] * omega_j_cross_h_j_world_0 + A_i[1] * omega_j_cross_h_j_world_1
         + A_i[2] * omega_j_cross_h_j_world_2;
     const jg_real omega_j_cross_h_j_in_i_1 = A_i[3] * omega_j_cross_h_j_world_0 + A_i[4] * omega_j_cross_h_j_world_1
         + A_i[5] * omega_j_cross_h_j_world_2;
+    const jg_real omega_i_cross_h_j_in_i_2 = omega_i[0] * h_j_in_i_1 - omega_i[1] * h_j_in_i_0;
     const jg_real omega_j_cross_h_j_in_i_2 = A_i[6] * omega_j_cross_h_j_world_0 + A_i[7] * omega_j_cross_h_j_world_1
         + A_i[8] * omega_j_cross_h_j_world_2;
-    const jg_real omega_i_cross_h_j_in_i_1 = omega_i[2] * h_j_in_i_0 - omega_i[0] * h_j_in_i_2;
-    const jg_real omega_i_cross_h_j_in_i_2 = omega_i[0] * h_j_in_i_1 - omega_i[1] * h_j_in_i_0;
+    phi_q_v[0] = v_0_world_0;
+    phi_q_v[1] = v_0_world_1;
+    phi_q_v[2] = v_0_world_2;
     phi_q_v[3] = C_i[0] * omega_j_cross_h_j_in_i_0 + C_i[1] * omega_j_cross_h_j_in_i_1 + C_i[2] *
         omega_j_cross_h_j_in_i_2 - (omega_i_cross_h_j_in_i_0 * C_i[0] + omega_i_cross_h_j_in_i_1 * C_i[1] +
         omega_i_cross_h_j_in_i_2 * C_i[2]);
@@ -443,19 +438,13 @@ void jg_revolute_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_r
         C_i[5]);
 }
 
-void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_revolute_conventional_phi_q_t_lambda(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[6] = lambda[0];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[7] = lambda[1];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[8] = lambda[2];
-    phi_q_t_lambda[2] = -lambda[2];
     /* v_0_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
     const jg_real v_0_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
     const jg_real v_0_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
@@ -466,28 +455,26 @@ void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, con
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
-    const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
-    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     /* v_0_world = lambda_3 f_i + lambda_4 g_i, world axes */
     const jg_real v_0_world_2 = A_i[2] * v_0_in_i_0 + A_i[5] * v_0_in_i_1 + A_i[8] * v_0_in_i_2;
     const jg_real v_0_world_1 = A_i[1] * v_0_in_i_0 + A_i[4] * v_0_in_i_1 + A_i[7] * v_0_in_i_2;
+    const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
     const jg_real v_0_world_0 = A_i[0] * v_0_in_i_0 + A_i[3] * v_0_in_i_1 + A_i[6] * v_0_in_i_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
-    /* s_i_cross_lambda_0_1_2_in_i = s_i x lambda_0_1_2, axes of body i */
-    const jg_real s_i_cross_lambda_0_1_2_in_i_0 = s_i[1] * lambda_0_1_2_in_i_2 - s_i[2] * lambda_0_1_2_in_i_1;
-    const jg_real s_i_cross_lambda_0_1_2_in_i_1 = s_i[2] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
-    const jg_real s_i_cross_lambda_0_1_2_in_i_2 = s_i[0] * lambda_0_1_2_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
+    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     /* v_1_world = lambda_3 h_j x f_i + lambda_4 h_j x g_i, world axes */
     const jg_real v_1_world_0 = h_j_world_1 * v_0_world_2 - h_j_world_2 * v_0_world_1;
+    /* s_i_cross_lambda_0_1_2_in_i = s_i x lambda_0_1_2, axes of body i */
+    const jg_real s_i_cross_lambda_0_1_2_in_i_0 = s_i[1] * lambda_0_1_2_in_i_2 - s_i[2] * lambda_0_1_2_in_i_1;
     const jg_real v_1_world_1 = h_j_world_2 * v_0_world_0 - h_j_world_0 * v_0_world_2;
     const jg_real v_1_world_2 = h_j_world_0 * v_0_world_1 - h_j_world_1 * v_0_world_0;
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    const jg_real s_i_cross_lambda_0_1_2_in_i_1 = s_i[2] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
+    const jg_real s_i_cross_lambda_0_1_2_in_i_2 = s_i[0] * lambda_0_1_2_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     /* v_1_in_i = lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of body i */
     const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
     const jg_real v_1_in_i_1 = A_i[3] * v_1_world_0 + A_i[4] * v_1_world_1 + A_i[5] * v_1_world_2;
@@ -495,27 +482,34 @@ void jg_revolute_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, con
     /* v_1_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of body j */
     const jg_real v_1_in_j_0 = A_j[0] * v_1_world_0 + A_j[1] * v_1_world_1 + A_j[2] * v_1_world_2;
     const jg_real v_1_in_j_1 = A_j[3] * v_1_world_0 + A_j[4] * v_1_world_1 + A_j[5] * v_1_world_2;
-    const jg_real v_1_in_j_2 = A_j[6] * v_1_world_0 + A_j[7] * v_1_world_1 + A_j[8] * v_1_world_2;
     /* v_2_in_i = s_i x lambda_0_1_2 + lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of body i */
     const jg_real v_2_in_i_0 = s_i_cross_lambda_0_1_2_in_i_0 + v_1_in_i_0;
     const jg_real v_2_in_i_1 = s_i_cross_lambda_0_1_2_in_i_1 + v_1_in_i_1;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_2_in_i_2 = s_i_cross_lambda_0_1_2_in_i_2 + v_1_in_i_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_j_2 = A_j[6] * v_1_world_0 + A_j[7] * v_1_world_1 + A_j[8] * v_1_world_2;
     /* v_3_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i + s_j x lambda_0_1_2, axes of body j */
     const jg_real v_3_in_j_0 = v_1_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[6] = lambda[0];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[7] = lambda[1];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[8] = lambda[2];
+    phi_q_t_lambda[2] = -lambda[2];
     phi_q_t_lambda[9] = v_3_in_j_0;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda[10] = v_3_in_j_1;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2;
-    phi_q_t_lambda[11] = v_3_in_j_2;
     phi_q_t_lambda[3] = -v_2_in_i_0;
+    const jg_real v_3_in_j_1 = v_1_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1;
+    const jg_real v_3_in_j_2 = v_1_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda[4] = -v_2_in_i_1;
+    phi_q_t_lambda[10] = v_3_in_j_1;
     phi_q_t_lambda[5] = -v_2_in_i_2;
+    phi_q_t_lambda[11] = v_3_in_j_2;
 }
 
-void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_revolute_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -535,178 +529,175 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
+    /* d_ij_world = r_ij + s_j - s_i, world axes */
+    const jg_real d_ij_world_0 = r_ij_world_0 + s_j_world_0 - s_i_world_0;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real d_ij_world_1 = r_ij_world_1 + s_j_world_1 - s_i_world_1;
+    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real d_ij_world_2 = r_ij_world_2 + s_j_world_2 - s_i_world_2;
+    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    /* d_ij_world = r_ij + s_j - s_i, world axes */
-    const jg_real d_ij_world_0 = r_ij_world_0 + s_j_world_0 - s_i_world_0;
-    phi[0] = d_ij_world_0;
-    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real d_ij_world_1 = r_ij_world_1 + s_j_world_1 - s_i_world_1;
-    phi[1] = d_ij_world_1;
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real d_ij_world_2 = r_ij_world_2 + s_j_world_2 - s_i_world_2;
     phi[2] = d_ij_world_2;
-    phi_q[5] = A_i[1] * s_i_world_0 - A_i[0] * s_i_world_1;
     phi_q[3] = A_i[2] * s_i_world_1 - A_i[1] * s_i_world_2;
-    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     phi_q[4] = A_i[0] * s_i_world_2 - A_i[2] * s_i_world_0;
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
+    phi_q[5] = A_i[1] * s_i_world_0 - A_i[0] * s_i_world_1;
     phi_q[8] = A_i[5] * s_i_world_1 - A_i[4] * s_i_world_2;
     phi_q[9] = A_i[3] * s_i_world_2 - A_i[5] * s_i_world_0;
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     phi_q[10] = A_i[4] * s_i_world_0 - A_i[3] * s_i_world_1;
     phi_q[18] = JG_REAL(1.0);
     phi_q[19] = JG_REAL(1.0);
     phi_q[20] = JG_REAL(1.0);
     phi_q[13] = A_i[8] * s_i_world_1 - A_i[7] * s_i_world_2;
-    phi_q[14] = A_i[6] * s_i_world_2 - A_i[8] * s_i_world_0;
-    phi_q[15] = A_i[7] * s_i_world_0 - A_i[6] * s_i_world_1;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[21] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
-    phi_q[22] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
-    phi_q[23] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
     const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
-    phi_q[26] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
-    phi_q[27] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
     const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
     /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
     const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
-    phi_q[6] = f_i_cross_h_j_in_i_0;
     /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
     const jg_real g_i_cross_h_j_in_i_0 = h_j_in_i_2 * C_i[4] - h_j_in_i_1 * C_i[5];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
+    const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
+    phi_q[14] = A_i[6] * s_i_world_2 - A_i[8] * s_i_world_0;
+    phi_q[15] = A_i[7] * s_i_world_0 - A_i[6] * s_i_world_1;
+    phi_q[21] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
+    phi_q[22] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
+    phi_q[23] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
+    phi_q[6] = f_i_cross_h_j_in_i_0;
     phi_q[7] = g_i_cross_h_j_in_i_0;
+    phi_q[11] = f_i_cross_h_j_in_i_1;
+    const jg_real g_i_cross_h_j_in_i_1 = h_j_in_i_0 * C_i[5] - h_j_in_i_2 * C_i[3];
+    const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
+    const jg_real g_i_cross_h_j_in_i_2 = h_j_in_i_1 * C_i[3] - h_j_in_i_0 * C_i[4];
     const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = A_ji_2 * C_i[3] + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
     const jg_real g_i_in_j_1 = A_ji_1 * C_i[3] + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
-    phi_q[28] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
-    phi_q[31] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
-    const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
-    phi_q[11] = f_i_cross_h_j_in_i_1;
-    const jg_real g_i_cross_h_j_in_i_1 = h_j_in_i_0 * C_i[5] - h_j_in_i_2 * C_i[3];
-    phi_q[12] = g_i_cross_h_j_in_i_1;
-    const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
-    phi_q[16] = f_i_cross_h_j_in_i_2;
-    const jg_real g_i_cross_h_j_in_i_2 = h_j_in_i_1 * C_i[3] - h_j_in_i_0 * C_i[4];
-    phi_q[17] = g_i_cross_h_j_in_i_2;
-    const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
-    phi_q[24] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
-    phi_q[25] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
-    phi_q[32] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
-    phi[3] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
+    phi_q[12] = g_i_cross_h_j_in_i_1;
+    phi_q[16] = f_i_cross_h_j_in_i_2;
+    phi_q[17] = g_i_cross_h_j_in_i_2;
+    phi[3] = f_i_dot_h_j;
     phi[4] = g_i_dot_h_j;
+    phi_q[26] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
+    phi_q[27] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
+    phi_q[28] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
+    const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
+    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_0 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
+    /* v_0_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
+    const jg_real v_0_in_i_1 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
+    const jg_real lambda_0_1_2_in_j_1 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
+    phi_q[24] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    phi_q[25] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    phi_q[31] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
+    phi_q[32] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     phi_q[33] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
     phi_q[29] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     phi_q[34] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
     phi_q[30] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    phi_q[35] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    /* v_0_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
-    const jg_real v_0_in_i_1 = C_i[1] * lambda[3] + C_i[4] * lambda[4];
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
     const jg_real v_0_in_i_2 = C_i[2] * lambda[3] + C_i[5] * lambda[4];
-    const jg_real lambda_0_1_2_in_j_1 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
-    const jg_real v_0_in_i_0 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
-    const jg_real t43 = f_i_dot_h_j * lambda[3] + g_i_dot_h_j * lambda[4];
     const jg_real lambda_0_1_2_in_j_2 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
+    const jg_real v_0_in_i_0 = C_i[0] * lambda[3] + C_i[3] * lambda[4];
+    const jg_real t44 = f_i_dot_h_j * lambda[3] + g_i_dot_h_j * lambda[4];
     /* v_0_in_j = lambda_3 f_i + lambda_4 g_i, axes of body j */
     const jg_real v_0_in_j_0 = f_i_in_j_0 * lambda[3] + g_i_in_j_0 * lambda[4];
     const jg_real v_0_in_j_1 = f_i_in_j_1 * lambda[3] + g_i_in_j_1 * lambda[4];
+    /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
+    const jg_real lambda_0_1_2_in_i_1 = A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_5 *
+        lambda_0_1_2_in_j_2;
+    const jg_real lambda_0_1_2_in_i_2 = A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_8 *
+        lambda_0_1_2_in_j_2;
     /* M_1_i_j = (lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body i, columns in axes of body j */
     const jg_real M_1_i_j_0 = h_j_in_i_0 * v_0_in_j_0;
     const jg_real v_0_in_j_2 = f_i_in_j_2 * lambda[3] + g_i_in_j_2 * lambda[4];
     const jg_real M_1_i_j_1 = h_j_in_i_0 * v_0_in_j_1;
     const jg_real M_1_i_j_3 = h_j_in_i_1 * v_0_in_j_0;
     const jg_real M_1_i_j_4 = h_j_in_i_1 * v_0_in_j_1;
-    const jg_real t52 = A_ji_0 * t43 - M_1_i_j_0;
-    phi_q_t_lambda_q[3] = t52;
-    phi_q_t_lambda_q[18] = t52;
+    const jg_real t54 = A_ji_0 * t44 - M_1_i_j_0;
     const jg_real M_1_i_j_2 = h_j_in_i_0 * v_0_in_j_2;
-    const jg_real M_1_i_j_5 = h_j_in_i_1 * v_0_in_j_2;
-    /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
-    const jg_real lambda_0_1_2_in_i_1 = A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_5 *
-        lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_i_2 = A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_8 *
-        lambda_0_1_2_in_j_2;
-    const jg_real M_1_i_j_6 = h_j_in_i_2 * v_0_in_j_0;
-    const jg_real t58 = A_ji_1 * t43 - M_1_i_j_1;
-    phi_q_t_lambda_q[4] = t58;
-    phi_q_t_lambda_q[24] = t58;
-    const jg_real t59 = A_ji_3 * t43 - M_1_i_j_3;
-    phi_q_t_lambda_q[9] = t59;
-    phi_q_t_lambda_q[19] = t59;
-    const jg_real M_1_i_j_7 = h_j_in_i_2 * v_0_in_j_1;
-    const jg_real t61 = A_ji_4 * t43 - M_1_i_j_4;
-    phi_q_t_lambda_q[10] = t61;
-    phi_q_t_lambda_q[25] = t61;
-    const jg_real M_1_i_j_8 = h_j_in_i_2 * v_0_in_j_2;
-    const jg_real t63 = A_ji_2 * t43 - M_1_i_j_2;
-    phi_q_t_lambda_q[5] = t63;
-    phi_q_t_lambda_q[30] = t63;
-    const jg_real t64 = A_ji_5 * t43 - M_1_i_j_5;
-    phi_q_t_lambda_q[11] = t64;
-    phi_q_t_lambda_q[31] = t64;
+    const jg_real t56 = A_ji_1 * t44 - M_1_i_j_1;
+    const jg_real t57 = A_ji_3 * t44 - M_1_i_j_3;
     const jg_real lambda_0_1_2_in_i_0 = A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_1 * lambda_0_1_2_in_j_1 + A_ji_2 *
         lambda_0_1_2_in_j_2;
-    const jg_real t66 = A_ji_6 * t43 - M_1_i_j_6;
-    phi_q_t_lambda_q[15] = t66;
-    phi_q_t_lambda_q[20] = t66;
-    const jg_real t67 = A_ji_7 * t43 - M_1_i_j_7;
-    phi_q_t_lambda_q[16] = t67;
-    phi_q_t_lambda_q[26] = t67;
-    const jg_real t68 = A_ji_8 * t43 - M_1_i_j_8;
-    phi_q_t_lambda_q[17] = t68;
-    phi_q_t_lambda_q[32] = t68;
+    const jg_real t59 = A_ji_4 * t44 - M_1_i_j_4;
+    phi_q[35] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    phi_q_t_lambda_q[3] = t54;
+    phi_q_t_lambda_q[18] = t54;
+    phi_q_t_lambda_q[4] = t56;
+    phi_q_t_lambda_q[24] = t56;
+    phi_q_t_lambda_q[9] = t57;
+    phi_q_t_lambda_q[19] = t57;
+    phi_q_t_lambda_q[10] = t59;
+    phi_q_t_lambda_q[25] = t59;
     /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows in axes of body i, ... */
     const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - h_j_in_i_1 * v_0_in_i_1;
     const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - h_j_in_i_2 * v_0_in_i_2;
+    const jg_real M_1_i_j_5 = h_j_in_i_1 * v_0_in_j_2;
+    const jg_real t63 = A_ji_2 * t44 - M_1_i_j_2;
+    const jg_real M_1_i_j_6 = h_j_in_i_2 * v_0_in_j_0;
+    const jg_real t65 = A_ji_5 * t44 - M_1_i_j_5;
     phi_q_t_lambda_q[1] = h_j_in_i_1 * v_0_in_i_0 - s_i[0] * lambda_0_1_2_in_i_1;
     phi_q_t_lambda_q[2] = h_j_in_i_2 * v_0_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
+    phi_q_t_lambda_q[5] = t63;
+    phi_q_t_lambda_q[30] = t63;
     phi_q_t_lambda_q[8] = h_j_in_i_2 * v_0_in_i_1 - s_i[1] * lambda_0_1_2_in_i_2;
+    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
+    phi_q_t_lambda_q[11] = t65;
+    phi_q_t_lambda_q[31] = t65;
+    const jg_real M_1_i_j_7 = h_j_in_i_2 * v_0_in_j_1;
+    const jg_real M_1_i_j_8 = h_j_in_i_2 * v_0_in_j_2;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - h_j_in_i_0 * v_0_in_i_0;
+    const jg_real t69 = A_ji_6 * t44 - M_1_i_j_6;
+    const jg_real t70 = A_ji_7 * t44 - M_1_i_j_7;
+    const jg_real t71 = A_ji_8 * t44 - M_1_i_j_8;
     phi_q_t_lambda_q[13] = h_j_in_i_1 * v_0_in_i_2 - s_i[2] * lambda_0_1_2_in_i_1;
+    phi_q_t_lambda_q[6] = h_j_in_i_0 * v_0_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
+    phi_q_t_lambda_q[12] = h_j_in_i_0 * v_0_in_i_2 - s_i[2] * lambda_0_1_2_in_i_0;
+    phi_q_t_lambda_q[15] = t69;
+    phi_q_t_lambda_q[20] = t69;
+    phi_q_t_lambda_q[16] = t70;
+    phi_q_t_lambda_q[26] = t70;
+    phi_q_t_lambda_q[17] = t71;
+    phi_q_t_lambda_q[32] = t71;
     /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body j, ... */
     const jg_real M_2_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[7] * v_0_in_j_1;
     const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[8] * v_0_in_j_2;
     const jg_real M_2_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[6] * v_0_in_j_1;
-    phi_q_t_lambda_q[22] = M_2_j_j_1;
-    phi_q_t_lambda_q[6] = h_j_in_i_0 * v_0_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - h_j_in_i_0 * v_0_in_i_0;
-    phi_q_t_lambda_q[12] = h_j_in_i_0 * v_0_in_i_2 - s_i[2] * lambda_0_1_2_in_i_0;
-    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
     const jg_real M_2_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[6] * v_0_in_j_2;
-    phi_q_t_lambda_q[23] = M_2_j_j_2;
     const jg_real M_2_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[7] * v_0_in_j_0;
-    phi_q_t_lambda_q[27] = M_2_j_j_3;
-    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
-    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
     const jg_real M_2_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[6] * v_0_in_j_0;
     const jg_real M_2_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[7] * v_0_in_j_2;
-    phi_q_t_lambda_q[29] = M_2_j_j_5;
     const jg_real M_2_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[8] * v_0_in_j_0;
-    phi_q_t_lambda_q[33] = M_2_j_j_6;
-    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
     const jg_real M_2_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[8] * v_0_in_j_1;
+    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
+    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
+    phi_q_t_lambda_q[22] = M_2_j_j_1;
+    phi_q_t_lambda_q[23] = M_2_j_j_2;
+    phi_q_t_lambda_q[27] = M_2_j_j_3;
+    phi_q_t_lambda_q[29] = M_2_j_j_5;
+    phi_q_t_lambda_q[33] = M_2_j_j_6;
     phi_q_t_lambda_q[34] = M_2_j_j_7;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
-    phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
-    phi_q_t_lambda_q[35] = -(M_2_j_j_0 + M_2_j_j_4);
     /* omega_j_world = omega_j, world axes */
     const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + A_j[3] * omega_j[1] + A_j[6] * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
@@ -716,43 +707,46 @@ void jg_revolute_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real 
     /* omega_i_world = omega_i, world axes */
     const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
     const jg_real omega_j_world_1 = A_j[1] * omega_j[0] + A_j[4] * omega_j[1] + A_j[7] * omega_j[2];
-    const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
     /* v_2_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
     const jg_real v_2_world_0 = s_j_world_0 * omega_j_dot_omega_j - s_j_dot_omega_j * omega_j_world_0;
+    const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
     const jg_real omega_j_world_2 = A_j[2] * omega_j[0] + A_j[5] * omega_j[1] + A_j[8] * omega_j[2];
-    const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
     /* v_1_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
     const jg_real v_1_world_0 = s_i_world_0 * omega_i_dot_omega_i - s_i_dot_omega_i * omega_i_world_0;
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
+    const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
     const jg_real v_2_world_1 = s_j_world_1 * omega_j_dot_omega_j - s_j_dot_omega_j * omega_j_world_1;
-    const jg_real v_1_world_1 = s_i_world_1 * omega_i_dot_omega_i - s_i_dot_omega_i * omega_i_world_1;
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
     /* v_3_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_3_world_0 = v_2_world_0 - v_1_world_0;
-    gamma[0] = v_3_world_0;
+    const jg_real v_1_world_1 = s_i_world_1 * omega_i_dot_omega_i - s_i_dot_omega_i * omega_i_world_1;
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     const jg_real v_2_world_2 = s_j_world_2 * omega_j_dot_omega_j - s_j_dot_omega_j * omega_j_world_2;
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
-    const jg_real v_1_world_2 = s_i_world_2 * omega_i_dot_omega_i - s_i_dot_omega_i * omega_i_world_2;
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     const jg_real v_3_world_1 = v_2_world_1 - v_1_world_1;
-    gamma[1] = v_3_world_1;
+    const jg_real v_1_world_2 = s_i_world_2 * omega_i_dot_omega_i - s_i_dot_omega_i * omega_i_world_2;
     /* omega_j_dot_omega_i = omega_j . omega_i */
     const jg_real omega_j_dot_omega_i = omega_i_world_0 * omega_j_world_0 + omega_i_world_1 * omega_j_world_1 +
         omega_i_world_2 * omega_j_world_2;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    const jg_real v_3_world_2 = v_2_world_2 - v_1_world_2;
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
+    const jg_real t106 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_j_dot_omega_i * JG_REAL(2.0);
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    const jg_real v_3_world_2 = v_2_world_2 - v_1_world_2;
+    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
+    phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
+    phi_q_t_lambda_q[35] = -(M_2_j_j_0 + M_2_j_j_4);
+    gamma[0] = v_3_world_0;
+    gamma[1] = v_3_world_1;
     gamma[2] = v_3_world_2;
-    const jg_real t107 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_j_dot_omega_i * JG_REAL(2.0);
-    gamma[3] = f_i_dot_h_j * t107 + f_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) -
+    gamma[3] = f_i_dot_h_j * t106 + f_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) -
         h_j_dot_omega_i * f_i_dot_omega_i;
-    gamma[4] = g_i_dot_h_j * t107 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
+    gamma[4] = g_i_dot_h_j * t106 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
         h_j_dot_omega_j * g_i_dot_omega_j;
 }
 

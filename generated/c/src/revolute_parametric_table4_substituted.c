@@ -4,10 +4,6 @@
  * joint revolute, form parametric, rows table4, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/revolute.h"
 
 const int *jg_revolute_parametric_table4_substituted_phi_q_sparsity(void)
@@ -27,9 +23,8 @@ const int *jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(v
     return pattern;
 }
 
-void jg_revolute_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_revolute_parametric_table4_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -43,50 +38,50 @@ void jg_revolute_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[3] = f_i_dot_h_j;
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_f_j - jg_cos(alpha[0]);
 }
 
-void jg_revolute_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_revolute_parametric_table4_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry,
+    jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -111,43 +106,43 @@ void jg_revolute_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRI
     phi_q[15] = -C_i[5];
     phi_q[16] = C_i[2];
     phi_q[45] = sine_0;
-    phi_q[7] = sine_0 * C_i[6];
-    phi_q[12] = sine_0 * C_i[7];
-    phi_q[17] = sine_0 * C_i[8];
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - C_j[4] * sine_0;
     const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + C_j[4] * cosine_0;
-    phi_q[36] = A_joint_i_j_4;
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
     const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
-    phi_q[42] = A_joint_i_j_7;
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + cosine_0 * C_j[3];
+    phi_q[7] = sine_0 * C_i[6];
+    phi_q[12] = sine_0 * C_i[7];
+    phi_q[17] = sine_0 * C_i[8];
+    phi_q[36] = A_joint_i_j_4;
+    phi_q[42] = A_joint_i_j_7;
     phi_q[30] = A_joint_i_j_1;
     phi_q[31] = sine_0 * C_j[3] - cosine_0 * C_j[0];
     phi_q[32] = -(sine_0 * C_j[6]);
-    phi_q[38] = -(C_j[7] * sine_0);
-    phi_q[44] = -(sine_0 * C_j[8]);
-    phi_q[37] = -A_joint_i_j_3;
-    phi_q[43] = -A_joint_i_j_6;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_joint_i_j_3 * C_i[1] + A_joint_i_j_4 * C_i[4] + C_j[7] * C_i[7];
-    phi_q[22] = A_ij_4;
     const jg_real A_ij_5 = A_joint_i_j_3 * C_i[2] + A_joint_i_j_4 * C_i[5] + C_j[7] * C_i[8];
-    phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
+    phi_q[37] = -A_joint_i_j_3;
+    phi_q[38] = -(C_j[7] * sine_0);
+    phi_q[43] = -A_joint_i_j_6;
+    phi_q[44] = -(sine_0 * C_j[8]);
+    phi_q[22] = A_ij_4;
+    phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
     phi_q[25] = A_ij_7;
     const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * C_j[8];
-    phi_q[24] = A_ij_6;
     const jg_real A_ij_3 = A_joint_i_j_3 * C_i[0] + A_joint_i_j_4 * C_i[3] + C_j[7] * C_i[6];
-    phi_q[21] = A_ij_3;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    phi_q[24] = A_ij_6;
+    phi_q[21] = A_ij_3;
     phi_q[18] = A_ij_0;
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
     phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
@@ -167,8 +162,8 @@ void jg_revolute_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RES
     jg_scatter(jg_revolute_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -188,18 +183,11 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real
     const jg_real s_j_dot_h_j = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
     const jg_real t8 = lambda_0_1_2_in_joint_i_2 * s_j_dot_h_j;
     const jg_real t9 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[9] = t9;
-    phi_q_t_lambda_q[0] = t9 * C_i[6];
-    phi_q_t_lambda_q[1] = t9 * C_i[7];
-    phi_q_t_lambda_q[2] = t9 * C_i[8];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_i_1 - lambda_0_1_2_in_joint_i_0 *
         sine_0;
     const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_in_joint_i_0 + lambda_0_1_2_in_joint_i_1 *
         sine_0;
-    phi_q_t_lambda_q[3] = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 * C_j[3];
-    phi_q_t_lambda_q[4] = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 * C_j[4];
-    phi_q_t_lambda_q[5] = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 * C_j[5];
     /* v_1_in_joint_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0)
         ... */
     const jg_real v_1_in_joint_j_0 = cosine_0 * lambda[3] + sine_0 * lambda[4] + lambda_0_1_2_in_joint_j_0 *
@@ -212,10 +200,17 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real
     const jg_real v_1_in_joint_j_2 = t8 - (t9 + s_j_dot_lambda_0_1_2);
     /* v_1_in_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0) ... */
     const jg_real v_1_in_j_0 = C_j[0] * v_1_in_joint_j_0 + C_j[3] * v_1_in_joint_j_1 + C_j[6] * v_1_in_joint_j_2;
+    phi_q_t_lambda_q[9] = t9;
+    phi_q_t_lambda_q[0] = t9 * C_i[6];
+    phi_q_t_lambda_q[1] = t9 * C_i[7];
+    phi_q_t_lambda_q[2] = t9 * C_i[8];
+    phi_q_t_lambda_q[3] = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 * C_j[3];
+    phi_q_t_lambda_q[4] = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 * C_j[4];
+    phi_q_t_lambda_q[5] = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 * C_j[5];
     phi_q_t_lambda_q[6] = v_1_in_j_0;
     const jg_real v_1_in_j_1 = C_j[1] * v_1_in_joint_j_0 + C_j[4] * v_1_in_joint_j_1 + C_j[7] * v_1_in_joint_j_2;
-    phi_q_t_lambda_q[7] = v_1_in_j_1;
     const jg_real v_1_in_j_2 = C_j[2] * v_1_in_joint_j_0 + C_j[5] * v_1_in_joint_j_1 + C_j[8] * v_1_in_joint_j_2;
+    phi_q_t_lambda_q[7] = v_1_in_j_1;
     phi_q_t_lambda_q[8] = v_1_in_j_2;
 }
 
@@ -227,8 +222,8 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_r
     jg_scatter(jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_revolute_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -246,66 +241,63 @@ void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT 
     /* s_j_dot_f_j = s_j . f_j */
     const jg_real s_j_dot_f_j = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
     /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real f_j_dot_omega_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     /* s_j_dot_h_j = s_j . h_j */
     const jg_real s_j_dot_h_j = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
-    /* s_j_dot_g_j = s_j . g_j */
-    const jg_real s_j_dot_g_j = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
     /* v_0_in_joint_j = alphadot_0 h_j - omega_j, axes of joint j */
     const jg_real v_0_in_joint_j_2 = alphadot - h_j_dot_omega_j;
+    /* s_j_dot_g_j = s_j . g_j */
+    const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
     /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    const jg_real g_j_dot_omega_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
+    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
     /* v_2_in_joint_j = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of joint j */
     const jg_real v_2_in_joint_j_0 = h_j_dot_omega_j * s_j_dot_f_j - f_j_dot_omega_j * s_j_dot_h_j;
-    const jg_real v_2_in_joint_j_1 = h_j_dot_omega_j * s_j_dot_g_j - g_j_dot_omega_j * s_j_dot_h_j;
-    /* v_3_in_joint_j = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint j */
-    const jg_real v_3_in_joint_j_0 = alphadot * v_2_in_joint_j_0;
+    const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
+    const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
+    const jg_real v_2_in_joint_j_1 = h_j_dot_omega_j * s_j_dot_g_j - s_j_dot_h_j * g_j_dot_omega_j;
     /* v_1_in_joint_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint j */
-    const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_0_in_joint_j_2;
-    const jg_real t19 = v_j_in_joint_j_1 * v_0_in_joint_j_2 + v_j_in_joint_j_2 * g_j_dot_omega_j;
-    const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_0 * g_j_dot_omega_j - v_j_in_joint_j_1 * f_j_dot_omega_j;
-    const jg_real v_3_in_joint_j_1 = alphadot * v_2_in_joint_j_1;
-    /* v_7_in_joint_j = sin(alpha_0) alphadot_0 f_j + cos(alpha_0) alphadot_0 g_j, axes of joint j */
-    const jg_real v_7_in_joint_j = alphadot * sine_0;
+    const jg_real v_1_in_joint_j_1 = f_j_dot_omega_j * v_j_in_joint_j_2 + v_j_in_joint_j_0 * v_0_in_joint_j_2;
+    const jg_real t18 = v_0_in_joint_j_2 * v_j_in_joint_j_1 + g_j_dot_omega_j * v_j_in_joint_j_2;
+    const jg_real v_1_in_joint_j_2 = g_j_dot_omega_j * v_j_in_joint_j_0 - f_j_dot_omega_j * v_j_in_joint_j_1;
     /* v_6_in_joint_j = cos(alpha_0) alphadot_0 f_j - sin(alpha_0) alphadot_0 g_j, axes of joint j */
     const jg_real v_6_in_joint_j = alphadot * cosine_0;
-    /* v_3_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
-    const jg_real v_3_in_joint_i_0 = cosine_0 * v_3_in_joint_j_0 - sine_0 * v_3_in_joint_j_1;
-    const jg_real v_3_in_joint_i_1 = sine_0 * v_3_in_joint_j_0 + cosine_0 * v_3_in_joint_j_1;
+    /* v_7_in_joint_j = sin(alpha_0) alphadot_0 f_j + cos(alpha_0) alphadot_0 g_j, axes of joint j */
+    const jg_real v_7_in_joint_j = alphadot * sine_0;
     /* v_1_in_joint_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint i */
-    const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_1 * cosine_0 - t19 * sine_0;
-    const jg_real t27 = t19 * cosine_0 + v_1_in_joint_j_1 * sine_0;
-    gamma[3] = g_j_dot_omega_j * v_7_in_joint_j - f_j_dot_omega_j * v_6_in_joint_j;
+    const jg_real v_1_in_joint_i_1 = cosine_0 * v_1_in_joint_j_1 - sine_0 * t18;
+    const jg_real t23 = cosine_0 * t18 + sine_0 * v_1_in_joint_j_1;
+    /* v_3_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
+    const jg_real v_3_in_joint_i_0 = v_2_in_joint_j_0 * v_6_in_joint_j - v_2_in_joint_j_1 * v_7_in_joint_j;
+    const jg_real v_3_in_joint_i_1 = v_2_in_joint_j_0 * v_7_in_joint_j + v_6_in_joint_j * v_2_in_joint_j_1;
     /* v_3_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1;
-    const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1;
-    const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1;
-    gamma[4] = -(f_j_dot_omega_j * v_7_in_joint_j + g_j_dot_omega_j * v_6_in_joint_j);
+    const jg_real v_3_in_i_0 = v_3_in_joint_i_0 * C_i[0] + v_3_in_joint_i_1 * C_i[3];
+    const jg_real v_3_in_i_1 = v_3_in_joint_i_0 * C_i[1] + v_3_in_joint_i_1 * C_i[4];
     /* v_1_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
-    const jg_real v_1_in_i_0 = v_1_in_joint_i_1 * C_i[3] - t27 * C_i[0] + v_1_in_joint_j_2 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i_1 * C_i[4] - t27 * C_i[1] + v_1_in_joint_j_2 * C_i[7];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_1 * C_i[5] - t27 * C_i[2] + v_1_in_joint_j_2 * C_i[8];
+    const jg_real v_1_in_i_0 = C_i[3] * v_1_in_joint_i_1 - C_i[0] * t23 + v_1_in_joint_j_2 * C_i[6];
+    const jg_real v_1_in_i_1 = v_1_in_joint_i_1 * C_i[4] - t23 * C_i[1] + v_1_in_joint_j_2 * C_i[7];
+    const jg_real v_3_in_i_2 = v_3_in_joint_i_0 * C_i[2] + v_3_in_joint_i_1 * C_i[5];
+    const jg_real v_1_in_i_2 = v_1_in_joint_i_1 * C_i[5] - t23 * C_i[2] + v_1_in_joint_j_2 * C_i[8];
     /* v_4_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - alphadot_0 (s_j . h_j) omega_j - ... */
     const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_1_in_i_0 + omega_i_cross_v_i_in_i_0);
-    gamma[0] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_1_in_i_1 + omega_i_cross_v_i_in_i_1);
-    gamma[1] = v_4_in_i_1;
     const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_1_in_i_2 + omega_i_cross_v_i_in_i_2);
+    gamma[3] = g_j_dot_omega_j * v_7_in_joint_j - f_j_dot_omega_j * v_6_in_joint_j;
+    gamma[4] = -(f_j_dot_omega_j * v_7_in_joint_j + v_6_in_joint_j * g_j_dot_omega_j);
+    gamma[0] = v_4_in_i_0;
+    gamma[1] = v_4_in_i_1;
     gamma[2] = v_4_in_i_2;
     gamma[5] = -(alphadot * (cosine_0 * C_i[6] * omega_i[0] + cosine_0 * C_i[7] * omega_i[1] + cosine_0 * C_i[8] *
-        omega_i[2] + v_0_in_joint_j_2 * cosine_0));
+        omega_i[2] + cosine_0 * v_0_in_joint_j_2));
 }
 
-void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -330,17 +322,17 @@ void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRIC
     const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
     const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    /* omega_j_in_joint_j = omega_j, axes of joint j */
-    const jg_real omega_j_in_joint_j_1 = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    const jg_real omega_j_in_joint_j_0 = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    /* omega_j_in_joint_j = omega_j, axes of joint j */
+    const jg_real omega_j_in_joint_j_1 = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    const jg_real omega_j_in_joint_j_0 = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
@@ -354,9 +346,6 @@ void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRIC
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_0 = v_j_in_joint_j_0 * cosine_0 - v_j_in_joint_j_1 * sine_0;
     const jg_real v_j_in_joint_i_1 = v_j_in_joint_j_0 * sine_0 + v_j_in_joint_j_1 * cosine_0;
-    phi_q_v[3] = cosine_0 * omega_j_in_joint_j_1 + sine_0 * omega_j_in_joint_j_0 - omega_i_in_joint_i_1;
-    phi_q_v[4] = sine_0 * omega_j_in_joint_j_1 - cosine_0 * omega_j_in_joint_j_0 + omega_i_in_joint_i_0;
-    phi_q_v[5] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot - sine_0 * omega_j_in_joint_j_2;
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = C_i[0] * s_j_cross_omega_j_in_joint_i_0 + C_i[3] *
         s_j_cross_omega_j_in_joint_i_1 + C_i[6] * s_j_cross_omega_j_in_joint_j_2;
@@ -372,21 +361,21 @@ void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRIC
     const jg_real v_0_in_i_0 = v_i[0] - v_j_in_i_0 - s_i_cross_omega_i_in_i_0 + s_j_cross_omega_j_in_i_0;
     const jg_real v_0_in_i_1 = v_i[1] - v_j_in_i_1 - s_i_cross_omega_i_in_i_1 + s_j_cross_omega_j_in_i_1;
     const jg_real v_0_in_i_2 = v_i[2] - v_j_in_i_2 - s_i_cross_omega_i_in_i_2 + s_j_cross_omega_j_in_i_2;
+    phi_q_v[3] = cosine_0 * omega_j_in_joint_j_1 + sine_0 * omega_j_in_joint_j_0 - omega_i_in_joint_i_1;
+    phi_q_v[4] = sine_0 * omega_j_in_joint_j_1 - cosine_0 * omega_j_in_joint_j_0 + omega_i_in_joint_i_0;
+    phi_q_v[5] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot - sine_0 * omega_j_in_joint_j_2;
     phi_q_v[0] = -v_0_in_i_0;
     phi_q_v[1] = -v_0_in_i_1;
     phi_q_v[2] = -v_0_in_i_2;
 }
 
-void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -403,7 +392,6 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_2 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     const jg_real t11 = sine_0 * lambda[5];
-    phi_q_t_lambda[12] = t11;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_0 * cosine_0 + sine_0 *
         lambda_0_1_2_in_joint_i_1;
@@ -412,9 +400,6 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_
     /* v_1_in_joint_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of joint j */
     const jg_real v_1_in_joint_j_0 = lambda[3] * sine_0 - lambda[4] * cosine_0;
     const jg_real v_1_in_joint_j_1 = lambda[4] * sine_0 + lambda[3] * cosine_0;
-    phi_q_t_lambda[3] = C_i[6] * t11 - (v_1_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
-    phi_q_t_lambda[4] = C_i[7] * t11 - (v_1_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
-    phi_q_t_lambda[5] = C_i[8] * t11 - (v_1_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
     /* v_1_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of body j */
     const jg_real v_1_in_j_0 = C_j[0] * v_1_in_joint_j_0 + C_j[3] * v_1_in_joint_j_1;
     const jg_real v_1_in_j_1 = C_j[1] * v_1_in_joint_j_0 + C_j[4] * v_1_in_joint_j_1;
@@ -422,31 +407,36 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_in_joint_i_2 * C_j[6];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[12] = t11;
+    phi_q_t_lambda[3] = C_i[6] * t11 - (v_1_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
+    phi_q_t_lambda[4] = C_i[7] * t11 - (v_1_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
+    phi_q_t_lambda[5] = C_i[8] * t11 - (v_1_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
     phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
         lambda_0_1_2_in_joint_i_2 * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_in_joint_i_2 * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     /* v_4_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 f_j x f_i + s_j x lambda_0_1_2, axes of ... */
     const jg_real v_4_in_j_0 = v_1_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 - t11 * C_j[6];
-    phi_q_t_lambda[9] = v_4_in_j_0;
     const jg_real v_4_in_j_1 = v_1_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 - t11 * C_j[7];
-    phi_q_t_lambda[10] = v_4_in_j_1;
     const jg_real v_4_in_j_2 = v_1_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - t11 * C_j[8];
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[9] = v_4_in_j_0;
+    phi_q_t_lambda[10] = v_4_in_j_1;
     phi_q_t_lambda[11] = v_4_in_j_2;
 }
 
-void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_revolute_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -461,144 +451,144 @@ void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     phi_q[9] = s_i[0];
     phi_q[13] = s_i[1];
     phi_q[3] = s_i[2];
     phi_q[6] = C_i[0];
     phi_q[11] = C_i[1];
     phi_q[16] = C_i[2];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    phi[2] = d_ij_in_i_2;
+    phi[3] = f_i_dot_h_j;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -s_i[1];
     phi_q[5] = -C_i[3];
     phi_q[8] = -s_i[2];
-    phi_q[10] = -C_i[4];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    phi_q[14] = -s_i[0];
-    phi_q[15] = -C_i[5];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
-    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
-    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* v_2_in_j = alphadot_0 h_j - omega_j, axes of body j */
     const jg_real v_2_in_j_1 = C_j[7] * alphadot - omega_j[1];
     const jg_real v_2_in_j_2 = C_j[8] * alphadot - omega_j[2];
     const jg_real v_2_in_j_0 = C_j[6] * alphadot - omega_j[0];
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     /* s_j_dot_h_j = s_j . h_j */
     const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
-    const jg_real t40 = s_j_dot_h_j * alphadot;
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    const jg_real t42 = alphadot * h_j_dot_omega_j;
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
+    const jg_real t39 = s_j_dot_h_j * alphadot;
+    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    const jg_real t41 = alphadot * h_j_dot_omega_j;
     /* v_3_in_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of body j */
     const jg_real v_3_in_j_0 = v_j[2] * v_2_in_j_1 - v_j[1] * v_2_in_j_2;
     const jg_real v_3_in_j_1 = v_j[0] * v_2_in_j_2 - v_j[2] * v_2_in_j_0;
     const jg_real v_3_in_j_2 = v_j[1] * v_2_in_j_0 - v_j[0] * v_2_in_j_1;
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    /* v_4_in_j = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body j */
+    const jg_real v_4_in_j_0 = s_j[0] * t41 - omega_j[0] * t39;
+    const jg_real v_4_in_j_1 = s_j[1] * t41 - omega_j[1] * t39;
+    const jg_real v_4_in_j_2 = s_j[2] * t41 - omega_j[2] * t39;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    /* v_4_in_j = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body j */
-    const jg_real v_4_in_j_0 = s_j[0] * t42 - omega_j[0] * t40;
-    const jg_real v_4_in_j_1 = s_j[1] * t42 - omega_j[1] * t40;
-    const jg_real v_4_in_j_2 = s_j[2] * t42 - omega_j[2] * t40;
+    phi_q[10] = -C_i[4];
+    phi_q[14] = -s_i[0];
+    phi_q[15] = -C_i[5];
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_f_j - cosine_0;
     phi_q[45] = sine_0;
     phi_q[7] = sine_0 * C_i[6];
     phi_q[12] = C_i[7] * sine_0;
-    phi_q[17] = sine_0 * C_i[8];
-    const jg_real t50 = cosine_0 * C_i[6];
-    const jg_real t51 = cosine_0 * C_i[7];
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
-    const jg_real t53 = cosine_0 * C_i[8];
     const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + cosine_0 * C_j[4];
-    phi_q[36] = A_joint_i_j_4;
-    const jg_real t55 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[9] = t55;
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
+    const jg_real t53 = cosine_0 * C_i[6];
     const jg_real A_joint_i_j_7 = C_j[2] * sine_0 + cosine_0 * C_j[5];
-    phi_q[42] = A_joint_i_j_7;
+    const jg_real t55 = cosine_0 * C_i[7];
     const jg_real A_joint_i_j_0 = cosine_0 * C_j[0] - C_j[3] * sine_0;
+    const jg_real t57 = cosine_0 * C_i[8];
     const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + cosine_0 * C_j[3];
+    phi_q[17] = sine_0 * C_i[8];
+    phi_q[36] = A_joint_i_j_4;
+    phi_q[42] = A_joint_i_j_7;
     phi_q[30] = A_joint_i_j_1;
     phi_q[32] = -(C_j[6] * sine_0);
-    phi_q[38] = -(C_j[7] * sine_0);
-    phi_q[44] = -(C_j[8] * sine_0);
-    phi_q_t_lambda_q[0] = lambda[5] * t50;
-    phi_q_t_lambda_q[1] = lambda[5] * t51;
     phi_q[31] = -A_joint_i_j_0;
     phi_q[37] = -A_joint_i_j_3;
-    phi_q[43] = -A_joint_i_j_6;
-    phi_q_t_lambda_q[2] = lambda[5] * t53;
-    const jg_real t60 = cosine_0 * lambda[3] + sine_0 * lambda[4];
-    const jg_real t61 = cosine_0 * lambda[4] - sine_0 * lambda[3];
+    phi_q[38] = -(C_j[7] * sine_0);
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_j[7] * C_i[7];
-    phi_q[22] = A_ji_4;
     const jg_real A_ji_7 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_j[7] * C_i[8];
+    const jg_real t61 = cosine_0 * lambda[5];
+    phi_q[43] = -A_joint_i_j_6;
+    phi_q[44] = -(C_j[8] * sine_0);
+    phi_q_t_lambda_q[0] = lambda[5] * t53;
+    phi_q_t_lambda_q[1] = lambda[5] * t55;
+    phi_q_t_lambda_q[2] = lambda[5] * t57;
+    phi_q[22] = A_ji_4;
     phi_q[23] = A_ji_7;
+    phi_q_t_lambda_q[9] = t61;
     const jg_real A_ji_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_j[8] * C_i[8];
-    phi_q[26] = A_ji_8;
     const jg_real A_ji_5 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_j[8] * C_i[7];
-    phi_q[25] = A_ji_5;
     const jg_real A_ji_3 = C_i[1] * A_joint_i_j_0 + C_i[4] * A_joint_i_j_1 + C_j[6] * C_i[7];
-    phi_q[19] = A_ji_3;
     const jg_real A_ji_6 = C_i[2] * A_joint_i_j_0 + C_i[5] * A_joint_i_j_1 + C_j[6] * C_i[8];
-    phi_q[20] = A_ji_6;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
+    phi_q[19] = A_ji_3;
+    phi_q[20] = A_ji_6;
     phi_q[18] = A_ji_0;
     phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     phi_q[21] = A_ji_1;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
+    const jg_real t69 = cosine_0 * lambda[3] + sine_0 * lambda[4];
+    const jg_real t70 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     phi_q[24] = A_ji_2;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
@@ -608,42 +598,42 @@ void jg_revolute_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* v_4_in_i = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body i */
     const jg_real v_4_in_i_0 = A_ji_0 * v_4_in_j_0 + A_ji_1 * v_4_in_j_1 + A_ji_2 * v_4_in_j_2;
     /* v_3_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_3_in_i_0 = A_ji_0 * v_3_in_j_0 + A_ji_1 * v_3_in_j_1 + A_ji_2 * v_3_in_j_2;
     const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
-    gamma[3] = -(alphadot * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
-    const jg_real v_3_in_i_1 = A_ji_3 * v_3_in_j_0 + A_ji_4 * v_3_in_j_1 + A_ji_5 * v_3_in_j_2;
-    const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
-    gamma[4] = -(alphadot * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
-    const jg_real v_3_in_i_2 = A_ji_6 * v_3_in_j_0 + A_ji_7 * v_3_in_j_1 + A_ji_8 * v_3_in_j_2;
-    phi_q_t_lambda_q[3] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[4] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[5] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
-    /* v_5_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - (s_j . h_j) alphadot_0 omega_j - ... */
-    const jg_real v_5_in_i_0 = v_4_in_i_0 - (v_3_in_i_0 + omega_i_cross_v_i_in_i_0);
-    gamma[0] = v_5_in_i_0;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
+    const jg_real v_3_in_i_1 = A_ji_3 * v_3_in_j_0 + A_ji_4 * v_3_in_j_1 + A_ji_5 * v_3_in_j_2;
+    const jg_real t79 = s_j_dot_lambda_0_1_2 + t61;
+    const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
+    /* v_5_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - (s_j . h_j) alphadot_0 omega_j - ... */
+    const jg_real v_5_in_i_0 = v_4_in_i_0 - (v_3_in_i_0 + omega_i_cross_v_i_in_i_0);
+    const jg_real v_3_in_i_2 = A_ji_6 * v_3_in_j_0 + A_ji_7 * v_3_in_j_1 + A_ji_8 * v_3_in_j_2;
     const jg_real v_5_in_i_1 = v_4_in_i_1 - (v_3_in_i_1 + omega_i_cross_v_i_in_i_1);
-    gamma[1] = v_5_in_i_1;
-    gamma[5] = -(alphadot * (t50 * omega_i[0] + t51 * omega_i[1] + t53 * omega_i[2] + cosine_0 * (alphadot -
-        h_j_dot_omega_j)));
     const jg_real v_5_in_i_2 = v_4_in_i_2 - (v_3_in_i_2 + omega_i_cross_v_i_in_i_2);
+    phi_q_t_lambda_q[3] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[4] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[5] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
+    gamma[0] = v_5_in_i_0;
+    gamma[3] = -(alphadot * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
+    gamma[1] = v_5_in_i_1;
+    gamma[4] = -(alphadot * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
     gamma[2] = v_5_in_i_2;
-    const jg_real t84 = s_j_dot_lambda_0_1_2 + t55;
     /* v_1_in_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0) ... */
-    const jg_real v_1_in_j_0 = C_j[0] * t60 + C_j[3] * t61 - C_j[6] * t84 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
+    const jg_real v_1_in_j_0 = C_j[0] * t69 + C_j[3] * t70 - C_j[6] * t79 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
+    const jg_real v_1_in_j_1 = C_j[1] * t69 + C_j[4] * t70 - C_j[7] * t79 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
+    const jg_real v_1_in_j_2 = C_j[2] * t69 + C_j[5] * t70 - C_j[8] * t79 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
     phi_q_t_lambda_q[6] = v_1_in_j_0;
-    const jg_real v_1_in_j_1 = C_j[1] * t60 + C_j[4] * t61 - C_j[7] * t84 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
     phi_q_t_lambda_q[7] = v_1_in_j_1;
-    const jg_real v_1_in_j_2 = C_j[2] * t60 + C_j[5] * t61 - C_j[8] * t84 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
     phi_q_t_lambda_q[8] = v_1_in_j_2;
+    gamma[5] = -(alphadot * (t53 * omega_i[0] + t55 * omega_i[1] + t57 * omega_i[2] + cosine_0 * (alphadot -
+        h_j_dot_omega_j)));
 }
 
 void jg_revolute_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -4,10 +4,6 @@
  * joint rigid, form conventional, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/rigid.h"
 
 const int *jg_rigid_conventional_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_rigid_conventional_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_rigid_conventional_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -46,26 +41,23 @@ void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
-    phi[1] = d_ij_world_1;
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
-    phi[2] = d_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
@@ -73,92 +65,89 @@ void jg_rigid_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_world_0 * g_j_world_0 + f_i_world_1 * g_j_world_1 + f_i_world_2 * g_j_world_2;
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
+    phi[2] = d_ij_world_2;
+    phi[3] = f_i_dot_h_j;
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_g_j;
 }
 
-void jg_rigid_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_rigid_conventional_phi_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     phi_q[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
     phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_1 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     phi_q[9] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     phi_q[10] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
-    phi_q[21] = JG_REAL(1.0);
-    phi_q[22] = JG_REAL(1.0);
-    phi_q[23] = JG_REAL(1.0);
-    phi_q[11] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    phi_q[15] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[16] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
-    phi_q[17] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
-    phi_q[24] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
     const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
     const jg_real f_i_in_j_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
-    phi_q[25] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
-    phi_q[26] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
-    phi_q[30] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
-    phi_q[31] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
-    phi_q[32] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
-    phi_q[36] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
-    phi_q[37] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
-    phi_q[38] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
+    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    phi_q[11] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
+    phi_q[15] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
+    phi_q[21] = JG_REAL(1.0);
+    phi_q[22] = JG_REAL(1.0);
+    phi_q[23] = JG_REAL(1.0);
+    phi_q[16] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
+    phi_q[17] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
+    phi_q[24] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
     /* g_j_cross_f_i_in_j = g_j x f_i, axes of body j */
     const jg_real g_j_cross_f_i_in_j_1 = f_i_in_j_0 * C_j[5] - f_i_in_j_2 * C_j[3];
-    phi_q[35] = g_j_cross_f_i_in_j_1;
-    /* h_j_cross_f_i_in_j = h_j x f_i, axes of body j */
-    const jg_real h_j_cross_f_i_in_j_1 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
-    phi_q[33] = h_j_cross_f_i_in_j_1;
     const jg_real h_j_in_i_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
     const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
     const jg_real h_j_in_i_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    phi_q[6] = h_j_in_i_2 * C_i[1] - h_j_in_i_1 * C_i[2];
     /* h_j_cross_g_i_in_i = h_j x g_i, axes of body i */
     const jg_real h_j_cross_g_i_in_i_0 = h_j_in_i_1 * C_i[5] - h_j_in_i_2 * C_i[4];
     const jg_real g_j_cross_f_i_in_j_0 = f_i_in_j_2 * C_j[4] - f_i_in_j_1 * C_j[5];
-    phi_q[29] = g_j_cross_f_i_in_j_0;
     const jg_real g_j_cross_f_i_in_j_2 = f_i_in_j_1 * C_j[3] - f_i_in_j_0 * C_j[4];
+    phi_q[25] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
+    phi_q[35] = g_j_cross_f_i_in_j_1;
+    phi_q[26] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
+    phi_q[30] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
+    phi_q[31] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
+    phi_q[6] = h_j_in_i_2 * C_i[1] - h_j_in_i_1 * C_i[2];
+    phi_q[29] = g_j_cross_f_i_in_j_0;
     phi_q[41] = g_j_cross_f_i_in_j_2;
-    const jg_real h_j_cross_f_i_in_j_0 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
-    phi_q[27] = h_j_cross_f_i_in_j_0;
-    const jg_real h_j_cross_f_i_in_j_2 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
-    phi_q[39] = h_j_cross_f_i_in_j_2;
-    phi_q[12] = h_j_in_i_0 * C_i[2] - h_j_in_i_2 * C_i[0];
     const jg_real h_j_cross_g_i_in_i_1 = h_j_in_i_2 * C_i[3] - h_j_in_i_0 * C_i[5];
-    phi_q[18] = h_j_in_i_1 * C_i[0] - h_j_in_i_0 * C_i[1];
     const jg_real h_j_cross_g_i_in_i_2 = h_j_in_i_0 * C_i[4] - h_j_in_i_1 * C_i[3];
+    /* h_j_cross_f_i_in_j = h_j x f_i, axes of body j */
+    const jg_real h_j_cross_f_i_in_j_0 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    const jg_real h_j_cross_f_i_in_j_1 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
+    phi_q[32] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
+    phi_q[12] = h_j_in_i_0 * C_i[2] - h_j_in_i_2 * C_i[0];
+    phi_q[18] = h_j_in_i_1 * C_i[0] - h_j_in_i_0 * C_i[1];
+    phi_q[27] = h_j_cross_f_i_in_j_0;
     phi_q[7] = -h_j_cross_g_i_in_i_0;
     phi_q[13] = -h_j_cross_g_i_in_i_1;
     phi_q[19] = -h_j_cross_g_i_in_i_2;
+    phi_q[33] = h_j_cross_f_i_in_j_1;
     /* g_j_cross_f_i_in_i = g_j x f_i, axes of body i */
     const jg_real g_j_cross_f_i_in_i_0 = A_ij_0 * g_j_cross_f_i_in_j_0 + A_ij_3 * g_j_cross_f_i_in_j_1 + A_ij_6 *
         g_j_cross_f_i_in_j_2;
@@ -169,16 +158,21 @@ void jg_rigid_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_rea
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_0 = A_ij_0 * h_j_cross_g_i_in_i_0 + A_ij_1 * h_j_cross_g_i_in_i_1 + A_ij_2 *
         h_j_cross_g_i_in_i_2;
-    phi_q[28] = h_j_cross_g_i_in_j_0;
     const jg_real h_j_cross_g_i_in_j_1 = A_ij_3 * h_j_cross_g_i_in_i_0 + A_ij_4 * h_j_cross_g_i_in_i_1 + A_ij_5 *
         h_j_cross_g_i_in_i_2;
-    phi_q[34] = h_j_cross_g_i_in_j_1;
-    const jg_real h_j_cross_g_i_in_j_2 = A_ij_6 * h_j_cross_g_i_in_i_0 + A_ij_7 * h_j_cross_g_i_in_i_1 + A_ij_8 *
-        h_j_cross_g_i_in_i_2;
-    phi_q[40] = h_j_cross_g_i_in_j_2;
+    const jg_real h_j_cross_f_i_in_j_2 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
+    phi_q[36] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
+    phi_q[37] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
+    phi_q[28] = h_j_cross_g_i_in_j_0;
+    phi_q[38] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
     phi_q[8] = -g_j_cross_f_i_in_i_0;
     phi_q[14] = -g_j_cross_f_i_in_i_1;
+    phi_q[34] = h_j_cross_g_i_in_j_1;
+    phi_q[39] = h_j_cross_f_i_in_j_2;
+    const jg_real h_j_cross_g_i_in_j_2 = A_ij_6 * h_j_cross_g_i_in_i_0 + A_ij_7 * h_j_cross_g_i_in_i_1 + A_ij_8 *
+        h_j_cross_g_i_in_i_2;
     phi_q[20] = -g_j_cross_f_i_in_i_2;
+    phi_q[40] = h_j_cross_g_i_in_j_2;
 }
 
 void jg_rigid_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -189,8 +183,8 @@ void jg_rigid_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_
     jg_scatter(jg_rigid_conventional_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -198,121 +192,121 @@ void jg_rigid_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, c
     const jg_real *const C_j = geometry + 15;
     /* v_0_in_j = lambda_5 g_j + lambda_3 h_j, axes of body j */
     const jg_real v_0_in_j_0 = lambda[5] * C_j[3] + lambda[3] * C_j[6];
+    const jg_real v_0_in_j_1 = lambda[5] * C_j[4] + lambda[3] * C_j[7];
     /* v_1_in_i = lambda_4 g_i, axes of body i */
     const jg_real v_1_in_i_1 = lambda[4] * C_i[4];
-    const jg_real v_0_in_j_1 = lambda[5] * C_j[4] + lambda[3] * C_j[7];
     const jg_real v_0_in_j_2 = lambda[5] * C_j[5] + lambda[3] * C_j[8];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real v_1_in_i_2 = lambda[4] * C_i[5];
-    const jg_real v_1_in_i_0 = lambda[4] * C_i[3];
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real v_1_in_i_2 = lambda[4] * C_i[5];
+    const jg_real v_1_in_i_0 = lambda[4] * C_i[3];
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
     /* v_0_in_i = lambda_5 g_j + lambda_3 h_j, axes of body i */
     const jg_real v_0_in_i_1 = v_0_in_j_0 * A_ji_3 + v_0_in_j_1 * A_ji_4 + v_0_in_j_2 * A_ji_5;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
+    const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
+    const jg_real t16 = C_i[1] * v_0_in_i_1;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    const jg_real t20 = C_i[1] * v_0_in_i_1;
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     const jg_real v_0_in_i_2 = v_0_in_j_0 * A_ji_6 + v_0_in_j_1 * A_ji_7 + v_0_in_j_2 * A_ji_8;
     const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
-    const jg_real t23 = C_i[2] * v_0_in_i_2;
+    const jg_real t22 = C_i[2] * v_0_in_i_2;
     /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_5 f_i) g_j^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows ... */
-    const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - t20 - v_1_in_i_1 * h_j_in_i_1;
-    phi_q_t_lambda_q[1] = v_1_in_i_0 * h_j_in_i_1 - (s_i[0] * lambda_0_1_2_in_i_1 - C_i[0] * v_0_in_i_1);
-    /* v_1_in_j = lambda_4 g_i, axes of body j */
-    const jg_real v_1_in_j_2 = A_ji_2 * v_1_in_i_0 + A_ji_5 * v_1_in_i_1 + A_ji_8 * v_1_in_i_2;
+    const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - t16 - v_1_in_i_1 * h_j_in_i_1;
     const jg_real v_0_in_i_0 = v_0_in_j_0 * A_ji_0 + v_0_in_j_1 * A_ji_1 + v_0_in_j_2 * A_ji_2;
+    /* v_1_in_j = lambda_4 g_i, axes of body j */
     const jg_real v_1_in_j_0 = A_ji_0 * v_1_in_i_0 + A_ji_3 * v_1_in_i_1 + A_ji_6 * v_1_in_i_2;
+    const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - t22 - v_1_in_i_2 * h_j_in_i_2;
     const jg_real v_1_in_j_1 = A_ji_1 * v_1_in_i_0 + A_ji_4 * v_1_in_i_1 + A_ji_7 * v_1_in_i_2;
+    const jg_real v_1_in_j_2 = A_ji_2 * v_1_in_i_0 + A_ji_5 * v_1_in_i_1 + A_ji_8 * v_1_in_i_2;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
+    const jg_real t30 = C_i[0] * v_0_in_i_0;
+    const jg_real t31 = C_j[6] * v_1_in_j_0;
     const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
-    const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - t23 - v_1_in_i_2 * h_j_in_i_2;
-    phi_q_t_lambda_q[2] = v_1_in_i_0 * h_j_in_i_2 - (s_i[0] * lambda_0_1_2_in_i_2 - C_i[0] * v_0_in_i_2);
+    const jg_real t33 = C_j[7] * v_1_in_j_1;
+    const jg_real t34 = C_j[8] * v_1_in_j_2;
     const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
-    const jg_real t33 = C_j[8] * v_1_in_j_2;
     const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
-    const jg_real t35 = C_i[0] * v_0_in_i_0;
-    const jg_real t36 = C_j[6] * v_1_in_j_0;
-    const jg_real t37 = C_j[7] * v_1_in_j_1;
-    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
-    phi_q_t_lambda_q[8] = v_1_in_i_1 * h_j_in_i_2 - (s_i[1] * lambda_0_1_2_in_i_2 - C_i[1] * v_0_in_i_2);
     /* M_1_i_j = (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body i, columns ... */
-    const jg_real M_1_i_j_3 = v_0_in_i_1 * f_i_in_j_0 + h_j_in_i_1 * v_1_in_j_0;
     const jg_real M_1_i_j_0 = v_0_in_i_0 * f_i_in_j_0 + h_j_in_i_0 * v_1_in_j_0;
-    phi_q_t_lambda_q[13] = v_1_in_i_2 * h_j_in_i_1 - (s_i[2] * lambda_0_1_2_in_i_1 - C_i[2] * v_0_in_i_1);
     const jg_real M_1_i_j_1 = v_0_in_i_0 * f_i_in_j_1 + h_j_in_i_0 * v_1_in_j_1;
+    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
+    const jg_real M_1_i_j_3 = v_0_in_i_1 * f_i_in_j_0 + h_j_in_i_1 * v_1_in_j_0;
     const jg_real M_1_i_j_2 = v_0_in_i_0 * f_i_in_j_2 + h_j_in_i_0 * v_1_in_j_2;
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - t35 - v_1_in_i_0 * h_j_in_i_0;
-    phi_q_t_lambda_q[6] = v_1_in_i_1 * h_j_in_i_0 - (s_i[1] * lambda_0_1_2_in_i_0 - C_i[1] * v_0_in_i_0);
+    const jg_real t42 = t30 + t16 + t22 + (t31 + t33 + t34);
     const jg_real M_1_i_j_4 = v_0_in_i_1 * f_i_in_j_1 + h_j_in_i_1 * v_1_in_j_1;
     const jg_real M_1_i_j_5 = v_0_in_i_1 * f_i_in_j_2 + h_j_in_i_1 * v_1_in_j_2;
     const jg_real M_1_i_j_6 = v_0_in_i_2 * f_i_in_j_0 + h_j_in_i_2 * v_1_in_j_0;
-    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
-    const jg_real t46 = t35 + t20 + t23 + (t36 + t37 + t33);
-    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
+    const jg_real t46 = A_ji_0 * t42 - M_1_i_j_0;
+    const jg_real t47 = A_ji_1 * t42 - M_1_i_j_1;
+    phi_q_t_lambda_q[1] = v_1_in_i_0 * h_j_in_i_1 - (s_i[0] * lambda_0_1_2_in_i_1 - C_i[0] * v_0_in_i_1);
+    phi_q_t_lambda_q[2] = v_1_in_i_0 * h_j_in_i_2 - (s_i[0] * lambda_0_1_2_in_i_2 - C_i[0] * v_0_in_i_2);
+    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
+    phi_q_t_lambda_q[8] = v_1_in_i_1 * h_j_in_i_2 - (s_i[1] * lambda_0_1_2_in_i_2 - C_i[1] * v_0_in_i_2);
+    phi_q_t_lambda_q[3] = t46;
+    phi_q_t_lambda_q[18] = t46;
+    phi_q_t_lambda_q[4] = t47;
+    phi_q_t_lambda_q[24] = t47;
+    const jg_real t48 = A_ji_2 * t42 - M_1_i_j_2;
+    const jg_real t49 = A_ji_3 * t42 - M_1_i_j_3;
+    const jg_real t50 = A_ji_4 * t42 - M_1_i_j_4;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - t30 - v_1_in_i_0 * h_j_in_i_0;
+    const jg_real t52 = A_ji_5 * t42 - M_1_i_j_5;
+    phi_q_t_lambda_q[5] = t48;
+    phi_q_t_lambda_q[30] = t48;
+    phi_q_t_lambda_q[9] = t49;
+    phi_q_t_lambda_q[19] = t49;
+    phi_q_t_lambda_q[10] = t50;
+    phi_q_t_lambda_q[25] = t50;
+    phi_q_t_lambda_q[6] = v_1_in_i_1 * h_j_in_i_0 - (s_i[1] * lambda_0_1_2_in_i_0 - C_i[1] * v_0_in_i_0);
+    phi_q_t_lambda_q[11] = t52;
+    phi_q_t_lambda_q[31] = t52;
+    const jg_real t53 = A_ji_6 * t42 - M_1_i_j_6;
     const jg_real M_1_i_j_7 = v_0_in_i_2 * f_i_in_j_1 + h_j_in_i_2 * v_1_in_j_1;
     const jg_real M_1_i_j_8 = v_0_in_i_2 * f_i_in_j_2 + h_j_in_i_2 * v_1_in_j_2;
+    const jg_real t56 = A_ji_7 * t42 - M_1_i_j_7;
+    phi_q_t_lambda_q[13] = v_1_in_i_2 * h_j_in_i_1 - (s_i[2] * lambda_0_1_2_in_i_1 - C_i[2] * v_0_in_i_1);
     phi_q_t_lambda_q[12] = v_1_in_i_2 * h_j_in_i_0 - (s_i[2] * lambda_0_1_2_in_i_0 - C_i[2] * v_0_in_i_0);
+    phi_q_t_lambda_q[15] = t53;
+    phi_q_t_lambda_q[20] = t53;
+    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
+    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
+    phi_q_t_lambda_q[16] = t56;
+    phi_q_t_lambda_q[26] = t56;
+    const jg_real t57 = A_ji_8 * t42 - M_1_i_j_8;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_i_0 * A_ji_1 + lambda_0_1_2_in_i_1 * A_ji_4 +
         lambda_0_1_2_in_i_2 * A_ji_7;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_i_0 * A_ji_2 + lambda_0_1_2_in_i_1 * A_ji_5 +
         lambda_0_1_2_in_i_2 * A_ji_8;
-    const jg_real t51 = A_ji_0 * t46 - M_1_i_j_0;
-    phi_q_t_lambda_q[3] = t51;
-    phi_q_t_lambda_q[18] = t51;
-    const jg_real t52 = A_ji_1 * t46 - M_1_i_j_1;
-    phi_q_t_lambda_q[4] = t52;
-    phi_q_t_lambda_q[24] = t52;
-    const jg_real t53 = A_ji_2 * t46 - M_1_i_j_2;
-    phi_q_t_lambda_q[5] = t53;
-    phi_q_t_lambda_q[30] = t53;
-    const jg_real t54 = A_ji_3 * t46 - M_1_i_j_3;
-    phi_q_t_lambda_q[9] = t54;
-    phi_q_t_lambda_q[19] = t54;
-    const jg_real t55 = A_ji_4 * t46 - M_1_i_j_4;
-    phi_q_t_lambda_q[10] = t55;
-    phi_q_t_lambda_q[25] = t55;
-    const jg_real t56 = A_ji_5 * t46 - M_1_i_j_5;
-    phi_q_t_lambda_q[11] = t56;
-    phi_q_t_lambda_q[31] = t56;
-    const jg_real t57 = A_ji_6 * t46 - M_1_i_j_6;
-    phi_q_t_lambda_q[15] = t57;
-    phi_q_t_lambda_q[20] = t57;
-    const jg_real t58 = A_ji_7 * t46 - M_1_i_j_7;
-    phi_q_t_lambda_q[16] = t58;
-    phi_q_t_lambda_q[26] = t58;
-    const jg_real t59 = A_ji_8 * t46 - M_1_i_j_8;
-    phi_q_t_lambda_q[17] = t59;
-    phi_q_t_lambda_q[32] = t59;
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_i_0 * A_ji_0 + lambda_0_1_2_in_i_1 * A_ji_3 +
         lambda_0_1_2_in_i_2 * A_ji_6;
     /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in ... */
-    const jg_real M_2_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + v_0_in_j_1 * f_i_in_j_1 + t37;
+    const jg_real M_2_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + v_0_in_j_1 * f_i_in_j_1 + t33;
     const jg_real M_2_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + v_0_in_j_0 * f_i_in_j_1 + C_j[6] * v_1_in_j_1;
-    phi_q_t_lambda_q[22] = M_2_j_j_1;
-    const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_0_in_j_2 * f_i_in_j_2 + t33;
-    const jg_real M_2_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_0_in_j_0 * f_i_in_j_2 + C_j[6] * v_1_in_j_2;
-    phi_q_t_lambda_q[23] = M_2_j_j_2;
-    const jg_real M_2_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + v_0_in_j_1 * f_i_in_j_2 + C_j[7] * v_1_in_j_2;
-    phi_q_t_lambda_q[29] = M_2_j_j_5;
     const jg_real M_2_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + v_0_in_j_2 * f_i_in_j_1 + C_j[8] * v_1_in_j_1;
-    phi_q_t_lambda_q[34] = M_2_j_j_7;
+    const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_0_in_j_2 * f_i_in_j_2 + t34;
+    const jg_real M_2_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_0_in_j_0 * f_i_in_j_2 + C_j[6] * v_1_in_j_2;
+    const jg_real M_2_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + v_0_in_j_1 * f_i_in_j_2 + C_j[7] * v_1_in_j_2;
     const jg_real M_2_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + v_0_in_j_1 * f_i_in_j_0 + C_j[7] * v_1_in_j_0;
-    phi_q_t_lambda_q[27] = M_2_j_j_3;
-    const jg_real M_2_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + v_0_in_j_0 * f_i_in_j_0 + t36;
+    const jg_real M_2_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + v_0_in_j_0 * f_i_in_j_0 + t31;
     const jg_real M_2_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + v_0_in_j_2 * f_i_in_j_0 + C_j[8] * v_1_in_j_0;
+    phi_q_t_lambda_q[17] = t57;
+    phi_q_t_lambda_q[32] = t57;
+    phi_q_t_lambda_q[22] = M_2_j_j_1;
+    phi_q_t_lambda_q[34] = M_2_j_j_7;
+    phi_q_t_lambda_q[23] = M_2_j_j_2;
+    phi_q_t_lambda_q[29] = M_2_j_j_5;
+    phi_q_t_lambda_q[27] = M_2_j_j_3;
     phi_q_t_lambda_q[33] = M_2_j_j_6;
     phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
     phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
@@ -327,8 +321,8 @@ void jg_rigid_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT A_i
     jg_scatter(jg_rigid_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_rigid_conventional_gamma(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -348,8 +342,6 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     /* v_1_in_j = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, axes of body j */
     const jg_real v_1_in_j_0 = omega_j_dot_omega_j * s_j[0] - omega_j[0] * s_j_dot_omega_j;
     const jg_real v_1_in_j_1 = omega_j_dot_omega_j * s_j[1] - omega_j[1] * s_j_dot_omega_j;
@@ -358,33 +350,32 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
     const jg_real v_0_in_i_0 = omega_i_dot_omega_i * s_i[0] - omega_i[0] * s_i_dot_omega_i;
     const jg_real v_0_in_i_1 = omega_i_dot_omega_i * s_i[1] - omega_i[1] * s_i_dot_omega_i;
     const jg_real v_0_in_i_2 = omega_i_dot_omega_i * s_i[2] - omega_i[2] * s_i_dot_omega_i;
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
     const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
     const jg_real v_1_world_1 = v_1_in_j_0 * A_j[1] + v_1_in_j_1 * A_j[4] + v_1_in_j_2 * A_j[7];
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* v_0_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
     const jg_real v_0_world_0 = v_0_in_i_0 * A_i[0] + v_0_in_i_1 * A_i[3] + v_0_in_i_2 * A_i[6];
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real v_0_world_1 = v_0_in_i_0 * A_i[1] + v_0_in_i_1 * A_i[4] + v_0_in_i_2 * A_i[7];
     const jg_real v_1_world_2 = v_1_in_j_0 * A_j[2] + v_1_in_j_1 * A_j[5] + v_1_in_j_2 * A_j[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real v_0_world_2 = v_0_in_i_0 * A_i[2] + v_0_in_i_1 * A_i[5] + v_0_in_i_2 * A_i[8];
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_2_world_0 = v_1_world_0 - v_0_world_0;
-    gamma[0] = v_2_world_0;
-    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     const jg_real v_2_world_1 = v_1_world_1 - v_0_world_1;
-    gamma[1] = v_2_world_1;
+    const jg_real v_2_world_2 = v_1_world_2 - v_0_world_2;
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = omega_j[0] * A_ji_0 + omega_j[1] * A_ji_1 + omega_j[2] * A_ji_2;
+    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     const jg_real omega_j_in_i_2 = omega_j[0] * A_ji_6 + omega_j[1] * A_ji_7 + omega_j[2] * A_ji_8;
-    const jg_real v_2_world_2 = v_1_world_2 - v_0_world_2;
-    gamma[2] = v_2_world_2;
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     /* omega_i_dot_g_i = omega_i . g_i */
     const jg_real omega_i_dot_g_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
@@ -409,6 +400,7 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
     const jg_real omega_j_dot_f_i = omega_j_in_i_0 * C_i[0] + omega_j_in_i_1 * C_i[1] + omega_j_in_i_2 * C_i[2];
     /* omega_j_dot_g_i = omega_j . g_i */
     const jg_real omega_j_dot_g_i = omega_j_in_i_0 * C_i[3] + omega_j_in_i_1 * C_i[4] + omega_j_in_i_2 * C_i[5];
+    const jg_real t46 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_j_dot_omega_i * JG_REAL(2.0);
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = C_i[0] * g_j_in_i_0 + C_i[1] * g_j_in_i_1 + C_i[2] * g_j_in_i_2;
     /* omega_j_dot_g_j = omega_j . g_j */
@@ -416,17 +408,19 @@ void jg_rigid_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *
         g_j_in_i_2;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i[0] * g_j_in_i_0 + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
-    const jg_real t49 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_j_dot_omega_i * JG_REAL(2.0);
-    gamma[3] = f_i_dot_h_j * t49 + omega_j_dot_f_i * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) -
+    gamma[0] = v_2_world_0;
+    gamma[1] = v_2_world_1;
+    gamma[2] = v_2_world_2;
+    gamma[3] = f_i_dot_h_j * t46 + omega_j_dot_f_i * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) -
         omega_i_dot_h_j * omega_i_dot_f_i;
-    gamma[4] = t49 * g_i_dot_h_j + omega_i_dot_h_j * (JG_REAL(2.0) * omega_j_dot_g_i - omega_i_dot_g_i) -
+    gamma[4] = t46 * g_i_dot_h_j + omega_i_dot_h_j * (JG_REAL(2.0) * omega_j_dot_g_i - omega_i_dot_g_i) -
         omega_j_dot_h_j * omega_j_dot_g_i;
-    gamma[5] = t49 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
+    gamma[5] = t46 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
         omega_i_dot_f_i * omega_i_dot_g_j;
 }
 
-void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_rigid_conventional_phi_q_v(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -444,46 +438,43 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     /* s_i_cross_omega_i_world = s_i x omega_i, world axes */
     const jg_real s_i_cross_omega_i_world_0 = s_i_cross_omega_i_in_i_0 * A_i[0] + s_i_cross_omega_i_in_i_1 * A_i[3]
         + s_i_cross_omega_i_in_i_2 * A_i[6];
     const jg_real s_i_cross_omega_i_world_1 = s_i_cross_omega_i_in_i_0 * A_i[1] + s_i_cross_omega_i_in_i_1 * A_i[4]
         + s_i_cross_omega_i_in_i_2 * A_i[7];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
     const jg_real s_j_cross_omega_j_world_0 = s_j_cross_omega_j_in_j_0 * A_j[0] + s_j_cross_omega_j_in_j_1 * A_j[3]
         + s_j_cross_omega_j_in_j_2 * A_j[6];
     const jg_real s_j_cross_omega_j_world_1 = s_j_cross_omega_j_in_j_0 * A_j[1] + s_j_cross_omega_j_in_j_1 * A_j[4]
         + s_j_cross_omega_j_in_j_2 * A_j[7];
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     const jg_real s_i_cross_omega_i_world_2 = s_i_cross_omega_i_in_i_0 * A_i[2] + s_i_cross_omega_i_in_i_1 * A_i[5]
         + s_i_cross_omega_i_in_i_2 * A_i[8];
     const jg_real s_j_cross_omega_j_world_2 = s_j_cross_omega_j_in_j_0 * A_j[2] + s_j_cross_omega_j_in_j_1 * A_j[5]
         + s_j_cross_omega_j_in_j_2 * A_j[8];
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     /* v_0_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
     const jg_real v_0_world_0 = v_j[0] - v_i[0] - s_j_cross_omega_j_world_0 + s_i_cross_omega_i_world_0;
-    phi_q_v[0] = v_0_world_0;
     const jg_real v_0_world_1 = v_j[1] - v_i[1] - s_j_cross_omega_j_world_1 + s_i_cross_omega_i_world_1;
-    phi_q_v[1] = v_0_world_1;
-    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
-    phi_q_v[2] = v_0_world_2;
+    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ij_0 + omega_i[1] * A_ij_1 + omega_i[2] * A_ij_2;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     const jg_real f_i_in_j_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ij_6 + omega_i[1] * A_ij_7 + omega_i[2] * A_ij_8;
-    /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ij_3 + omega_i[1] * A_ij_4 + omega_i[2] * A_ij_5;
     /* omega_i_cross_f_i_in_j = omega_i x f_i, axes of body j */
@@ -499,6 +490,9 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
     const jg_real omega_j_cross_f_i_in_j_0 = omega_j[1] * f_i_in_j_2 - omega_j[2] * f_i_in_j_1;
     const jg_real g_i_cross_h_j_in_j_0 = C_j[8] * g_i_in_j_1 - C_j[7] * g_i_in_j_2;
     const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
+    phi_q_v[0] = v_0_world_0;
+    phi_q_v[1] = v_0_world_1;
+    phi_q_v[2] = v_0_world_2;
     phi_q_v[3] = omega_i_cross_f_i_in_j_0 * C_j[6] + omega_i_cross_f_i_in_j_1 * C_j[7] + omega_i_cross_f_i_in_j_2 *
         C_j[8] - (C_j[6] * omega_j_cross_f_i_in_j_0 + C_j[7] * omega_j_cross_f_i_in_j_1 + C_j[8] *
         omega_j_cross_f_i_in_j_2);
@@ -510,37 +504,30 @@ void jg_rigid_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real
         C_j[5]);
 }
 
-void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_rigid_conventional_phi_q_t_lambda(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[6] = lambda[0];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[7] = lambda[1];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[8] = lambda[2];
-    phi_q_t_lambda[2] = -lambda[2];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* v_0_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
     const jg_real v_0_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
-    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real v_0_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real v_0_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real v_0_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
     const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    const jg_real v_0_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
     /* g_j_in_i = g_j, axes of body i */
@@ -549,14 +536,25 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
     const jg_real s_i_cross_lambda_0_1_2_in_i_0 = s_i[1] * lambda_0_1_2_in_i_2 - s_i[2] * lambda_0_1_2_in_i_1;
     const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    const jg_real s_i_cross_lambda_0_1_2_in_i_1 = s_i[2] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
-    const jg_real s_i_cross_lambda_0_1_2_in_i_2 = s_i[0] * lambda_0_1_2_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
     const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
     const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     /* v_1_in_i = lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of body i */
     const jg_real v_1_in_i_1 = h_j_in_i_2 * v_0_in_i_0 - h_j_in_i_0 * v_0_in_i_2;
     /* g_j_cross_f_i_in_i = g_j x f_i, axes of body i */
     const jg_real g_j_cross_f_i_in_i_1 = C_i[0] * g_j_in_i_2 - C_i[2] * g_j_in_i_0;
+    const jg_real v_1_in_i_0 = h_j_in_i_1 * v_0_in_i_2 - h_j_in_i_2 * v_0_in_i_1;
+    const jg_real v_1_in_i_2 = h_j_in_i_0 * v_0_in_i_1 - h_j_in_i_1 * v_0_in_i_0;
+    const jg_real g_j_cross_f_i_in_i_0 = C_i[2] * g_j_in_i_1 - C_i[1] * g_j_in_i_2;
+    const jg_real g_j_cross_f_i_in_i_2 = C_i[1] * g_j_in_i_0 - C_i[0] * g_j_in_i_1;
+    const jg_real s_i_cross_lambda_0_1_2_in_i_1 = s_i[2] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
+    const jg_real s_i_cross_lambda_0_1_2_in_i_2 = s_i[0] * lambda_0_1_2_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
+    /* v_2_in_i = lambda_5 g_j x f_i, axes of body i */
+    const jg_real v_2_in_i_1 = lambda[5] * g_j_cross_f_i_in_i_1;
+    const jg_real v_2_in_i_0 = lambda[5] * g_j_cross_f_i_in_i_0;
+    const jg_real v_2_in_i_2 = lambda[5] * g_j_cross_f_i_in_i_2;
+    /* v_3_in_i = lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i, axes of body i */
+    const jg_real v_3_in_i_1 = v_1_in_i_1 + v_2_in_i_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_i_0 * A_ji_2 + lambda_0_1_2_in_i_1 * A_ji_5 +
         lambda_0_1_2_in_i_2 * A_ji_8;
@@ -564,46 +562,41 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
         lambda_0_1_2_in_i_2 * A_ji_7;
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_i_0 * A_ji_0 + lambda_0_1_2_in_i_1 * A_ji_3 +
         lambda_0_1_2_in_i_2 * A_ji_6;
-    /* v_2_in_i = lambda_5 g_j x f_i, axes of body i */
-    const jg_real v_2_in_i_1 = lambda[5] * g_j_cross_f_i_in_i_1;
-    const jg_real v_1_in_i_0 = h_j_in_i_1 * v_0_in_i_2 - h_j_in_i_2 * v_0_in_i_1;
-    const jg_real v_1_in_i_2 = h_j_in_i_0 * v_0_in_i_1 - h_j_in_i_1 * v_0_in_i_0;
-    const jg_real g_j_cross_f_i_in_i_0 = C_i[2] * g_j_in_i_1 - C_i[1] * g_j_in_i_2;
-    const jg_real g_j_cross_f_i_in_i_2 = C_i[1] * g_j_in_i_0 - C_i[0] * g_j_in_i_1;
-    /* v_3_in_i = lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i, axes of body i */
-    const jg_real v_3_in_i_1 = v_1_in_i_1 + v_2_in_i_1;
-    /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
-    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
-    const jg_real v_2_in_i_0 = lambda[5] * g_j_cross_f_i_in_i_0;
-    const jg_real v_2_in_i_2 = lambda[5] * g_j_cross_f_i_in_i_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
-    /* v_4_in_i = s_i x lambda_0_1_2 + lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i, axes of ... */
-    const jg_real v_4_in_i_1 = s_i_cross_lambda_0_1_2_in_i_1 + v_3_in_i_1;
     const jg_real v_3_in_i_0 = v_1_in_i_0 + v_2_in_i_0;
     const jg_real v_3_in_i_2 = v_1_in_i_2 + v_2_in_i_2;
-    phi_q_t_lambda[4] = -v_4_in_i_1;
+    /* v_4_in_i = s_i x lambda_0_1_2 + lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i, axes of ... */
+    const jg_real v_4_in_i_1 = s_i_cross_lambda_0_1_2_in_i_1 + v_3_in_i_1;
     const jg_real v_4_in_i_0 = s_i_cross_lambda_0_1_2_in_i_0 + v_3_in_i_0;
     const jg_real v_4_in_i_2 = s_i_cross_lambda_0_1_2_in_i_2 + v_3_in_i_2;
+    /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
+    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[6] = lambda[0];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[7] = lambda[1];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[8] = lambda[2];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[4] = -v_4_in_i_1;
     phi_q_t_lambda[3] = -v_4_in_i_0;
-    phi_q_t_lambda[5] = -v_4_in_i_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     /* v_3_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i, axes of body j */
     const jg_real v_3_in_j_0 = A_ji_0 * v_3_in_i_0 + A_ji_3 * v_3_in_i_1 + A_ji_6 * v_3_in_i_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real v_3_in_j_1 = A_ji_1 * v_3_in_i_0 + A_ji_4 * v_3_in_i_1 + A_ji_7 * v_3_in_i_2;
     const jg_real v_3_in_j_2 = A_ji_2 * v_3_in_i_0 + A_ji_5 * v_3_in_i_1 + A_ji_8 * v_3_in_i_2;
     /* v_5_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i + s_j x lambda_0_1_2, axes of ... */
     const jg_real v_5_in_j_0 = v_3_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda[9] = v_5_in_j_0;
     const jg_real v_5_in_j_1 = v_3_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda[10] = v_5_in_j_1;
     const jg_real v_5_in_j_2 = v_3_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[5] = -v_4_in_i_2;
+    phi_q_t_lambda[9] = v_5_in_j_0;
+    phi_q_t_lambda[10] = v_5_in_j_1;
     phi_q_t_lambda[11] = v_5_in_j_2;
 }
 
-void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_rigid_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -623,252 +616,257 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
+    /* d_ij_world = r_ij + s_j - s_i, world axes */
+    const jg_real d_ij_world_0 = s_j_world_0 + r_ij_world_0 - s_i_world_0;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_2 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real d_ij_world_1 = s_j_world_1 + r_ij_world_1 - s_i_world_1;
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real d_ij_world_2 = s_j_world_2 + r_ij_world_2 - s_i_world_2;
+    const jg_real A_ji_1 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real A_ji_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    /* d_ij_world = r_ij + s_j - s_i, world axes */
-    const jg_real d_ij_world_0 = r_ij_world_0 + s_j_world_0 - s_i_world_0;
-    phi[0] = d_ij_world_0;
-    const jg_real A_ji_1 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real d_ij_world_1 = r_ij_world_1 + s_j_world_1 - s_i_world_1;
-    phi[1] = d_ij_world_1;
-    phi_q[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
-    const jg_real A_ji_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    const jg_real d_ij_world_2 = r_ij_world_2 + s_j_world_2 - s_i_world_2;
     phi[2] = d_ij_world_2;
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    phi_q[3] = A_i[3] * s_i[2] - s_i[1] * A_i[6];
     phi_q[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
-    phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    phi_q[9] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    phi_q[10] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
-    phi_q[11] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
+    const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
     const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = A_ji_3 * C_i[1] + A_ji_0 * C_i[0] + A_ji_6 * C_i[2];
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_0 = A_ji_3 * C_i[4] + A_ji_0 * C_i[3] + A_ji_6 * C_i[5];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    phi_q[15] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
-    phi_q[16] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
-    const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
-    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
-    const jg_real g_i_in_j_1 = A_ji_1 * C_i[3] + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
-    const jg_real g_i_in_j_2 = A_ji_2 * C_i[3] + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
+    const jg_real t26 = C_j[6] * g_i_in_j_0;
+    const jg_real f_i_in_j_1 = C_i[1] * A_ji_4 + A_ji_1 * C_i[0] + A_ji_7 * C_i[2];
+    const jg_real f_i_in_j_2 = C_i[1] * A_ji_5 + A_ji_2 * C_i[0] + A_ji_8 * C_i[2];
+    const jg_real g_i_in_j_1 = A_ji_4 * C_i[4] + A_ji_1 * C_i[3] + A_ji_7 * C_i[5];
+    const jg_real g_i_in_j_2 = A_ji_5 * C_i[4] + A_ji_2 * C_i[3] + A_ji_8 * C_i[5];
     const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    const jg_real t33 = C_j[7] * g_i_in_j_1;
+    const jg_real t34 = C_j[8] * g_i_in_j_2;
+    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
+    const jg_real f_i_cross_g_j_in_i_0 = C_i[1] * g_j_in_i_2 - C_i[2] * g_j_in_i_1;
     /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
-    const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
-    phi_q[12] = f_i_cross_h_j_in_i_1;
+    const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
+    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
+    const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
+    phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
+    phi_q[9] = s_i[0] * A_i[6] - A_i[0] * s_i[2];
+    phi_q[10] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
+    phi_q[11] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
+    phi_q[8] = f_i_cross_g_j_in_i_0;
+    phi_q[6] = f_i_cross_h_j_in_i_0;
+    phi_q[7] = g_i_cross_h_j_in_i_0;
+    phi[3] = f_i_dot_h_j;
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = t26 + t33 + t34;
+    /* f_i_dot_g_j = f_i . g_j */
+    const jg_real f_i_dot_g_j = C_i[1] * g_j_in_i_1 + C_i[0] * g_j_in_i_0 + C_i[2] * g_j_in_i_2;
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real f_i_cross_g_j_in_i_1 = C_i[2] * g_j_in_i_0 - C_i[0] * g_j_in_i_2;
+    phi[4] = g_i_dot_h_j;
+    phi[5] = f_i_dot_g_j;
+    phi_q[14] = f_i_cross_g_j_in_i_1;
+    phi_q[15] = A_i[0] * s_i[1] - s_i[0] * A_i[3];
     phi_q[21] = JG_REAL(1.0);
     phi_q[22] = JG_REAL(1.0);
     phi_q[23] = JG_REAL(1.0);
-    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
-    const jg_real g_i_cross_h_j_in_i_1 = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
-    phi_q[13] = g_i_cross_h_j_in_i_1;
-    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
-    const jg_real f_i_cross_g_j_in_i_1 = C_i[2] * g_j_in_i_0 - C_i[0] * g_j_in_i_2;
-    phi_q[14] = f_i_cross_g_j_in_i_1;
-    phi_q[17] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
-    phi_q[24] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
-    const jg_real f_i_cross_g_j_in_i_0 = C_i[1] * g_j_in_i_2 - C_i[2] * g_j_in_i_1;
-    phi_q[8] = f_i_cross_g_j_in_i_0;
-    const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
-    phi_q[6] = f_i_cross_h_j_in_i_0;
-    const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
-    phi_q[7] = g_i_cross_h_j_in_i_0;
-    const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
-    phi_q[18] = f_i_cross_h_j_in_i_2;
-    const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
-    phi_q[19] = g_i_cross_h_j_in_i_2;
+    phi_q[16] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     const jg_real f_i_cross_g_j_in_i_2 = C_i[0] * g_j_in_i_1 - C_i[1] * g_j_in_i_0;
+    const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
+    const jg_real g_i_cross_h_j_in_i_1 = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
+    const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
+    const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
+    const jg_real t48 = C_j[7] * g_i_in_j_2;
+    phi_q[17] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
     phi_q[20] = f_i_cross_g_j_in_i_2;
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    phi[3] = f_i_dot_h_j;
+    phi_q[24] = s_j[1] * A_j[6] - A_j[3] * s_j[2];
+    phi_q[12] = f_i_cross_h_j_in_i_1;
+    phi_q[13] = g_i_cross_h_j_in_i_1;
+    phi_q[18] = f_i_cross_h_j_in_i_2;
+    phi_q[19] = g_i_cross_h_j_in_i_2;
     phi_q[25] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
-    phi[4] = g_i_dot_h_j;
+    const jg_real t49 = C_j[8] * g_i_in_j_1;
+    const jg_real t50 = C_j[8] * g_i_in_j_0;
+    const jg_real t51 = C_j[6] * g_i_in_j_2;
     phi_q[26] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
-    /* f_i_dot_g_j = f_i . g_j */
-    const jg_real f_i_dot_g_j = C_i[0] * g_j_in_i_0 + C_i[1] * g_j_in_i_1 + C_i[2] * g_j_in_i_2;
-    phi[5] = f_i_dot_g_j;
-    phi_q[27] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
-    phi_q[28] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    phi_q[27] = C_j[7] * f_i_in_j_2 - f_i_in_j_1 * C_j[8];
+    phi_q[28] = t48 - t49;
     phi_q[29] = f_i_in_j_2 * C_j[4] - f_i_in_j_1 * C_j[5];
-    phi_q[30] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
+    phi_q[30] = A_j[0] * s_j[2] - s_j[0] * A_j[6];
     phi_q[31] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
     phi_q[32] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
-    phi_q[33] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
-    phi_q[34] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    phi_q[33] = f_i_in_j_0 * C_j[8] - C_j[6] * f_i_in_j_2;
+    const jg_real t52 = C_j[6] * g_i_in_j_1;
+    const jg_real t53 = C_j[7] * g_i_in_j_0;
+    phi_q[34] = t50 - t51;
     phi_q[35] = f_i_in_j_0 * C_j[5] - f_i_in_j_2 * C_j[3];
-    phi_q[36] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
+    phi_q[36] = s_j[0] * A_j[3] - A_j[0] * s_j[1];
     phi_q[37] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     phi_q[38] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
-    phi_q[39] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
-    phi_q[40] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    phi_q[39] = C_j[6] * f_i_in_j_1 - f_i_in_j_0 * C_j[7];
+    phi_q[40] = t52 - t53;
     phi_q[41] = f_i_in_j_1 * C_j[3] - f_i_in_j_0 * C_j[4];
-    /* v_1_in_i = lambda_4 h_j, axes of body i */
-    const jg_real v_1_in_i_1 = h_j_in_i_1 * lambda[4];
     /* v_0_in_i = lambda_5 g_j + lambda_3 h_j, axes of body i */
     const jg_real v_0_in_i_1 = g_j_in_i_1 * lambda[5] + h_j_in_i_1 * lambda[3];
+    /* v_1_in_i = lambda_4 h_j, axes of body i */
+    const jg_real v_1_in_i_1 = h_j_in_i_1 * lambda[4];
     const jg_real v_1_in_i_2 = h_j_in_i_2 * lambda[4];
-    const jg_real v_1_in_i_0 = h_j_in_i_0 * lambda[4];
-    /* v_1_in_j = lambda_4 h_j, axes of body j */
-    const jg_real v_1_in_j_1 = C_j[7] * lambda[4];
-    const jg_real v_0_in_i_2 = g_j_in_i_2 * lambda[5] + h_j_in_i_2 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
+    const jg_real v_0_in_i_2 = g_j_in_i_2 * lambda[5] + h_j_in_i_2 * lambda[3];
     const jg_real lambda_0_1_2_in_j_1 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
-    const jg_real v_0_in_i_0 = g_j_in_i_0 * lambda[5] + h_j_in_i_0 * lambda[3];
     const jg_real lambda_0_1_2_in_j_2 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
-    const jg_real t55 = f_i_dot_h_j * lambda[3] + g_i_dot_h_j * lambda[4] + f_i_dot_g_j * lambda[5];
-    /* M_1_i_j = (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body i, columns ... */
-    const jg_real M_1_i_j_0 = f_i_in_j_0 * v_0_in_i_0 + g_i_in_j_0 * v_1_in_i_0;
-    const jg_real M_1_i_j_1 = f_i_in_j_1 * v_0_in_i_0 + g_i_in_j_1 * v_1_in_i_0;
-    const jg_real M_1_i_j_2 = f_i_in_j_2 * v_0_in_i_0 + g_i_in_j_2 * v_1_in_i_0;
-    const jg_real M_1_i_j_3 = f_i_in_j_0 * v_0_in_i_1 + g_i_in_j_0 * v_1_in_i_1;
-    const jg_real M_1_i_j_4 = f_i_in_j_1 * v_0_in_i_1 + g_i_in_j_1 * v_1_in_i_1;
+    const jg_real v_1_in_i_0 = h_j_in_i_0 * lambda[4];
+    const jg_real t62 = f_i_dot_h_j * lambda[3] + g_i_dot_h_j * lambda[4] + f_i_dot_g_j * lambda[5];
+    const jg_real v_0_in_i_0 = g_j_in_i_0 * lambda[5] + h_j_in_i_0 * lambda[3];
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_5 *
         lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_i_2 = A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_8 *
         lambda_0_1_2_in_j_2;
-    const jg_real t63 = A_ji_0 * t55 - M_1_i_j_0;
-    phi_q_t_lambda_q[3] = t63;
-    phi_q_t_lambda_q[18] = t63;
-    const jg_real t64 = A_ji_1 * t55 - M_1_i_j_1;
-    phi_q_t_lambda_q[4] = t64;
-    phi_q_t_lambda_q[24] = t64;
-    const jg_real t65 = A_ji_2 * t55 - M_1_i_j_2;
-    phi_q_t_lambda_q[5] = t65;
-    phi_q_t_lambda_q[30] = t65;
+    /* M_1_i_j = (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in axes of body i, columns ... */
+    const jg_real M_1_i_j_0 = f_i_in_j_0 * v_0_in_i_0 + g_i_in_j_0 * v_1_in_i_0;
+    const jg_real M_1_i_j_1 = f_i_in_j_1 * v_0_in_i_0 + g_i_in_j_1 * v_1_in_i_0;
+    const jg_real M_1_i_j_2 = f_i_in_j_2 * v_0_in_i_0 + g_i_in_j_2 * v_1_in_i_0;
     const jg_real lambda_0_1_2_in_i_0 = A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_1 * lambda_0_1_2_in_j_1 + A_ji_2 *
         lambda_0_1_2_in_j_2;
-    const jg_real t67 = A_ji_3 * t55 - M_1_i_j_3;
-    phi_q_t_lambda_q[9] = t67;
-    phi_q_t_lambda_q[19] = t67;
-    const jg_real M_1_i_j_5 = f_i_in_j_2 * v_0_in_i_1 + g_i_in_j_2 * v_1_in_i_1;
-    const jg_real t69 = A_ji_4 * t55 - M_1_i_j_4;
-    phi_q_t_lambda_q[10] = t69;
-    phi_q_t_lambda_q[25] = t69;
-    const jg_real M_1_i_j_6 = f_i_in_j_0 * v_0_in_i_2 + g_i_in_j_0 * v_1_in_i_2;
-    const jg_real t71 = A_ji_5 * t55 - M_1_i_j_5;
-    phi_q_t_lambda_q[11] = t71;
-    phi_q_t_lambda_q[31] = t71;
-    const jg_real M_1_i_j_7 = f_i_in_j_1 * v_0_in_i_2 + g_i_in_j_1 * v_1_in_i_2;
-    const jg_real t73 = A_ji_6 * t55 - M_1_i_j_6;
-    phi_q_t_lambda_q[15] = t73;
-    phi_q_t_lambda_q[20] = t73;
-    const jg_real v_1_in_j_2 = C_j[8] * lambda[4];
-    const jg_real M_1_i_j_8 = f_i_in_j_2 * v_0_in_i_2 + g_i_in_j_2 * v_1_in_i_2;
+    const jg_real t70 = A_ji_0 * t62 - M_1_i_j_0;
+    const jg_real t71 = A_ji_1 * t62 - M_1_i_j_1;
+    const jg_real t72 = A_ji_2 * t62 - M_1_i_j_2;
+    const jg_real M_1_i_j_3 = f_i_in_j_0 * v_0_in_i_1 + g_i_in_j_0 * v_1_in_i_1;
+    const jg_real t74 = A_ji_3 * t62 - M_1_i_j_3;
+    phi_q_t_lambda_q[3] = t70;
+    phi_q_t_lambda_q[18] = t70;
+    phi_q_t_lambda_q[4] = t71;
+    phi_q_t_lambda_q[24] = t71;
+    phi_q_t_lambda_q[5] = t72;
+    phi_q_t_lambda_q[30] = t72;
+    phi_q_t_lambda_q[9] = t74;
+    phi_q_t_lambda_q[19] = t74;
     /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_5 f_i) g_j^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows ... */
     const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - C_i[1] * v_0_in_i_1 - C_i[4] * v_1_in_i_1;
     const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - C_i[2] * v_0_in_i_2 - C_i[5] * v_1_in_i_2;
+    const jg_real M_1_i_j_4 = f_i_in_j_1 * v_0_in_i_1 + g_i_in_j_1 * v_1_in_i_1;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - C_i[0] * v_0_in_i_0 - C_i[3] * v_1_in_i_0;
+    const jg_real M_1_i_j_5 = f_i_in_j_2 * v_0_in_i_1 + g_i_in_j_2 * v_1_in_i_1;
+    const jg_real t80 = A_ji_4 * t62 - M_1_i_j_4;
     phi_q_t_lambda_q[1] = C_i[3] * v_1_in_i_1 - (s_i[0] * lambda_0_1_2_in_i_1 - C_i[0] * v_0_in_i_1);
     phi_q_t_lambda_q[2] = C_i[3] * v_1_in_i_2 - (s_i[0] * lambda_0_1_2_in_i_2 - C_i[0] * v_0_in_i_2);
     phi_q_t_lambda_q[8] = C_i[4] * v_1_in_i_2 - (s_i[1] * lambda_0_1_2_in_i_2 - C_i[1] * v_0_in_i_2);
-    phi_q_t_lambda_q[13] = C_i[5] * v_1_in_i_1 - (s_i[2] * lambda_0_1_2_in_i_1 - C_i[2] * v_0_in_i_1);
     phi_q_t_lambda_q[6] = C_i[4] * v_1_in_i_0 - (s_i[1] * lambda_0_1_2_in_i_0 - C_i[1] * v_0_in_i_0);
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - C_i[0] * v_0_in_i_0 - C_i[3] * v_1_in_i_0;
-    phi_q_t_lambda_q[12] = C_i[5] * v_1_in_i_0 - (s_i[2] * lambda_0_1_2_in_i_0 - C_i[2] * v_0_in_i_0);
-    const jg_real t79 = A_ji_7 * t55 - M_1_i_j_7;
-    phi_q_t_lambda_q[16] = t79;
-    phi_q_t_lambda_q[26] = t79;
+    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
+    phi_q_t_lambda_q[10] = t80;
+    phi_q_t_lambda_q[25] = t80;
+    phi_q_t_lambda_q[7] = M_0_i_i_8 + M_0_i_i_0;
+    const jg_real t81 = A_ji_5 * t62 - M_1_i_j_5;
+    const jg_real M_1_i_j_6 = f_i_in_j_0 * v_0_in_i_2 + g_i_in_j_0 * v_1_in_i_2;
+    const jg_real M_1_i_j_7 = f_i_in_j_1 * v_0_in_i_2 + g_i_in_j_1 * v_1_in_i_2;
+    const jg_real M_1_i_j_8 = f_i_in_j_2 * v_0_in_i_2 + g_i_in_j_2 * v_1_in_i_2;
+    const jg_real t85 = A_ji_6 * t62 - M_1_i_j_6;
     /* v_0_in_j = lambda_5 g_j + lambda_3 h_j, axes of body j */
     const jg_real v_0_in_j_1 = C_j[4] * lambda[5] + C_j[7] * lambda[3];
-    const jg_real t81 = A_ji_8 * t55 - M_1_i_j_8;
-    phi_q_t_lambda_q[17] = t81;
-    phi_q_t_lambda_q[32] = t81;
-    const jg_real v_1_in_j_0 = C_j[6] * lambda[4];
-    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
-    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
-    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
+    const jg_real t87 = A_ji_7 * t62 - M_1_i_j_7;
+    phi_q_t_lambda_q[14] = M_0_i_i_4 + M_0_i_i_0;
+    phi_q_t_lambda_q[11] = t81;
+    phi_q_t_lambda_q[31] = t81;
+    phi_q_t_lambda_q[12] = C_i[5] * v_1_in_i_0 - (s_i[2] * lambda_0_1_2_in_i_0 - C_i[2] * v_0_in_i_0);
+    phi_q_t_lambda_q[13] = C_i[5] * v_1_in_i_1 - (s_i[2] * lambda_0_1_2_in_i_1 - C_i[2] * v_0_in_i_1);
+    phi_q_t_lambda_q[15] = t85;
+    phi_q_t_lambda_q[20] = t85;
+    phi_q_t_lambda_q[16] = t87;
+    phi_q_t_lambda_q[26] = t87;
     const jg_real v_0_in_j_2 = C_j[5] * lambda[5] + C_j[8] * lambda[3];
+    const jg_real t89 = A_ji_8 * t62 - M_1_i_j_8;
     const jg_real v_0_in_j_0 = C_j[3] * lambda[5] + C_j[6] * lambda[3];
     /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in ... */
-    const jg_real M_2_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + f_i_in_j_1 * v_0_in_j_1 + g_i_in_j_1 * v_1_in_j_1;
-    const jg_real M_2_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + f_i_in_j_0 * v_0_in_j_1 + g_i_in_j_0 * v_1_in_j_1;
+    const jg_real M_2_j_j_4 = f_i_in_j_1 * v_0_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + t33 * lambda[4];
+    const jg_real M_2_j_j_3 = f_i_in_j_0 * v_0_in_j_1 + s_j[1] * lambda_0_1_2_in_j_0 + t53 * lambda[4];
+    const jg_real M_2_j_j_5 = f_i_in_j_2 * v_0_in_j_1 + s_j[1] * lambda_0_1_2_in_j_2 + t48 * lambda[4];
+    const jg_real M_2_j_j_8 = f_i_in_j_2 * v_0_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + t34 * lambda[4];
+    const jg_real M_2_j_j_6 = f_i_in_j_0 * v_0_in_j_2 + s_j[2] * lambda_0_1_2_in_j_0 + t50 * lambda[4];
+    const jg_real M_2_j_j_1 = f_i_in_j_1 * v_0_in_j_0 + s_j[0] * lambda_0_1_2_in_j_1 + t52 * lambda[4];
+    const jg_real M_2_j_j_2 = f_i_in_j_2 * v_0_in_j_0 + s_j[0] * lambda_0_1_2_in_j_2 + t51 * lambda[4];
+    const jg_real M_2_j_j_0 = f_i_in_j_0 * v_0_in_j_0 + s_j[0] * lambda_0_1_2_in_j_0 + t26 * lambda[4];
+    const jg_real M_2_j_j_7 = f_i_in_j_1 * v_0_in_j_2 + s_j[2] * lambda_0_1_2_in_j_1 + t49 * lambda[4];
+    phi_q_t_lambda_q[17] = t89;
+    phi_q_t_lambda_q[32] = t89;
     phi_q_t_lambda_q[27] = M_2_j_j_3;
-    const jg_real M_2_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + f_i_in_j_2 * v_0_in_j_1 + g_i_in_j_2 * v_1_in_j_1;
     phi_q_t_lambda_q[29] = M_2_j_j_5;
+    phi_q_t_lambda_q[33] = M_2_j_j_6;
+    phi_q_t_lambda_q[22] = M_2_j_j_1;
+    phi_q_t_lambda_q[23] = M_2_j_j_2;
+    phi_q_t_lambda_q[34] = M_2_j_j_7;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
-    const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + f_i_in_j_2 * v_0_in_j_2 + g_i_in_j_2 * v_1_in_j_2;
-    const jg_real M_2_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + f_i_in_j_0 * v_0_in_j_2 + g_i_in_j_0 * v_1_in_j_2;
-    phi_q_t_lambda_q[33] = M_2_j_j_6;
-    const jg_real M_2_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + f_i_in_j_1 * v_0_in_j_2 + g_i_in_j_1 * v_1_in_j_2;
-    phi_q_t_lambda_q[34] = M_2_j_j_7;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real M_2_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + f_i_in_j_1 * v_0_in_j_0 + g_i_in_j_1 * v_1_in_j_0;
-    phi_q_t_lambda_q[22] = M_2_j_j_1;
-    const jg_real M_2_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + f_i_in_j_2 * v_0_in_j_0 + g_i_in_j_2 * v_1_in_j_0;
-    phi_q_t_lambda_q[23] = M_2_j_j_2;
-    const jg_real M_2_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + f_i_in_j_0 * v_0_in_j_0 + g_i_in_j_0 * v_1_in_j_0;
     /* omega_j_world = omega_j, world axes */
     const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + A_j[3] * omega_j[1] + A_j[6] * omega_j[2];
     const jg_real omega_j_world_1 = A_j[1] * omega_j[0] + A_j[4] * omega_j[1] + A_j[7] * omega_j[2];
-    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
     const jg_real omega_j_world_2 = A_j[2] * omega_j[0] + A_j[5] * omega_j[1] + A_j[8] * omega_j[2];
-    phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
-    phi_q_t_lambda_q[35] = -(M_2_j_j_0 + M_2_j_j_4);
     /* omega_i_world = omega_i, world axes */
     const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
     const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
     const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j_world_0 + s_j_world_1 * omega_j_world_1 + s_j_world_2 *
         omega_j_world_2;
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
     /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
+    const jg_real h_j_dot_omega_i = h_j_in_i_1 * omega_i[1] + h_j_in_i_0 * omega_i[0] + h_j_in_i_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* s_i_dot_omega_i = s_i . omega_i */
     const jg_real s_i_dot_omega_i = s_i_world_0 * omega_i_world_0 + s_i_world_1 * omega_i_world_1 + s_i_world_2 *
         omega_i_world_2;
     /* omega_j_dot_omega_i = omega_j . omega_i */
     const jg_real omega_j_dot_omega_i = omega_j_world_0 * omega_i_world_0 + omega_j_world_1 * omega_i_world_1 +
         omega_j_world_2 * omega_i_world_2;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
-    /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_2_world_0 = s_j_world_0 * omega_j_dot_omega_j - s_i_world_0 * omega_i_dot_omega_i -
         omega_j_world_0 * s_j_dot_omega_j + omega_i_world_0 * s_i_dot_omega_i;
-    gamma[0] = v_2_world_0;
     const jg_real v_2_world_1 = s_j_world_1 * omega_j_dot_omega_j - s_i_world_1 * omega_i_dot_omega_i -
         omega_j_world_1 * s_j_dot_omega_j + omega_i_world_1 * s_i_dot_omega_i;
-    gamma[1] = v_2_world_1;
     const jg_real v_2_world_2 = s_j_world_2 * omega_j_dot_omega_j - s_i_world_2 * omega_i_dot_omega_i -
         omega_j_world_2 * s_j_dot_omega_j + omega_i_world_2 * s_i_dot_omega_i;
+    const jg_real t119 = omega_j_dot_omega_j + omega_i_dot_omega_i - JG_REAL(2.0) * omega_j_dot_omega_i;
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    /* g_j_dot_omega_i = g_j . omega_i */
+    const jg_real g_j_dot_omega_i = g_j_in_i_1 * omega_i[1] + g_j_in_i_0 * omega_i[0] + g_j_in_i_2 * omega_i[2];
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
+    phi_q_t_lambda_q[28] = -(M_2_j_j_8 + M_2_j_j_0);
+    phi_q_t_lambda_q[35] = -(M_2_j_j_4 + M_2_j_j_0);
+    gamma[0] = v_2_world_0;
+    gamma[1] = v_2_world_1;
     gamma[2] = v_2_world_2;
-    const jg_real t116 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
-    gamma[3] = f_i_dot_h_j * t116 + f_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) -
+    gamma[3] = f_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) + f_i_dot_h_j * t119 -
         h_j_dot_omega_i * f_i_dot_omega_i;
-    gamma[4] = g_i_dot_h_j * t116 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
+    gamma[4] = h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) + g_i_dot_h_j * t119 -
         h_j_dot_omega_j * g_i_dot_omega_j;
-    gamma[5] = f_i_dot_g_j * t116 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+    gamma[5] = f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) + f_i_dot_g_j * t119 -
         f_i_dot_omega_i * g_j_dot_omega_i;
 }
 

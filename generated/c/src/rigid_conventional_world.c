@@ -4,10 +4,6 @@
  * joint rigid, form conventional, derivative exact, variation world, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/rigid.h"
 
 const int *jg_rigid_conventional_world_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_rigid_conventional_world_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_rigid_conventional_world_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -46,26 +41,23 @@ void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
-    phi[1] = d_ij_world_1;
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
-    phi[2] = d_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
@@ -73,98 +65,101 @@ void jg_rigid_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_world_0 * g_j_world_0 + f_i_world_1 * g_j_world_1 + f_i_world_2 * g_j_world_2;
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
+    phi[2] = d_ij_world_2;
+    phi[3] = f_i_dot_h_j;
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_g_j;
 }
 
-void jg_rigid_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_rigid_conventional_world_phi_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    phi_q[3] = s_i_world_2;
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    phi_q[13] = s_i_world_1;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    phi_q[8] = -s_i_world_2;
-    phi_q[4] = -s_i_world_1;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    /* f_i_cross_h_j_world = f_i x h_j, world axes */
+    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[3] = s_i_world_2;
+    phi_q[13] = s_i_world_1;
+    phi_q[4] = -s_i_world_1;
+    phi_q[8] = -s_i_world_2;
+    phi_q[5] = f_i_cross_h_j_world_0;
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
+    /* g_i_cross_h_j_world = g_i x h_j, world axes */
+    const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    /* f_i_cross_g_j_world = f_i x g_j, world axes */
+    const jg_real f_i_cross_g_j_world_0 = f_i_world_1 * g_j_world_2 - f_i_world_2 * g_j_world_1;
+    phi_q[9] = s_i_world_0;
+    phi_q[6] = g_i_cross_h_j_world_0;
     phi_q[18] = JG_REAL(1.0);
     phi_q[19] = JG_REAL(1.0);
     phi_q[20] = JG_REAL(1.0);
-    const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
-    phi_q[9] = s_i_world_0;
-    /* f_i_cross_h_j_world = f_i x h_j, world axes */
-    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[5] = f_i_cross_h_j_world_0;
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* g_i_cross_h_j_world = g_i x h_j, world axes */
-    const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    phi_q[6] = g_i_cross_h_j_world_0;
     phi_q[14] = -s_i_world_0;
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     phi_q[23] = -f_i_cross_h_j_world_0;
-    /* f_i_cross_g_j_world = f_i x g_j, world axes */
-    const jg_real f_i_cross_g_j_world_0 = f_i_world_1 * g_j_world_2 - f_i_world_2 * g_j_world_1;
     phi_q[7] = f_i_cross_g_j_world_0;
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[26] = s_j_world_2;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
+    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
     phi_q[24] = -g_i_cross_h_j_world_0;
     phi_q[25] = -f_i_cross_g_j_world_0;
-    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
     phi_q[10] = f_i_cross_h_j_world_1;
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
     phi_q[15] = f_i_cross_h_j_world_2;
-    phi_q[21] = -s_j_world_2;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    phi_q[26] = s_j_world_2;
     phi_q[22] = s_j_world_1;
-    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
     phi_q[11] = g_i_cross_h_j_world_1;
-    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
     phi_q[16] = g_i_cross_h_j_world_2;
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    phi_q[32] = s_j_world_0;
     const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
-    phi_q[12] = f_i_cross_g_j_world_1;
     const jg_real f_i_cross_g_j_world_2 = f_i_world_0 * g_j_world_1 - f_i_world_1 * g_j_world_0;
-    phi_q[17] = f_i_cross_g_j_world_2;
     phi_q[28] = -f_i_cross_h_j_world_1;
+    phi_q[12] = f_i_cross_g_j_world_1;
     phi_q[33] = -f_i_cross_h_j_world_2;
+    phi_q[17] = f_i_cross_g_j_world_2;
+    phi_q[21] = -s_j_world_2;
     phi_q[31] = -s_j_world_1;
     phi_q[29] = -g_i_cross_h_j_world_1;
     phi_q[34] = -g_i_cross_h_j_world_2;
-    phi_q[27] = -s_j_world_0;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    phi_q[32] = s_j_world_0;
     phi_q[30] = -f_i_cross_g_j_world_1;
     phi_q[35] = -f_i_cross_g_j_world_2;
+    phi_q[27] = -s_j_world_0;
 }
 
 void jg_rigid_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -175,8 +170,8 @@ void jg_rigid_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT A_i, con
     jg_scatter(jg_rigid_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *A_i, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -190,100 +185,100 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* v_0_world = lambda_5 g_j, world axes */
+    const jg_real v_0_world_1 = lambda[5] * g_j_world_1;
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real g_j_world_2 = C_j[3] * A_j[2] + C_j[4] * A_j[5] + C_j[5] * A_j[8];
-    /* v_0_world = lambda_5 g_j, world axes */
-    const jg_real v_0_world_1 = lambda[5] * g_j_world_1;
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real v_0_world_2 = lambda[5] * g_j_world_2;
-    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     /* v_1_world = lambda_3 f_i + lambda_4 g_i, world axes */
     const jg_real v_1_world_1 = f_i_world_1 * lambda[3] + lambda[4] * g_i_world_1;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
     const jg_real g_j_world_0 = C_j[3] * A_j[0] + C_j[4] * A_j[3] + C_j[5] * A_j[6];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real v_1_world_2 = f_i_world_2 * lambda[3] + lambda[4] * g_i_world_2;
-    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    const jg_real v_0_world_0 = lambda[5] * g_j_world_0;
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* M_0_world_world = (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in world axes, columns in
         ... */
     const jg_real M_0_world_world_4 = v_0_world_1 * f_i_world_1 + h_j_world_1 * v_1_world_1;
-    const jg_real M_0_world_world_7 = v_0_world_2 * f_i_world_1 + h_j_world_2 * v_1_world_1;
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real v_0_world_0 = lambda[5] * g_j_world_0;
     /* M_1_world_world = (s_i) lambda_0_1_2^T + (-lambda_5 f_i) g_j^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows
         ... */
     const jg_real M_1_world_world_4 = s_i_world_1 * lambda[1] - M_0_world_world_4;
-    phi_q_t_lambda_q[13] = M_0_world_world_7 - s_i_world_1 * lambda[2];
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real M_0_world_world_8 = v_0_world_2 * f_i_world_2 + h_j_world_2 * v_1_world_2;
-    const jg_real t24 = -M_0_world_world_7;
-    phi_q_t_lambda_q[16] = t24;
-    phi_q_t_lambda_q[26] = t24;
-    const jg_real M_0_world_world_1 = v_0_world_0 * f_i_world_1 + h_j_world_0 * v_1_world_1;
-    const jg_real M_0_world_world_2 = v_0_world_0 * f_i_world_2 + h_j_world_0 * v_1_world_2;
     const jg_real M_0_world_world_5 = v_0_world_1 * f_i_world_2 + h_j_world_1 * v_1_world_2;
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
+    const jg_real M_0_world_world_1 = v_0_world_0 * f_i_world_1 + h_j_world_0 * v_1_world_1;
+    const jg_real M_1_world_world_8 = s_i_world_2 * lambda[2] - M_0_world_world_8;
+    const jg_real M_0_world_world_2 = v_0_world_0 * f_i_world_2 + h_j_world_0 * v_1_world_2;
+    const jg_real t27 = M_0_world_world_4 + M_0_world_world_8;
+    const jg_real t28 = -M_0_world_world_5;
+    const jg_real M_0_world_world_7 = v_0_world_2 * f_i_world_1 + h_j_world_2 * v_1_world_1;
+    const jg_real v_1_world_0 = f_i_world_0 * lambda[3] + lambda[4] * g_i_world_0;
+    phi_q_t_lambda_q[3] = t27;
+    phi_q_t_lambda_q[18] = t27;
+    phi_q_t_lambda_q[8] = M_0_world_world_5 - s_i_world_2 * lambda[1];
+    phi_q_t_lambda_q[11] = t28;
+    phi_q_t_lambda_q[31] = t28;
+    phi_q_t_lambda_q[1] = M_0_world_world_1 - s_i_world_1 * lambda[0];
+    phi_q_t_lambda_q[0] = M_1_world_world_4 + M_1_world_world_8;
+    phi_q_t_lambda_q[2] = M_0_world_world_2 - s_i_world_2 * lambda[0];
+    const jg_real t31 = -M_0_world_world_1;
+    const jg_real t32 = -M_0_world_world_2;
+    const jg_real t33 = -M_0_world_world_7;
+    const jg_real M_0_world_world_3 = v_0_world_1 * f_i_world_0 + h_j_world_1 * v_1_world_0;
+    const jg_real M_0_world_world_0 = v_0_world_0 * f_i_world_0 + h_j_world_0 * v_1_world_0;
+    const jg_real M_0_world_world_6 = v_0_world_2 * f_i_world_0 + h_j_world_2 * v_1_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real v_1_world_0 = f_i_world_0 * lambda[3] + lambda[4] * g_i_world_0;
-    const jg_real M_1_world_world_8 = s_i_world_2 * lambda[2] - M_0_world_world_8;
-    const jg_real t32 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[3] = t32;
-    phi_q_t_lambda_q[18] = t32;
-    phi_q_t_lambda_q[1] = M_0_world_world_1 - s_i_world_1 * lambda[0];
-    phi_q_t_lambda_q[2] = M_0_world_world_2 - s_i_world_2 * lambda[0];
-    const jg_real t33 = -M_0_world_world_1;
-    phi_q_t_lambda_q[4] = t33;
-    phi_q_t_lambda_q[24] = t33;
-    const jg_real t34 = -M_0_world_world_2;
-    phi_q_t_lambda_q[5] = t34;
-    phi_q_t_lambda_q[30] = t34;
-    phi_q_t_lambda_q[8] = M_0_world_world_5 - s_i_world_2 * lambda[1];
-    const jg_real t35 = -M_0_world_world_5;
-    phi_q_t_lambda_q[11] = t35;
-    phi_q_t_lambda_q[31] = t35;
-    phi_q_t_lambda_q[0] = M_1_world_world_4 + M_1_world_world_8;
+    phi_q_t_lambda_q[4] = t31;
+    phi_q_t_lambda_q[24] = t31;
+    phi_q_t_lambda_q[5] = t32;
+    phi_q_t_lambda_q[30] = t32;
+    phi_q_t_lambda_q[13] = M_0_world_world_7 - s_i_world_1 * lambda[2];
+    phi_q_t_lambda_q[16] = t33;
+    phi_q_t_lambda_q[26] = t33;
+    phi_q_t_lambda_q[6] = M_0_world_world_3 - s_i_world_0 * lambda[1];
+    const jg_real M_1_world_world_0 = s_i_world_0 * lambda[0] - M_0_world_world_0;
+    const jg_real t40 = -M_0_world_world_3;
+    const jg_real t41 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real t42 = -M_0_world_world_6;
+    const jg_real t43 = M_0_world_world_0 + M_0_world_world_4;
+    phi_q_t_lambda_q[9] = t40;
+    phi_q_t_lambda_q[19] = t40;
+    phi_q_t_lambda_q[10] = t41;
+    phi_q_t_lambda_q[25] = t41;
+    phi_q_t_lambda_q[12] = M_0_world_world_6 - s_i_world_0 * lambda[2];
+    phi_q_t_lambda_q[15] = t42;
+    phi_q_t_lambda_q[20] = t42;
+    phi_q_t_lambda_q[17] = t43;
+    phi_q_t_lambda_q[32] = t43;
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* M_2_world_world = (s_j) lambda_0_1_2^T + (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in
         ... */
     const jg_real M_2_world_world_4 = M_0_world_world_4 + lambda[1] * s_j_world_1;
     const jg_real M_2_world_world_8 = M_0_world_world_8 + lambda[2] * s_j_world_2;
-    const jg_real M_0_world_world_3 = v_0_world_1 * f_i_world_0 + h_j_world_1 * v_1_world_0;
-    const jg_real M_0_world_world_0 = v_0_world_0 * f_i_world_0 + h_j_world_0 * v_1_world_0;
-    const jg_real M_0_world_world_6 = v_0_world_2 * f_i_world_0 + h_j_world_2 * v_1_world_0;
-    const jg_real M_2_world_world_7 = M_0_world_world_7 + lambda[1] * s_j_world_2;
-    phi_q_t_lambda_q[29] = M_2_world_world_7;
-    const jg_real M_2_world_world_5 = M_0_world_world_5 + lambda[2] * s_j_world_1;
-    phi_q_t_lambda_q[34] = M_2_world_world_5;
-    phi_q_t_lambda_q[6] = M_0_world_world_3 - s_i_world_0 * lambda[1];
-    const jg_real M_1_world_world_0 = s_i_world_0 * lambda[0] - M_0_world_world_0;
-    const jg_real t45 = -M_0_world_world_3;
-    phi_q_t_lambda_q[9] = t45;
-    phi_q_t_lambda_q[19] = t45;
-    const jg_real t46 = M_0_world_world_0 + M_0_world_world_8;
-    phi_q_t_lambda_q[10] = t46;
-    phi_q_t_lambda_q[25] = t46;
-    phi_q_t_lambda_q[12] = M_0_world_world_6 - s_i_world_0 * lambda[2];
-    const jg_real t47 = -M_0_world_world_6;
-    phi_q_t_lambda_q[15] = t47;
-    phi_q_t_lambda_q[20] = t47;
-    const jg_real t48 = M_0_world_world_0 + M_0_world_world_4;
-    phi_q_t_lambda_q[17] = t48;
-    phi_q_t_lambda_q[32] = t48;
     const jg_real M_2_world_world_3 = M_0_world_world_3 + lambda[0] * s_j_world_1;
-    phi_q_t_lambda_q[22] = M_2_world_world_3;
     const jg_real M_2_world_world_6 = M_0_world_world_6 + lambda[0] * s_j_world_2;
-    phi_q_t_lambda_q[23] = M_2_world_world_6;
+    const jg_real M_2_world_world_7 = M_0_world_world_7 + lambda[1] * s_j_world_2;
+    const jg_real M_2_world_world_5 = M_0_world_world_5 + lambda[2] * s_j_world_1;
     const jg_real M_2_world_world_1 = M_0_world_world_1 + lambda[1] * s_j_world_0;
-    phi_q_t_lambda_q[27] = M_2_world_world_1;
     const jg_real M_2_world_world_0 = M_0_world_world_0 + lambda[0] * s_j_world_0;
     const jg_real M_2_world_world_2 = M_0_world_world_2 + lambda[2] * s_j_world_0;
-    phi_q_t_lambda_q[33] = M_2_world_world_2;
-    phi_q_t_lambda_q[21] = -(M_2_world_world_4 + M_2_world_world_8);
     phi_q_t_lambda_q[7] = M_1_world_world_0 + M_1_world_world_8;
     phi_q_t_lambda_q[14] = M_1_world_world_0 + M_1_world_world_4;
+    phi_q_t_lambda_q[22] = M_2_world_world_3;
+    phi_q_t_lambda_q[23] = M_2_world_world_6;
+    phi_q_t_lambda_q[29] = M_2_world_world_7;
+    phi_q_t_lambda_q[34] = M_2_world_world_5;
+    phi_q_t_lambda_q[27] = M_2_world_world_1;
+    phi_q_t_lambda_q[33] = M_2_world_world_2;
+    phi_q_t_lambda_q[21] = -(M_2_world_world_4 + M_2_world_world_8);
     phi_q_t_lambda_q[28] = -(M_2_world_world_0 + M_2_world_world_8);
     phi_q_t_lambda_q[35] = -(M_2_world_world_0 + M_2_world_world_4);
 }
@@ -297,8 +292,8 @@ void jg_rigid_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
     jg_scatter(jg_rigid_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_rigid_conventional_world_gamma(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -322,39 +317,36 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = omega_j[0] * s_j_world_0 + omega_j[1] * s_j_world_1 + omega_j[2] * s_j_world_2;
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* s_i_dot_omega_i = s_i . omega_i */
     const jg_real s_i_dot_omega_i = omega_i[0] * s_i_world_0 + omega_i[1] * s_i_world_1 + omega_i[2] * s_i_world_2;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* v_0_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
+    const jg_real v_0_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_i_dot_omega_i * s_i_world_0 - omega_j[0] *
+        s_j_dot_omega_j + omega_i[0] * s_i_dot_omega_i;
+    const jg_real v_0_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_i_dot_omega_i * s_i_world_1 - omega_j[1] *
+        s_j_dot_omega_j + omega_i[1] * s_i_dot_omega_i;
+    const jg_real v_0_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_i_dot_omega_i * s_i_world_2 - omega_j[2] *
+        s_j_dot_omega_j + omega_i[2] * s_i_dot_omega_i;
     /* omega_j_dot_omega_i = omega_j . omega_i */
     const jg_real omega_j_dot_omega_i = omega_j[0] * omega_i[0] + omega_j[1] * omega_i[1] + omega_j[2] * omega_i[2];
     /* omega_j_dot_f_i = omega_j . f_i */
     const jg_real omega_j_dot_f_i = omega_j[0] * f_i_world_0 + omega_j[1] * f_i_world_1 + omega_j[2] * f_i_world_2;
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    /* v_0_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
-    const jg_real v_0_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_i_dot_omega_i * s_i_world_0 - omega_j[0] *
-        s_j_dot_omega_j + omega_i[0] * s_i_dot_omega_i;
-    gamma[0] = v_0_world_0;
-    const jg_real v_0_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_i_dot_omega_i * s_i_world_1 - omega_j[1] *
-        s_j_dot_omega_j + omega_i[1] * s_i_dot_omega_i;
-    gamma[1] = v_0_world_1;
-    const jg_real v_0_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_i_dot_omega_i * s_i_world_2 - omega_j[2] *
-        s_j_dot_omega_j + omega_i[2] * s_i_dot_omega_i;
-    gamma[2] = v_0_world_2;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_world_0 + omega_i[1] * h_j_world_1 + omega_i[2] * h_j_world_2;
+    const jg_real t24 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = omega_j[0] * h_j_world_0 + omega_j[1] * h_j_world_1 + omega_j[2] * h_j_world_2;
-    const jg_real t26 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_j_world = g_j, world axes */
@@ -363,8 +355,6 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    gamma[3] = f_i_dot_h_j * t26 + omega_i_dot_h_j * (omega_j_dot_f_i * JG_REAL(2.0) - omega_i_dot_f_i) -
-        omega_j_dot_h_j * omega_j_dot_f_i;
     /* omega_j_dot_g_i = omega_j . g_i */
     const jg_real omega_j_dot_g_i = omega_j[0] * g_i_world_0 + omega_j[1] * g_i_world_1 + omega_j[2] * g_i_world_2;
     /* omega_i_dot_g_i = omega_i . g_i */
@@ -375,14 +365,19 @@ void jg_rigid_conventional_world_gamma(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real omega_i_dot_g_j = omega_i[0] * g_j_world_0 + omega_i[1] * g_j_world_1 + omega_i[2] * g_j_world_2;
     /* omega_j_dot_g_j = omega_j . g_j */
     const jg_real omega_j_dot_g_j = omega_j[0] * g_j_world_0 + omega_j[1] * g_j_world_1 + omega_j[2] * g_j_world_2;
-    gamma[4] = t26 * g_i_dot_h_j + omega_i_dot_h_j * (JG_REAL(2.0) * omega_j_dot_g_i - omega_i_dot_g_i) -
+    gamma[0] = v_0_world_0;
+    gamma[1] = v_0_world_1;
+    gamma[2] = v_0_world_2;
+    gamma[3] = f_i_dot_h_j * t24 + omega_i_dot_h_j * (omega_j_dot_f_i * JG_REAL(2.0) - omega_i_dot_f_i) -
+        omega_j_dot_h_j * omega_j_dot_f_i;
+    gamma[4] = t24 * g_i_dot_h_j + omega_i_dot_h_j * (JG_REAL(2.0) * omega_j_dot_g_i - omega_i_dot_g_i) -
         omega_j_dot_h_j * omega_j_dot_g_i;
-    gamma[5] = t26 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
+    gamma[5] = t24 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
         omega_i_dot_f_i * omega_i_dot_g_j;
 }
 
-void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_rigid_conventional_world_phi_q_v(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -400,37 +395,34 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* s_i_cross_omega_i_world = s_i x omega_i, world axes */
     const jg_real s_i_cross_omega_i_world_0 = s_i_world_1 * omega_i[2] - s_i_world_2 * omega_i[1];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
     const jg_real s_j_cross_omega_j_world_0 = s_j_world_1 * omega_j[2] - s_j_world_2 * omega_j[1];
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real s_i_cross_omega_i_world_1 = s_i_world_2 * omega_i[0] - s_i_world_0 * omega_i[2];
     const jg_real s_i_cross_omega_i_world_2 = s_i_world_0 * omega_i[1] - s_i_world_1 * omega_i[0];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real s_j_cross_omega_j_world_1 = s_j_world_2 * omega_j[0] - s_j_world_0 * omega_j[2];
     const jg_real s_j_cross_omega_j_world_2 = s_j_world_0 * omega_j[1] - s_j_world_1 * omega_j[0];
-    /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
-    const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* omega_j_cross_f_i_world = omega_j x f_i, world axes */
-    const jg_real omega_j_cross_f_i_world_0 = omega_j[1] * f_i_world_2 - omega_j[2] * f_i_world_1;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* v_0_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
     const jg_real v_0_world_0 = v_j[0] - v_i[0] - s_j_cross_omega_j_world_0 + s_i_cross_omega_i_world_0;
-    phi_q_v[0] = v_0_world_0;
+    /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
+    const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real v_0_world_1 = v_j[1] - v_i[1] - s_j_cross_omega_j_world_1 + s_i_cross_omega_i_world_1;
+    const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* omega_j_cross_f_i_world = omega_j x f_i, world axes */
+    const jg_real omega_j_cross_f_i_world_0 = omega_j[1] * f_i_world_2 - omega_j[2] * f_i_world_1;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
     const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
     const jg_real omega_j_cross_f_i_world_1 = omega_j[2] * f_i_world_0 - omega_j[0] * f_i_world_2;
     const jg_real omega_j_cross_f_i_world_2 = omega_j[0] * f_i_world_1 - omega_j[1] * f_i_world_0;
-    const jg_real v_0_world_1 = v_j[1] - v_i[1] - s_j_cross_omega_j_world_1 + s_i_cross_omega_i_world_1;
-    phi_q_v[1] = v_0_world_1;
-    const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
-    phi_q_v[2] = v_0_world_2;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
@@ -438,11 +430,14 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
     const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
+    phi_q_v[0] = v_0_world_0;
+    phi_q_v[1] = v_0_world_1;
+    phi_q_v[2] = v_0_world_2;
     phi_q_v[3] = omega_i_cross_f_i_world_0 * h_j_world_0 + omega_i_cross_f_i_world_1 * h_j_world_1 +
         omega_i_cross_f_i_world_2 * h_j_world_2 - (h_j_world_0 * omega_j_cross_f_i_world_0 + h_j_world_1 *
         omega_j_cross_f_i_world_1 + h_j_world_2 * omega_j_cross_f_i_world_2);
@@ -454,19 +449,13 @@ void jg_rigid_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const j
         omega_j[2] * g_i_cross_h_j_world_2);
 }
 
-void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[6] = lambda[0];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[7] = lambda[1];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[8] = lambda[2];
-    phi_q_t_lambda[2] = -lambda[2];
     /* v_0_in_j = lambda_5 g_j + lambda_3 h_j, axes of body j */
     const jg_real v_0_in_j_0 = lambda[5] * C_j[3] + lambda[3] * C_j[6];
     const jg_real v_0_in_j_1 = lambda[5] * C_j[4] + lambda[3] * C_j[7];
@@ -479,62 +468,67 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    /* s_i_world = s_i, world axes */
-    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     /* v_0_world = lambda_5 g_j + lambda_3 h_j, world axes */
     const jg_real v_0_world_2 = v_0_in_j_0 * A_j[2] + v_0_in_j_1 * A_j[5] + v_0_in_j_2 * A_j[8];
     const jg_real v_0_world_1 = v_0_in_j_0 * A_j[1] + v_0_in_j_1 * A_j[4] + v_0_in_j_2 * A_j[7];
+    const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
+    /* s_i_world = s_i, world axes */
+    const jg_real s_i_world_1 = A_i[1] * s_i[0] + A_i[4] * s_i[1] + A_i[7] * s_i[2];
     const jg_real s_i_world_2 = A_i[2] * s_i[0] + A_i[5] * s_i[1] + A_i[8] * s_i[2];
+    /* v_1_world = lambda_3 f_i x h_j + lambda_5 f_i x g_j, world axes */
+    const jg_real v_1_world_0 = f_i_world_1 * v_0_world_2 - f_i_world_2 * v_0_world_1;
     const jg_real v_0_world_0 = v_0_in_j_0 * A_j[0] + v_0_in_j_1 * A_j[3] + v_0_in_j_2 * A_j[6];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
-    /* v_1_world = lambda_3 f_i x h_j + lambda_5 f_i x g_j, world axes */
-    const jg_real v_1_world_0 = f_i_world_1 * v_0_world_2 - f_i_world_2 * v_0_world_1;
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
-    /* v_2_world = lambda_4 g_i x h_j, world axes */
-    const jg_real v_2_world_0 = lambda[4] * g_i_cross_h_j_world_0;
     /* s_i_cross_lambda_0_1_2_world = s_i x lambda_0_1_2, world axes */
     const jg_real s_i_cross_lambda_0_1_2_world_0 = lambda[2] * s_i_world_1 - lambda[1] * s_i_world_2;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    /* v_2_world = lambda_4 g_i x h_j, world axes */
+    const jg_real v_2_world_0 = lambda[4] * g_i_cross_h_j_world_0;
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real s_i_world_0 = A_i[0] * s_i[0] + A_i[3] * s_i[1] + A_i[6] * s_i[2];
     const jg_real v_1_world_1 = f_i_world_2 * v_0_world_0 - f_i_world_0 * v_0_world_2;
     /* v_3_world = lambda_3 f_i x h_j + lambda_4 g_i x h_j + lambda_5 f_i x g_j, world axes */
     const jg_real v_3_world_0 = v_1_world_0 + v_2_world_0;
     const jg_real v_1_world_2 = f_i_world_0 * v_0_world_1 - f_i_world_1 * v_0_world_0;
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
-    const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
-    const jg_real s_i_cross_lambda_0_1_2_world_1 = lambda[0] * s_i_world_2 - lambda[2] * s_i_world_0;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* v_4_world = lambda_3 f_i x h_j + lambda_4 g_i x h_j + lambda_5 f_i x g_j - s_i x lambda_0_1_2, world axes */
     const jg_real v_4_world_0 = v_3_world_0 - s_i_cross_lambda_0_1_2_world_0;
-    phi_q_t_lambda[3] = v_4_world_0;
+    const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real s_i_cross_lambda_0_1_2_world_1 = lambda[0] * s_i_world_2 - lambda[2] * s_i_world_0;
     const jg_real s_i_cross_lambda_0_1_2_world_2 = lambda[1] * s_i_world_0 - lambda[0] * s_i_world_1;
     const jg_real v_2_world_1 = lambda[4] * g_i_cross_h_j_world_1;
     const jg_real v_2_world_2 = lambda[4] * g_i_cross_h_j_world_2;
-    /* s_j_cross_lambda_0_1_2_world = s_j x lambda_0_1_2, world axes */
-    const jg_real s_j_cross_lambda_0_1_2_world_0 = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2;
-    const jg_real s_j_cross_lambda_0_1_2_world_1 = lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0;
-    const jg_real s_j_cross_lambda_0_1_2_world_2 = lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1;
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     const jg_real v_3_world_1 = v_1_world_1 + v_2_world_1;
     const jg_real v_3_world_2 = v_1_world_2 + v_2_world_2;
-    phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_world_0 - v_3_world_0;
+    /* s_j_cross_lambda_0_1_2_world = s_j x lambda_0_1_2, world axes */
+    const jg_real s_j_cross_lambda_0_1_2_world_0 = lambda[2] * s_j_world_1 - lambda[1] * s_j_world_2;
     const jg_real v_4_world_1 = v_3_world_1 - s_i_cross_lambda_0_1_2_world_1;
+    phi_q_t_lambda[6] = lambda[0];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[7] = lambda[1];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[8] = lambda[2];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[3] = v_4_world_0;
     phi_q_t_lambda[4] = v_4_world_1;
     const jg_real v_4_world_2 = v_3_world_2 - s_i_cross_lambda_0_1_2_world_2;
+    const jg_real s_j_cross_lambda_0_1_2_world_1 = lambda[0] * s_j_world_2 - lambda[2] * s_j_world_0;
+    const jg_real s_j_cross_lambda_0_1_2_world_2 = lambda[1] * s_j_world_0 - lambda[0] * s_j_world_1;
     phi_q_t_lambda[5] = v_4_world_2;
+    phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_world_0 - v_3_world_0;
     phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_world_1 - v_3_world_1;
     phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_world_2 - v_3_world_2;
 }
 
-void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_rigid_conventional_world_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -548,172 +542,172 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    phi_q[32] = s_j_world_0;
     /* s_i_world = s_i, world axes */
     const jg_real s_i_world_0 = s_i[0] * A_i[0] + s_i[1] * A_i[3] + s_i[2] * A_i[6];
-    phi_q[9] = s_i_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    phi_q[22] = s_j_world_1;
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    phi_q[13] = s_i_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[26] = s_j_world_2;
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    phi_q[3] = s_i_world_2;
+    /* d_ij_world = r_ij + s_j - s_i, world axes */
+    const jg_real d_ij_world_0 = s_j_world_0 + r_ij_world_0 - s_i_world_0;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real d_ij_world_1 = s_j_world_1 + r_ij_world_1 - s_i_world_1;
+    phi_q[32] = s_j_world_0;
+    phi_q[9] = s_i_world_0;
+    phi_q[22] = s_j_world_1;
+    phi_q[13] = s_i_world_1;
+    phi_q[26] = s_j_world_2;
+    phi_q[3] = s_i_world_2;
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    /* d_ij_world = r_ij + s_j - s_i, world axes */
-    const jg_real d_ij_world_0 = r_ij_world_0 + s_j_world_0 - s_i_world_0;
-    phi[0] = d_ij_world_0;
+    const jg_real d_ij_world_2 = s_j_world_2 + r_ij_world_2 - s_i_world_2;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real d_ij_world_1 = r_ij_world_1 + s_j_world_1 - s_i_world_1;
-    phi[1] = d_ij_world_1;
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real d_ij_world_2 = r_ij_world_2 + s_j_world_2 - s_i_world_2;
-    phi[2] = d_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t20 = h_j_world_0 * g_i_world_0;
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* g_j_world = g_j, world axes */
+    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t23 = h_j_world_1 * g_i_world_1;
+    const jg_real t24 = h_j_world_2 * g_i_world_1;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t27 = h_j_world_2 * g_i_world_2;
+    const jg_real t28 = h_j_world_1 * g_i_world_2;
+    /* f_i_cross_h_j_world = f_i x h_j, world axes */
+    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - h_j_world_1 * f_i_world_2;
+    phi[2] = d_ij_world_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -s_i_world_1;
     phi_q[8] = -s_i_world_2;
+    phi[3] = f_i_dot_h_j;
+    phi_q[5] = f_i_cross_h_j_world_0;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t31 = h_j_world_0 * g_i_world_2;
+    const jg_real t32 = h_j_world_2 * g_i_world_0;
+    const jg_real f_i_cross_h_j_world_1 = h_j_world_0 * f_i_world_2 - f_i_world_0 * h_j_world_2;
+    /* g_i_cross_h_j_world = g_i x h_j, world axes */
+    const jg_real g_i_cross_h_j_world_0 = t24 - t28;
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = t20 + t23 + t27;
+    const jg_real g_i_cross_h_j_world_1 = t31 - t32;
+    const jg_real t37 = h_j_world_1 * g_i_world_0;
+    const jg_real t38 = h_j_world_0 * g_i_world_1;
     phi_q[14] = -s_i_world_0;
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* g_j_world = g_j, world axes */
-    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    phi_q[10] = f_i_cross_h_j_world_1;
+    phi_q[6] = g_i_cross_h_j_world_0;
+    phi[4] = g_i_dot_h_j;
+    phi_q[11] = g_i_cross_h_j_world_1;
     phi_q[18] = JG_REAL(1.0);
     phi_q[19] = JG_REAL(1.0);
     phi_q[20] = JG_REAL(1.0);
-    phi_q[21] = -s_j_world_2;
-    phi_q[27] = -s_j_world_0;
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    /* f_i_cross_h_j_world = f_i x h_j, world axes */
-    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[5] = f_i_cross_h_j_world_0;
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[10] = f_i_cross_h_j_world_1;
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[15] = f_i_cross_h_j_world_2;
-    phi_q[31] = -s_j_world_1;
-    phi_q[23] = -f_i_cross_h_j_world_0;
-    phi_q[28] = -f_i_cross_h_j_world_1;
-    /* g_i_cross_h_j_world = g_i x h_j, world axes */
-    const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    phi_q[6] = g_i_cross_h_j_world_0;
-    const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
-    phi_q[11] = g_i_cross_h_j_world_1;
-    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
-    phi_q[16] = g_i_cross_h_j_world_2;
-    phi_q[33] = -f_i_cross_h_j_world_2;
-    /* v_1_world = lambda_4 g_i, world axes */
-    const jg_real v_1_world_1 = g_i_world_1 * lambda[4];
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_cross_g_j_world = f_i x g_j, world axes */
-    const jg_real f_i_cross_g_j_world_2 = f_i_world_0 * g_j_world_1 - f_i_world_1 * g_j_world_0;
-    phi_q[17] = f_i_cross_g_j_world_2;
-    const jg_real v_1_world_2 = g_i_world_2 * lambda[4];
-    phi_q[24] = -g_i_cross_h_j_world_0;
     const jg_real f_i_cross_g_j_world_0 = f_i_world_1 * g_j_world_2 - f_i_world_2 * g_j_world_1;
-    phi_q[7] = f_i_cross_g_j_world_0;
-    phi_q[29] = -g_i_cross_h_j_world_1;
     const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - h_j_world_0 * f_i_world_1;
+    phi_q[21] = -s_j_world_2;
+    phi_q[23] = -f_i_cross_h_j_world_0;
+    phi_q[7] = f_i_cross_g_j_world_0;
     phi_q[12] = f_i_cross_g_j_world_1;
-    phi_q[34] = -g_i_cross_h_j_world_2;
-    /* v_0_world = lambda_5 g_j + lambda_3 h_j, world axes */
-    const jg_real v_0_world_1 = g_j_world_1 * lambda[5] + h_j_world_1 * lambda[3];
+    phi_q[24] = -g_i_cross_h_j_world_0;
+    phi_q[27] = -s_j_world_0;
+    phi_q[15] = f_i_cross_h_j_world_2;
+    phi_q[28] = -f_i_cross_h_j_world_1;
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_world_0 * g_j_world_0 + f_i_world_1 * g_j_world_1 + f_i_world_2 * g_j_world_2;
+    const jg_real g_i_cross_h_j_world_2 = t37 - t38;
+    const jg_real f_i_cross_g_j_world_2 = f_i_world_0 * g_j_world_1 - f_i_world_1 * g_j_world_0;
     phi[5] = f_i_dot_g_j;
-    phi_q[35] = -f_i_cross_g_j_world_2;
-    const jg_real v_0_world_2 = g_j_world_2 * lambda[5] + h_j_world_2 * lambda[3];
+    phi_q[16] = g_i_cross_h_j_world_2;
+    phi_q[29] = -g_i_cross_h_j_world_1;
+    phi_q[17] = f_i_cross_g_j_world_2;
+    phi_q[31] = -s_j_world_1;
     phi_q[25] = -f_i_cross_g_j_world_0;
-    const jg_real v_1_world_0 = g_i_world_0 * lambda[4];
     phi_q[30] = -f_i_cross_g_j_world_1;
+    phi_q[33] = -f_i_cross_h_j_world_2;
+    /* v_0_world = lambda_5 g_j + lambda_3 h_j, world axes */
+    const jg_real v_0_world_1 = g_j_world_1 * lambda[5] + h_j_world_1 * lambda[3];
+    const jg_real v_0_world_2 = g_j_world_2 * lambda[5] + h_j_world_2 * lambda[3];
     const jg_real v_0_world_0 = g_j_world_0 * lambda[5] + h_j_world_0 * lambda[3];
     /* M_0_world_world = (lambda_5 f_i) g_j^T + (lambda_3 f_i + lambda_4 g_i) h_j^T; rows in world axes, columns in
         ... */
-    const jg_real M_0_world_world_4 = f_i_world_1 * v_0_world_1 + h_j_world_1 * v_1_world_1;
-    const jg_real M_0_world_world_7 = f_i_world_2 * v_0_world_1 + h_j_world_1 * v_1_world_2;
-    const jg_real M_0_world_world_8 = f_i_world_2 * v_0_world_2 + h_j_world_2 * v_1_world_2;
-    const jg_real M_0_world_world_5 = f_i_world_1 * v_0_world_2 + h_j_world_2 * v_1_world_1;
-    const jg_real M_0_world_world_1 = f_i_world_0 * v_0_world_1 + h_j_world_1 * v_1_world_0;
-    const jg_real M_0_world_world_2 = f_i_world_0 * v_0_world_2 + h_j_world_2 * v_1_world_0;
+    const jg_real M_0_world_world_4 = f_i_world_1 * v_0_world_1 + t23 * lambda[4];
+    const jg_real M_0_world_world_1 = f_i_world_0 * v_0_world_1 + t37 * lambda[4];
+    const jg_real M_0_world_world_7 = f_i_world_2 * v_0_world_1 + t28 * lambda[4];
+    const jg_real M_0_world_world_8 = f_i_world_2 * v_0_world_2 + t27 * lambda[4];
+    const jg_real M_0_world_world_2 = f_i_world_0 * v_0_world_2 + t32 * lambda[4];
+    const jg_real M_0_world_world_5 = f_i_world_1 * v_0_world_2 + t24 * lambda[4];
+    const jg_real M_0_world_world_3 = f_i_world_1 * v_0_world_0 + t38 * lambda[4];
     /* M_1_world_world = (s_i) lambda_0_1_2^T + (-lambda_5 f_i) g_j^T + (-lambda_3 f_i - lambda_4 g_i) h_j^T; rows
         ... */
     const jg_real M_1_world_world_4 = s_i_world_1 * lambda[1] - M_0_world_world_4;
+    const jg_real M_0_world_world_6 = f_i_world_2 * v_0_world_0 + t31 * lambda[4];
+    const jg_real M_0_world_world_0 = f_i_world_0 * v_0_world_0 + t20 * lambda[4];
+    const jg_real t58 = -M_0_world_world_1;
+    const jg_real M_1_world_world_8 = s_i_world_2 * lambda[2] - M_0_world_world_8;
+    const jg_real t60 = M_0_world_world_4 + M_0_world_world_8;
+    phi_q[34] = -g_i_cross_h_j_world_2;
+    phi_q[35] = -f_i_cross_g_j_world_2;
+    phi_q_t_lambda_q[6] = M_0_world_world_1 - s_i_world_0 * lambda[1];
+    phi_q_t_lambda_q[8] = M_0_world_world_7 - s_i_world_2 * lambda[1];
+    phi_q_t_lambda_q[9] = t58;
+    phi_q_t_lambda_q[19] = t58;
+    phi_q_t_lambda_q[3] = t60;
+    phi_q_t_lambda_q[18] = t60;
+    const jg_real t61 = -M_0_world_world_7;
+    const jg_real t62 = -M_0_world_world_3;
+    phi_q_t_lambda_q[11] = t61;
+    phi_q_t_lambda_q[31] = t61;
+    phi_q_t_lambda_q[12] = M_0_world_world_2 - s_i_world_0 * lambda[2];
+    phi_q_t_lambda_q[13] = M_0_world_world_5 - s_i_world_1 * lambda[2];
+    phi_q_t_lambda_q[1] = M_0_world_world_3 - s_i_world_1 * lambda[0];
+    phi_q_t_lambda_q[4] = t62;
+    phi_q_t_lambda_q[24] = t62;
+    phi_q_t_lambda_q[2] = M_0_world_world_6 - s_i_world_2 * lambda[0];
+    const jg_real t63 = -M_0_world_world_6;
+    const jg_real M_1_world_world_0 = s_i_world_0 * lambda[0] - M_0_world_world_0;
+    const jg_real t65 = M_0_world_world_8 + M_0_world_world_0;
+    const jg_real t66 = -M_0_world_world_2;
+    const jg_real t67 = -M_0_world_world_5;
+    phi_q_t_lambda_q[5] = t63;
+    phi_q_t_lambda_q[30] = t63;
+    phi_q_t_lambda_q[10] = t65;
+    phi_q_t_lambda_q[25] = t65;
+    phi_q_t_lambda_q[15] = t66;
+    phi_q_t_lambda_q[20] = t66;
+    phi_q_t_lambda_q[0] = M_1_world_world_4 + M_1_world_world_8;
+    phi_q_t_lambda_q[16] = t67;
+    phi_q_t_lambda_q[26] = t67;
+    const jg_real t68 = M_0_world_world_4 + M_0_world_world_0;
     /* M_2_world_world = (s_j) lambda_0_1_2^T + (lambda_5 g_j + lambda_3 h_j) f_i^T + (lambda_4 h_j) g_i^T; rows in
         ... */
     const jg_real M_2_world_world_4 = M_0_world_world_4 + s_j_world_1 * lambda[1];
-    const jg_real M_0_world_world_3 = f_i_world_1 * v_0_world_0 + h_j_world_0 * v_1_world_1;
-    const jg_real M_0_world_world_6 = f_i_world_2 * v_0_world_0 + h_j_world_0 * v_1_world_2;
-    const jg_real M_0_world_world_0 = f_i_world_0 * v_0_world_0 + h_j_world_0 * v_1_world_0;
-    phi_q_t_lambda_q[8] = M_0_world_world_7 - s_i_world_2 * lambda[1];
-    const jg_real t53 = -M_0_world_world_7;
-    phi_q_t_lambda_q[11] = t53;
-    phi_q_t_lambda_q[31] = t53;
-    const jg_real M_1_world_world_8 = s_i_world_2 * lambda[2] - M_0_world_world_8;
-    const jg_real t55 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[3] = t55;
-    phi_q_t_lambda_q[18] = t55;
     const jg_real M_2_world_world_8 = M_0_world_world_8 + s_j_world_2 * lambda[2];
-    phi_q_t_lambda_q[13] = M_0_world_world_5 - s_i_world_1 * lambda[2];
-    const jg_real t57 = -M_0_world_world_5;
-    phi_q_t_lambda_q[16] = t57;
-    phi_q_t_lambda_q[26] = t57;
-    phi_q_t_lambda_q[6] = M_0_world_world_1 - s_i_world_0 * lambda[1];
-    const jg_real t58 = -M_0_world_world_1;
-    phi_q_t_lambda_q[9] = t58;
-    phi_q_t_lambda_q[19] = t58;
-    phi_q_t_lambda_q[12] = M_0_world_world_2 - s_i_world_0 * lambda[2];
-    const jg_real t59 = -M_0_world_world_2;
-    phi_q_t_lambda_q[15] = t59;
-    phi_q_t_lambda_q[20] = t59;
     const jg_real M_2_world_world_3 = M_0_world_world_1 + s_j_world_1 * lambda[0];
-    phi_q_t_lambda_q[22] = M_2_world_world_3;
     const jg_real M_2_world_world_6 = M_0_world_world_2 + s_j_world_2 * lambda[0];
-    phi_q_t_lambda_q[23] = M_2_world_world_6;
-    phi_q_t_lambda_q[1] = M_0_world_world_3 - s_i_world_1 * lambda[0];
-    phi_q_t_lambda_q[2] = M_0_world_world_6 - s_i_world_2 * lambda[0];
-    const jg_real t62 = -M_0_world_world_3;
-    phi_q_t_lambda_q[4] = t62;
-    phi_q_t_lambda_q[24] = t62;
-    const jg_real t63 = -M_0_world_world_6;
-    phi_q_t_lambda_q[5] = t63;
-    phi_q_t_lambda_q[30] = t63;
-    const jg_real M_1_world_world_0 = s_i_world_0 * lambda[0] - M_0_world_world_0;
-    phi_q_t_lambda_q[0] = M_1_world_world_4 + M_1_world_world_8;
-    const jg_real t65 = M_0_world_world_0 + M_0_world_world_8;
-    phi_q_t_lambda_q[10] = t65;
-    phi_q_t_lambda_q[25] = t65;
-    const jg_real t66 = M_0_world_world_0 + M_0_world_world_4;
-    phi_q_t_lambda_q[17] = t66;
-    phi_q_t_lambda_q[32] = t66;
     const jg_real M_2_world_world_1 = M_0_world_world_3 + s_j_world_0 * lambda[1];
-    phi_q_t_lambda_q[27] = M_2_world_world_1;
     const jg_real M_2_world_world_0 = M_0_world_world_0 + s_j_world_0 * lambda[0];
     const jg_real M_2_world_world_7 = M_0_world_world_5 + s_j_world_2 * lambda[1];
+    phi_q_t_lambda_q[17] = t68;
+    phi_q_t_lambda_q[32] = t68;
+    phi_q_t_lambda_q[22] = M_2_world_world_3;
+    phi_q_t_lambda_q[7] = M_1_world_world_8 + M_1_world_world_0;
+    phi_q_t_lambda_q[14] = M_1_world_world_4 + M_1_world_world_0;
+    phi_q_t_lambda_q[23] = M_2_world_world_6;
+    phi_q_t_lambda_q[27] = M_2_world_world_1;
     phi_q_t_lambda_q[29] = M_2_world_world_7;
     const jg_real M_2_world_world_2 = M_0_world_world_6 + s_j_world_0 * lambda[2];
-    phi_q_t_lambda_q[33] = M_2_world_world_2;
-    phi_q_t_lambda_q[7] = M_1_world_world_0 + M_1_world_world_8;
-    phi_q_t_lambda_q[14] = M_1_world_world_0 + M_1_world_world_4;
-    phi_q_t_lambda_q[21] = -(M_2_world_world_4 + M_2_world_world_8);
     const jg_real M_2_world_world_5 = M_0_world_world_7 + s_j_world_1 * lambda[2];
-    phi_q_t_lambda_q[34] = M_2_world_world_5;
-    phi_q_t_lambda_q[28] = -(M_2_world_world_0 + M_2_world_world_8);
-    phi_q_t_lambda_q[35] = -(M_2_world_world_0 + M_2_world_world_4);
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
@@ -730,32 +724,37 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i[0] + h_j_world_1 * omega_i[1] + h_j_world_2 * omega_i[2];
+    const jg_real t86 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
+    /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
+    const jg_real v_2_world_0 = s_j_world_0 * omega_j_dot_omega_j - s_i_world_0 * omega_i_dot_omega_i - omega_j[0] *
+        s_j_dot_omega_j + omega_i[0] * s_i_dot_omega_i;
+    const jg_real v_2_world_1 = s_j_world_1 * omega_j_dot_omega_j - s_i_world_1 * omega_i_dot_omega_i - omega_j[1] *
+        s_j_dot_omega_j + omega_i[1] * s_i_dot_omega_i;
+    const jg_real v_2_world_2 = s_j_world_2 * omega_j_dot_omega_j - s_i_world_2 * omega_i_dot_omega_i - omega_j[2] *
+        s_j_dot_omega_j + omega_i[2] * s_i_dot_omega_i;
+    phi_q_t_lambda_q[33] = M_2_world_world_2;
+    phi_q_t_lambda_q[34] = M_2_world_world_5;
+    phi_q_t_lambda_q[21] = -(M_2_world_world_4 + M_2_world_world_8);
+    phi_q_t_lambda_q[28] = -(M_2_world_world_8 + M_2_world_world_0);
+    phi_q_t_lambda_q[35] = -(M_2_world_world_4 + M_2_world_world_0);
+    gamma[0] = v_2_world_0;
+    gamma[1] = v_2_world_1;
+    gamma[2] = v_2_world_2;
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
-    const jg_real t82 = omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0);
-    /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
-    const jg_real v_2_world_0 = s_j_world_0 * omega_j_dot_omega_j - s_i_world_0 * omega_i_dot_omega_i - omega_j[0] *
-        s_j_dot_omega_j + omega_i[0] * s_i_dot_omega_i;
-    gamma[0] = v_2_world_0;
-    const jg_real v_2_world_1 = s_j_world_1 * omega_j_dot_omega_j - s_i_world_1 * omega_i_dot_omega_i - omega_j[1] *
-        s_j_dot_omega_j + omega_i[1] * s_i_dot_omega_i;
-    gamma[1] = v_2_world_1;
-    const jg_real v_2_world_2 = s_j_world_2 * omega_j_dot_omega_j - s_i_world_2 * omega_i_dot_omega_i - omega_j[2] *
-        s_j_dot_omega_j + omega_i[2] * s_i_dot_omega_i;
-    gamma[2] = v_2_world_2;
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_world_0 * omega_i[0] + g_j_world_1 * omega_i[1] + g_j_world_2 * omega_i[2];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = g_j_world_0 * omega_j[0] + g_j_world_1 * omega_j[1] + g_j_world_2 * omega_j[2];
-    gamma[3] = f_i_dot_h_j * t82 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
-        h_j_dot_omega_j * f_i_dot_omega_j;
-    gamma[4] = g_i_dot_h_j * t82 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
+    gamma[3] = f_i_dot_h_j * t86 + (JG_REAL(2.0) * f_i_dot_omega_j - f_i_dot_omega_i) * h_j_dot_omega_i -
+        f_i_dot_omega_j * h_j_dot_omega_j;
+    gamma[4] = g_i_dot_h_j * t86 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
         h_j_dot_omega_j * g_i_dot_omega_j;
-    gamma[5] = f_i_dot_g_j * t82 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+    gamma[5] = f_i_dot_g_j * t86 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
         f_i_dot_omega_i * g_j_dot_omega_i;
 }
 

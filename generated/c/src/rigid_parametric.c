@@ -4,10 +4,6 @@
  * joint rigid, form parametric, rows regular, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/rigid.h"
 
 const int *jg_rigid_parametric_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_rigid_parametric_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_rigid_parametric_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -45,130 +40,128 @@ void jg_rigid_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
+    const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
-    /* f_i_dot_g_j = f_i . g_j */
-    const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
-    phi[5] = f_i_dot_g_j;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = f_j_in_i_0 * C_i[6] + f_j_in_i_1 * C_i[7] + f_j_in_i_2 * C_i[8];
-    phi[4] = h_i_dot_f_j;
+    /* f_i_dot_g_j = f_i . g_j */
+    const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[4] = h_i_dot_f_j;
+    phi[5] = f_i_dot_g_j;
     phi[3] = g_i_dot_h_j;
 }
 
-void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_rigid_parametric_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    phi_q[19] = A_ji_3;
-    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    phi_q[22] = A_ji_4;
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    phi_q[25] = A_ji_5;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    phi_q[20] = A_ji_6;
+    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[19] = A_ji_3;
+    phi_q[22] = A_ji_4;
+    phi_q[25] = A_ji_5;
+    phi_q[20] = A_ji_6;
     phi_q[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    phi_q[26] = A_ji_8;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[3] = e_ij_in_i_2;
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    phi_q[13] = e_ij_in_i_1;
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    phi_q[8] = -e_ij_in_i_2;
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    phi_q[26] = A_ji_8;
+    phi_q[3] = e_ij_in_i_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[24] = A_ji_2;
     phi_q[4] = -e_ij_in_i_1;
+    phi_q[8] = -e_ij_in_i_2;
+    phi_q[18] = A_ji_0;
+    phi_q[21] = A_ji_1;
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    phi_q[9] = e_ij_in_i_0;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     /* h_j_cross_g_i_in_i = h_j x g_i, axes of body i */
     const jg_real h_j_cross_g_i_in_i_0 = h_j_in_i_1 * C_i[5] - h_j_in_i_2 * C_i[4];
     /* f_j_cross_h_i_in_i = f_j x h_i, axes of body i */
     const jg_real f_j_cross_h_i_in_i_0 = f_j_in_i_1 * C_i[8] - f_j_in_i_2 * C_i[7];
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     phi_q[14] = -e_ij_in_i_0;
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     phi_q[5] = -h_j_cross_g_i_in_i_0;
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
     phi_q[6] = -f_j_cross_h_i_in_i_0;
+    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real h_j_cross_g_i_in_i_1 = h_j_in_i_2 * C_i[3] - h_j_in_i_0 * C_i[5];
+    const jg_real f_j_cross_h_i_in_i_1 = f_j_in_i_2 * C_i[6] - f_j_in_i_0 * C_i[8];
+    const jg_real f_j_cross_h_i_in_i_2 = f_j_in_i_0 * C_i[7] - f_j_in_i_1 * C_i[6];
+    const jg_real h_j_cross_g_i_in_i_2 = h_j_in_i_0 * C_i[4] - h_j_in_i_1 * C_i[3];
+    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    const jg_real h_j_cross_g_i_in_i_1 = h_j_in_i_2 * C_i[3] - h_j_in_i_0 * C_i[5];
-    const jg_real h_j_cross_g_i_in_i_2 = h_j_in_i_0 * C_i[4] - h_j_in_i_1 * C_i[3];
-    const jg_real f_j_cross_h_i_in_i_1 = f_j_in_i_2 * C_i[6] - f_j_in_i_0 * C_i[8];
-    const jg_real f_j_cross_h_i_in_i_2 = f_j_in_i_0 * C_i[7] - f_j_in_i_1 * C_i[6];
     phi_q[10] = -h_j_cross_g_i_in_i_1;
     phi_q[11] = -f_j_cross_h_i_in_i_1;
     phi_q[15] = -h_j_cross_g_i_in_i_2;
-    phi_q[16] = -f_j_cross_h_i_in_i_2;
     /* f_j_dot_g_i = f_j . g_i */
     const jg_real f_j_dot_g_i = C_i[3] * f_j_in_i_0 + C_i[4] * f_j_in_i_1 + C_i[5] * f_j_in_i_2;
     /* h_j_cross_g_i_in_joint_j = h_j x g_i, axes of joint j */
@@ -186,30 +179,31 @@ void jg_rigid_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real 
     const jg_real g_j_cross_f_i_in_i_2 = C_i[5] * g_j_dot_h_i + h_j_cross_g_i_in_joint_j * C_i[8];
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_0 = C_j[0] * h_j_cross_g_i_in_joint_j + f_j_dot_g_i * C_j[3];
-    phi_q[30] = h_j_cross_g_i_in_j_0;
     const jg_real h_j_cross_g_i_in_j_1 = C_j[1] * h_j_cross_g_i_in_joint_j + f_j_dot_g_i * C_j[4];
-    phi_q[36] = h_j_cross_g_i_in_j_1;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[3] * f_j_cross_h_i_in_joint_j_1 + C_j[6] * g_j_dot_h_i;
-    phi_q[31] = f_j_cross_h_i_in_j_0;
     const jg_real f_j_cross_h_i_in_j_1 = C_j[4] * f_j_cross_h_i_in_joint_j_1 + C_j[7] * g_j_dot_h_i;
-    phi_q[37] = f_j_cross_h_i_in_j_1;
     const jg_real h_j_cross_g_i_in_j_2 = C_j[2] * h_j_cross_g_i_in_joint_j + f_j_dot_g_i * C_j[5];
+    phi_q[16] = -f_j_cross_h_i_in_i_2;
+    phi_q[30] = h_j_cross_g_i_in_j_0;
+    phi_q[36] = h_j_cross_g_i_in_j_1;
+    phi_q[31] = f_j_cross_h_i_in_j_0;
+    phi_q[37] = f_j_cross_h_i_in_j_1;
     phi_q[42] = h_j_cross_g_i_in_j_2;
-    const jg_real f_j_cross_h_i_in_j_2 = C_j[5] * f_j_cross_h_i_in_joint_j_1 + C_j[8] * g_j_dot_h_i;
-    phi_q[43] = f_j_cross_h_i_in_j_2;
     phi_q[7] = -g_j_cross_f_i_in_i_0;
     phi_q[12] = -g_j_cross_f_i_in_i_1;
-    phi_q[17] = -g_j_cross_f_i_in_i_2;
+    const jg_real f_j_cross_h_i_in_j_2 = C_j[5] * f_j_cross_h_i_in_joint_j_1 + C_j[8] * g_j_dot_h_i;
     /* g_j_cross_f_i_in_j = g_j x f_i, axes of body j */
     const jg_real g_j_cross_f_i_in_j_0 = A_ji_0 * g_j_cross_f_i_in_i_0 + A_ji_3 * g_j_cross_f_i_in_i_1 + A_ji_6 *
         g_j_cross_f_i_in_i_2;
-    phi_q[32] = g_j_cross_f_i_in_j_0;
     const jg_real g_j_cross_f_i_in_j_1 = A_ji_1 * g_j_cross_f_i_in_i_0 + A_ji_4 * g_j_cross_f_i_in_i_1 + A_ji_7 *
         g_j_cross_f_i_in_i_2;
-    phi_q[38] = g_j_cross_f_i_in_j_1;
     const jg_real g_j_cross_f_i_in_j_2 = A_ji_2 * g_j_cross_f_i_in_i_0 + A_ji_5 * g_j_cross_f_i_in_i_1 + A_ji_8 *
         g_j_cross_f_i_in_i_2;
+    phi_q[17] = -g_j_cross_f_i_in_i_2;
+    phi_q[43] = f_j_cross_h_i_in_j_2;
+    phi_q[32] = g_j_cross_f_i_in_j_0;
+    phi_q[38] = g_j_cross_f_i_in_j_1;
     phi_q[44] = g_j_cross_f_i_in_j_2;
 }
 
@@ -222,58 +216,50 @@ void jg_rigid_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_re
     jg_scatter(jg_rigid_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    /* v_1_in_j = lambda_4 f_j, axes of body j */
+    const jg_real v_1_in_j_0 = lambda[4] * C_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real v_1_in_j_1 = lambda[4] * C_j[1];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real v_1_in_j_2 = lambda[4] * C_j[2];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    /* v_2_in_j = lambda_5 g_j, axes of body j */
+    const jg_real v_2_in_j_0 = lambda[5] * C_j[3];
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real v_2_in_j_1 = lambda[5] * C_j[4];
+    const jg_real v_2_in_j_2 = lambda[5] * C_j[5];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    /* v_3_in_j = lambda_3 h_j, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[3] * C_j[6];
+    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
+    const jg_real v_3_in_j_2 = lambda[3] * C_j[8];
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
+    const jg_real t22 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_1_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_1_in_j_0 = lambda[4] * C_j[0];
-    const jg_real v_1_in_j_1 = lambda[4] * C_j[1];
-    const jg_real v_1_in_j_2 = lambda[4] * C_j[2];
-    /* v_2_in_j = lambda_5 g_j, axes of body j */
-    const jg_real v_2_in_j_0 = lambda[5] * C_j[3];
-    const jg_real v_2_in_j_1 = lambda[5] * C_j[4];
-    const jg_real v_2_in_j_2 = lambda[5] * C_j[5];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    /* v_3_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_3_in_j_0 = lambda[3] * C_j[6];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
-    const jg_real v_3_in_j_2 = lambda[3] * C_j[8];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    const jg_real t22 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[10] = t22;
     phi_q_t_lambda_q[36] = t22;
     const jg_real t23 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t23;
-    phi_q_t_lambda_q[39] = t23;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     /* v_1_in_i = lambda_4 f_j, axes of body i */
@@ -282,142 +268,149 @@ void jg_rigid_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, con
     const jg_real v_2_in_i_1 = A_ij_1 * v_2_in_j_0 + A_ij_4 * v_2_in_j_1 + A_ij_7 * v_2_in_j_2;
     /* v_3_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_3_in_i_1 = A_ij_1 * v_3_in_j_0 + A_ij_4 * v_3_in_j_1 + A_ij_7 * v_3_in_j_2;
-    const jg_real t31 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t31;
-    phi_q_t_lambda_q[33] = t31;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    const jg_real t28 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
     const jg_real v_1_in_i_2 = A_ij_2 * v_1_in_j_0 + A_ij_5 * v_1_in_j_1 + A_ij_8 * v_1_in_j_2;
     const jg_real v_2_in_i_2 = A_ij_2 * v_2_in_j_0 + A_ij_5 * v_2_in_j_1 + A_ij_8 * v_2_in_j_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     const jg_real v_3_in_i_2 = A_ij_2 * v_3_in_j_0 + A_ij_5 * v_3_in_j_1 + A_ij_8 * v_3_in_j_2;
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
     const jg_real M_0_i_i_4 = lambda[1] * e_ij_in_i_1 + v_1_in_i_1 * C_i[7] + v_2_in_i_1 * C_i[1] + v_3_in_i_1 *
         C_i[4];
     const jg_real M_0_i_i_3 = lambda[0] * e_ij_in_i_1 + v_1_in_i_1 * C_i[6] + v_2_in_i_1 * C_i[0] + v_3_in_i_1 *
         C_i[3];
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
-    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
-    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real M_0_i_i_8 = lambda[2] * e_ij_in_i_2 + v_1_in_i_2 * C_i[8] + v_2_in_i_2 * C_i[2] + v_3_in_i_2 *
         C_i[5];
     const jg_real M_0_i_i_6 = lambda[0] * e_ij_in_i_2 + v_1_in_i_2 * C_i[6] + v_2_in_i_2 * C_i[0] + v_3_in_i_2 *
         C_i[3];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    phi_q_t_lambda_q[11] = t23;
+    phi_q_t_lambda_q[39] = t23;
+    phi_q_t_lambda_q[9] = t28;
+    phi_q_t_lambda_q[33] = t28;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
+    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + v_1_in_j_1 * h_i_in_j_1 + v_2_in_j_1 * f_i_in_j_1 +
         v_3_in_j_1 * g_i_in_j_1;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + v_1_in_j_0 * h_i_in_j_1 + v_2_in_j_0 * f_i_in_j_1 +
         v_3_in_j_0 * g_i_in_j_1;
-    phi_q_t_lambda_q[48] = M_1_j_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_1_in_j_2 * h_i_in_j_2 + v_2_in_j_2 * f_i_in_j_2 +
-        v_3_in_j_2 * g_i_in_j_2;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + v_1_in_j_2 * h_i_in_j_1 + v_2_in_j_2 * f_i_in_j_1 +
         v_3_in_j_2 * g_i_in_j_1;
-    phi_q_t_lambda_q[64] = M_1_j_j_7;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_1_in_j_0 * h_i_in_j_2 + v_2_in_j_0 * f_i_in_j_2 +
-        v_3_in_j_0 * g_i_in_j_2;
-    phi_q_t_lambda_q[49] = M_1_j_j_2;
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_1_in_j_2 * h_i_in_j_2 + v_2_in_j_2 * f_i_in_j_2 +
+        v_3_in_j_2 * g_i_in_j_2;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + v_1_in_j_1 * h_i_in_j_0 + v_2_in_j_1 * f_i_in_j_0 +
         v_3_in_j_1 * g_i_in_j_0;
-    phi_q_t_lambda_q[55] = M_1_j_j_3;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + v_1_in_j_2 * h_i_in_j_0 + v_2_in_j_2 * f_i_in_j_0 +
         v_3_in_j_2 * g_i_in_j_0;
-    phi_q_t_lambda_q[63] = M_1_j_j_6;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + v_1_in_j_0 * h_i_in_j_0 + v_2_in_j_0 * f_i_in_j_0 +
         v_3_in_j_0 * g_i_in_j_0;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_1_in_j_0 * h_i_in_j_2 + v_2_in_j_0 * f_i_in_j_2 +
+        v_3_in_j_0 * g_i_in_j_2;
+    const jg_real t60 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t61 = M_1_j_j_0 + M_1_j_j_8;
+    const jg_real t62 = M_1_j_j_0 + M_1_j_j_4;
     const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    const jg_real t61 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real t63 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t64 = M_1_j_j_0 + M_1_j_j_4;
     const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + v_1_in_j_1 * h_i_in_j_2 + v_2_in_j_1 * f_i_in_j_2 +
         v_3_in_j_1 * g_i_in_j_2;
+    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[48] = M_1_j_j_1;
+    phi_q_t_lambda_q[64] = M_1_j_j_7;
+    phi_q_t_lambda_q[55] = M_1_j_j_3;
+    phi_q_t_lambda_q[63] = M_1_j_j_6;
+    phi_q_t_lambda_q[49] = M_1_j_j_2;
     phi_q_t_lambda_q[57] = M_1_j_j_5;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     const jg_real v_1_in_i_0 = A_ij_0 * v_1_in_j_0 + A_ij_3 * v_1_in_j_1 + A_ij_6 * v_1_in_j_2;
-    const jg_real v_2_in_i_0 = A_ij_0 * v_2_in_j_0 + A_ij_3 * v_2_in_j_1 + A_ij_6 * v_2_in_j_2;
     const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
+    const jg_real v_2_in_i_0 = A_ij_0 * v_2_in_j_0 + A_ij_3 * v_2_in_j_1 + A_ij_6 * v_2_in_j_2;
+    const jg_real t69 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t60 + A_ij_6 * M_1_j_j_6);
     const jg_real v_3_in_i_0 = A_ij_0 * v_3_in_j_0 + A_ij_3 * v_3_in_j_1 + A_ij_6 * v_3_in_j_2;
-    const jg_real t70 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t70;
-    phi_q_t_lambda_q[34] = t70;
-    const jg_real t71 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[19] = t71;
-    phi_q_t_lambda_q[37] = t71;
-    const jg_real t72 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t72;
-    phi_q_t_lambda_q[40] = t72;
+    const jg_real t71 = A_ij_6 * t62 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t72 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t61 + A_ij_6 * M_1_j_j_7);
+    const jg_real t73 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[12] = t69;
+    phi_q_t_lambda_q[42] = t69;
+    phi_q_t_lambda_q[14] = t71;
+    phi_q_t_lambda_q[58] = t71;
+    phi_q_t_lambda_q[13] = t72;
+    phi_q_t_lambda_q[50] = t72;
+    phi_q_t_lambda_q[18] = t73;
+    phi_q_t_lambda_q[34] = t73;
+    const jg_real t74 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
     const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + v_1_in_i_2 * C_i[7] + v_2_in_i_2 * C_i[1] + v_3_in_i_2 *
         C_i[4];
-    phi_q_t_lambda_q[17] = M_0_i_i_7;
-    const jg_real t74 = A_ij_6 * t64 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t74;
-    phi_q_t_lambda_q[58] = t74;
-    const jg_real t75 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t61 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t75;
-    phi_q_t_lambda_q[42] = t75;
-    const jg_real t76 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t63 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t76;
-    phi_q_t_lambda_q[50] = t76;
+    const jg_real t76 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
     const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + v_1_in_i_0 * C_i[7] + v_2_in_i_0 * C_i[1] + v_3_in_i_0 *
         C_i[4];
-    phi_q_t_lambda_q[15] = M_0_i_i_1;
     const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + v_1_in_i_0 * C_i[6] + v_2_in_i_0 * C_i[0] + v_3_in_i_0 *
         C_i[3];
-    const jg_real t79 = A_ij_7 * t64 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t79 = A_ij_7 * t62 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    phi_q_t_lambda_q[19] = t74;
+    phi_q_t_lambda_q[37] = t74;
+    phi_q_t_lambda_q[17] = M_0_i_i_7;
+    phi_q_t_lambda_q[20] = t76;
+    phi_q_t_lambda_q[40] = t76;
+    phi_q_t_lambda_q[15] = M_0_i_i_1;
     phi_q_t_lambda_q[23] = t79;
     phi_q_t_lambda_q[59] = t79;
-    const jg_real t80 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t61 + A_ij_7 * M_1_j_j_6);
+    const jg_real t80 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t60 + A_ij_7 * M_1_j_j_6);
+    const jg_real t81 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t61 + A_ij_7 * M_1_j_j_7);
+    const jg_real t82 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t83 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
     phi_q_t_lambda_q[21] = t80;
     phi_q_t_lambda_q[43] = t80;
-    const jg_real t81 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t81;
-    phi_q_t_lambda_q[35] = t81;
-    const jg_real t82 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t82;
-    phi_q_t_lambda_q[38] = t82;
-    const jg_real t83 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t63 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[22] = t83;
-    phi_q_t_lambda_q[51] = t83;
-    const jg_real t84 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t84;
-    phi_q_t_lambda_q[41] = t84;
-    phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[47] = -t61;
-    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[22] = t81;
+    phi_q_t_lambda_q[51] = t81;
+    phi_q_t_lambda_q[27] = t82;
+    phi_q_t_lambda_q[35] = t82;
+    phi_q_t_lambda_q[28] = t83;
+    phi_q_t_lambda_q[38] = t83;
     const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + v_1_in_i_0 * C_i[8] + v_2_in_i_0 * C_i[2] + v_3_in_i_0 *
         C_i[5];
-    phi_q_t_lambda_q[24] = M_0_i_i_2;
-    phi_q_t_lambda_q[56] = -t63;
-    phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[65] = -t64;
-    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
+    const jg_real t85 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
     const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + v_1_in_i_1 * C_i[8] + v_2_in_i_1 * C_i[2] + v_3_in_i_1 *
         C_i[5];
+    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
+    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
+    phi_q_t_lambda_q[24] = M_0_i_i_2;
+    phi_q_t_lambda_q[29] = t85;
+    phi_q_t_lambda_q[41] = t85;
     phi_q_t_lambda_q[25] = M_0_i_i_5;
-    const jg_real t87 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t61 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t87;
-    phi_q_t_lambda_q[44] = t87;
-    const jg_real t88 = A_ij_8 * t64 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t88;
-    phi_q_t_lambda_q[60] = t88;
-    const jg_real t89 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t63 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[47] = -t60;
+    const jg_real t87 = A_ij_8 * t62 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t88 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t60 + A_ij_8 * M_1_j_j_6);
+    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[56] = -t61;
+    phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[65] = -t62;
+    phi_q_t_lambda_q[32] = t87;
+    phi_q_t_lambda_q[60] = t87;
+    phi_q_t_lambda_q[30] = t88;
+    phi_q_t_lambda_q[44] = t88;
+    const jg_real t89 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t61 + A_ij_8 * M_1_j_j_7);
     phi_q_t_lambda_q[31] = t89;
     phi_q_t_lambda_q[52] = t89;
 }
@@ -431,9 +424,8 @@ void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, 
     jg_scatter(jg_rigid_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_rigid_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -446,128 +438,127 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     /* omega_i_in_star = omega_i, axes of body star */
     const jg_real omega_i_in_star_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real omega_i_in_star_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
-    const jg_real omega_i_in_star_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real omega_i_in_star_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    /* v_0_in_j = r_j - r_i, axes of body j */
-    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
-    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i_in_star_0 * omega_i_in_star_0 + omega_i_in_star_1 *
         omega_i_in_star_1 + omega_i_in_star_2 * omega_i_in_star_2;
-    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    /* v_0_in_j = r_j - r_i, axes of body j */
+    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
-    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
-    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
+    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
     /* v_1_in_j = 2 omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_0 * JG_REAL(2.0);
-    /* v_4_in_j = v_j - v_i, axes of body j */
-    const jg_real v_4_in_j_0 = v_j[0] - v_i_in_j_0;
+    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
+    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
+    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
+    /* v_i_in_j = v_i, axes of body j */
+    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
     const jg_real v_1_in_j_1 = omega_i_in_j_1 * JG_REAL(2.0);
     const jg_real v_1_in_j_2 = omega_i_in_j_2 * JG_REAL(2.0);
-    const jg_real v_4_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_4_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
     /* v_2_in_j = 2 omega_i - omega_j, axes of body j */
     const jg_real v_2_in_j_0 = v_1_in_j_0 - omega_j[0];
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
+    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    /* v_4_in_j = v_j - v_i, axes of body j */
+    const jg_real v_4_in_j_2 = v_j[2] - v_i_in_j_2;
+    const jg_real v_4_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_2_in_j_1 = v_1_in_j_1 - omega_j[1];
     const jg_real v_2_in_j_2 = v_1_in_j_2 - omega_j[2];
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i_in_j_0 * omega_j[0] + omega_i_in_j_1 * omega_j[1] + omega_i_in_j_2 *
         omega_j[2];
-    const jg_real t43 = omega_i_in_j_0 * e_ij_in_j_0 + omega_i_in_j_1 * e_ij_in_j_1 + omega_i_in_j_2 * e_ij_in_j_2;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = C_i[6] * A_ji_0 + C_i[7] * A_ji_3 + C_i[8] * A_ji_6;
+    const jg_real v_4_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_5_in_j = 2 omega_i x v_j - 2 omega_i x v_i, axes of body j */
     const jg_real v_5_in_j_0 = v_1_in_j_1 * v_4_in_j_2 - v_1_in_j_2 * v_4_in_j_1;
+    const jg_real t40 = omega_i_in_j_0 * e_ij_in_j_0 + omega_i_in_j_1 * e_ij_in_j_1 + omega_i_in_j_2 * e_ij_in_j_2;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_0 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real t42 = s_j[0] * v_2_in_j_0 + s_j[1] * v_2_in_j_1 + s_j[2] * v_2_in_j_2;
     const jg_real v_5_in_j_1 = v_1_in_j_2 * v_4_in_j_0 - v_1_in_j_0 * v_4_in_j_2;
     const jg_real v_5_in_j_2 = v_1_in_j_0 * v_4_in_j_1 - v_1_in_j_1 * v_4_in_j_0;
+    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
+    const jg_real t46 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
+    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    /* omega_i_dot_h_j = omega_i . h_j */
+    const jg_real omega_i_dot_h_j = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 * C_j[8];
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
     /* omega_j_dot_g_i = omega_j . g_i */
     const jg_real omega_j_dot_g_i = omega_j[0] * g_i_in_j_0 + omega_j[1] * g_i_in_j_1 + omega_j[2] * g_i_in_j_2;
-    /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 * C_j[8];
-    const jg_real t51 = s_j[0] * v_2_in_j_0 + s_j[1] * v_2_in_j_1 + s_j[2] * v_2_in_j_2;
-    const jg_real h_i_in_j_1 = C_i[6] * A_ji_1 + C_i[7] * A_ji_4 + C_i[8] * A_ji_7;
-    const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
-    const jg_real t54 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
-    /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 * C_j[2];
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
-    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
-    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
-    /* omega_i_dot_g_j = omega_i . g_j */
-    const jg_real omega_i_dot_g_j = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 * C_j[5];
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
-    /* omega_j_dot_h_i = omega_j . h_i */
-    const jg_real omega_j_dot_h_i = omega_j[0] * h_i_in_j_0 + omega_j[1] * h_i_in_j_1 + omega_j[2] * h_i_in_j_2;
-    /* omega_j_dot_g_j = omega_j . g_j */
-    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    gamma[3] = t54 * g_i_dot_h_j + omega_j_dot_g_i * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) -
-        omega_i_in_star_1 * omega_i_dot_h_j;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = C_i[6] * A_ji_0 + C_i[7] * A_ji_3 + C_i[8] * A_ji_6;
     /* v_3_in_j = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_3_in_j_0 = omega_i_dot_omega_i * v_0_in_j_0 + t54 * s_j[0] - omega_i_in_j_0 * t43 + omega_j[0] *
-        t51;
-    const jg_real v_3_in_j_1 = omega_i_dot_omega_i * v_0_in_j_1 + t54 * s_j[1] - omega_i_in_j_1 * t43 + omega_j[1] *
-        t51;
-    const jg_real v_3_in_j_2 = omega_i_dot_omega_i * v_0_in_j_2 + t54 * s_j[2] - omega_i_in_j_2 * t43 + omega_j[2] *
-        t51;
+    const jg_real v_3_in_j_0 = omega_i_dot_omega_i * v_0_in_j_0 + t46 * s_j[0] - omega_i_in_j_0 * t40 + omega_j[0] *
+        t42;
+    const jg_real v_3_in_j_1 = omega_i_dot_omega_i * v_0_in_j_1 + t46 * s_j[1] - omega_i_in_j_1 * t40 + omega_j[1] *
+        t42;
+    const jg_real v_3_in_j_2 = omega_i_dot_omega_i * v_0_in_j_2 + t46 * s_j[2] - omega_i_in_j_2 * t40 + omega_j[2] *
+        t42;
+    const jg_real h_i_in_j_1 = C_i[6] * A_ji_1 + C_i[7] * A_ji_4 + C_i[8] * A_ji_7;
     /* v_6_in_j = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_6_in_j_0 = v_3_in_j_0 + v_5_in_j_0;
     const jg_real v_6_in_j_1 = v_3_in_j_1 + v_5_in_j_1;
     const jg_real v_6_in_j_2 = v_3_in_j_2 + v_5_in_j_2;
+    const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
+    /* omega_i_dot_f_j = omega_i . f_j */
+    const jg_real omega_i_dot_f_j = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 * C_j[2];
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
+    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
+    /* omega_j_dot_h_i = omega_j . h_i */
+    const jg_real omega_j_dot_h_i = omega_j[0] * h_i_in_j_0 + omega_j[1] * h_i_in_j_1 + omega_j[2] * h_i_in_j_2;
+    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
+    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
+    /* omega_i_dot_g_j = omega_i . g_j */
+    const jg_real omega_i_dot_g_j = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 * C_j[5];
+    /* omega_j_dot_g_j = omega_j . g_j */
+    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = C_j[3] * f_i_in_j_0 + C_j[4] * f_i_in_j_1 + C_j[5] * f_i_in_j_2;
     /* omega_j_dot_f_i = omega_j . f_i */
     const jg_real omega_j_dot_f_i = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] * f_i_in_j_2;
-    gamma[4] = t54 * h_i_dot_f_j + omega_j_dot_h_i * (JG_REAL(2.0) * omega_i_dot_f_j - omega_j_dot_f_j) -
-        omega_i_in_star_2 * omega_i_dot_f_j;
-    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
+    gamma[3] = t46 * g_i_dot_h_j + omega_j_dot_g_i * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) -
+        omega_i_in_star_1 * omega_i_dot_h_j;
     gamma[0] = v_6_in_i_0;
-    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
     gamma[1] = v_6_in_i_1;
-    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
     gamma[2] = v_6_in_i_2;
-    gamma[5] = t54 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
+    gamma[4] = t46 * h_i_dot_f_j + omega_j_dot_h_i * (JG_REAL(2.0) * omega_i_dot_f_j - omega_j_dot_f_j) -
+        omega_i_in_star_2 * omega_i_dot_f_j;
+    gamma[5] = t46 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
         omega_i_in_star_0 * omega_i_dot_g_j;
 }
 
-void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_rigid_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -576,89 +567,89 @@ void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    /* v_1_world = r_j - r_i, world axes */
+    const jg_real v_1_world_0 = r_j[0] - r_i[0];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    const jg_real v_1_world_1 = r_j[1] - r_i[1];
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     /* v_0_in_j = v_j - s_j x omega_j, axes of body j */
     const jg_real v_0_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
     const jg_real v_0_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
     const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    const jg_real v_1_world_2 = r_j[2] - r_i[2];
     const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
-    /* v_1_in_i = r_j - r_i, axes of body i */
-    const jg_real v_1_in_i_1 = A_i[3] * v_1_world_0 + A_i[4] * v_1_world_1 + A_i[5] * v_1_world_2;
-    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_0 = A_ij_0 * omega_i[0] + A_ij_1 * omega_i[1] + A_ij_2 * omega_i[2];
     const jg_real omega_i_in_j_2 = A_ij_6 * omega_i[0] + A_ij_7 * omega_i[1] + A_ij_8 * omega_i[2];
-    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
-    /* v_2_in_i = r_j x omega_i - r_i x omega_i, axes of body i */
-    const jg_real v_2_in_i_0 = omega_i[2] * v_1_in_i_1 - omega_i[1] * v_1_in_i_2;
+    /* v_1_in_i = r_j - r_i, axes of body i */
+    const jg_real v_1_in_i_1 = A_i[3] * v_1_world_0 + A_i[4] * v_1_world_1 + A_i[5] * v_1_world_2;
+    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
     /* v_0_in_i = v_j - s_j x omega_j, axes of body i */
     const jg_real v_0_in_i_0 = v_0_in_j_0 * A_ij_0 + v_0_in_j_1 * A_ij_3 + v_0_in_j_2 * A_ij_6;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     const jg_real omega_i_in_j_1 = A_ij_3 * omega_i[0] + A_ij_4 * omega_i[1] + A_ij_5 * omega_i[2];
     /* s_j_cross_omega_i_in_j = s_j x omega_i, axes of body j */
     const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - s_j[0] * omega_i_in_j_2;
     const jg_real v_0_in_i_1 = v_0_in_j_0 * A_ij_1 + v_0_in_j_1 * A_ij_4 + v_0_in_j_2 * A_ij_7;
-    const jg_real v_2_in_i_1 = omega_i[0] * v_1_in_i_2 - omega_i[2] * v_1_in_i_0;
+    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
+    /* v_2_in_i = r_j x omega_i - r_i x omega_i, axes of body i */
+    const jg_real v_2_in_i_0 = omega_i[2] * v_1_in_i_1 - omega_i[1] * v_1_in_i_2;
     const jg_real v_0_in_i_2 = v_0_in_j_0 * A_ij_2 + v_0_in_j_1 * A_ij_5 + v_0_in_j_2 * A_ij_8;
-    const jg_real v_2_in_i_2 = omega_i[1] * v_1_in_i_0 - omega_i[0] * v_1_in_i_1;
-    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
-    const jg_real g_i_cross_h_j_in_j_1 = g_i_in_j_2 * C_j[6] - g_i_in_j_0 * C_j[8];
     const jg_real s_j_cross_omega_i_in_j_0 = s_j[1] * omega_i_in_j_2 - s_j[2] * omega_i_in_j_1;
     const jg_real s_j_cross_omega_i_in_j_2 = s_j[0] * omega_i_in_j_1 - s_j[1] * omega_i_in_j_0;
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real g_i_cross_h_j_in_j_0 = g_i_in_j_1 * C_j[8] - g_i_in_j_2 * C_j[7];
-    const jg_real g_i_cross_h_j_in_j_2 = g_i_in_j_0 * C_j[7] - g_i_in_j_1 * C_j[6];
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
-    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
+    const jg_real v_2_in_i_1 = omega_i[0] * v_1_in_i_2 - omega_i[2] * v_1_in_i_0;
+    const jg_real v_2_in_i_2 = omega_i[1] * v_1_in_i_0 - omega_i[0] * v_1_in_i_1;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
+    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     /* s_j_cross_omega_i_in_i = s_j x omega_i, axes of body i */
     const jg_real s_j_cross_omega_i_in_i_0 = A_ij_0 * s_j_cross_omega_i_in_j_0 + A_ij_3 * s_j_cross_omega_i_in_j_1 +
         A_ij_6 * s_j_cross_omega_i_in_j_2;
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
     const jg_real s_j_cross_omega_i_in_i_1 = A_ij_1 * s_j_cross_omega_i_in_j_0 + A_ij_4 * s_j_cross_omega_i_in_j_1 +
         A_ij_7 * s_j_cross_omega_i_in_j_2;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
     const jg_real s_j_cross_omega_i_in_i_2 = A_ij_2 * s_j_cross_omega_i_in_j_0 + A_ij_5 * s_j_cross_omega_i_in_j_1 +
         A_ij_8 * s_j_cross_omega_i_in_j_2;
-    const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
-    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
-    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
-    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
+    /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
+    const jg_real g_i_cross_h_j_in_j_0 = g_i_in_j_1 * C_j[8] - g_i_in_j_2 * C_j[7];
     /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
     const jg_real v_3_in_i_0 = v_0_in_i_0 - v_i[0] + v_2_in_i_0 + s_j_cross_omega_i_in_i_0;
-    phi_q_v[0] = v_3_in_i_0;
     const jg_real v_3_in_i_1 = v_0_in_i_1 - v_i[1] + v_2_in_i_1 + s_j_cross_omega_i_in_i_1;
-    phi_q_v[1] = v_3_in_i_1;
     const jg_real v_3_in_i_2 = v_0_in_i_2 - v_i[2] + v_2_in_i_2 + s_j_cross_omega_i_in_i_2;
-    phi_q_v[2] = v_3_in_i_2;
-    phi_q_v[3] = omega_i_in_j_0 * g_i_cross_h_j_in_j_0 + omega_i_in_j_1 * g_i_cross_h_j_in_j_1 + omega_i_in_j_2 *
-        g_i_cross_h_j_in_j_2 - (omega_j[0] * g_i_cross_h_j_in_j_0 + omega_j[1] * g_i_cross_h_j_in_j_1 + omega_j[2] *
-        g_i_cross_h_j_in_j_2);
+    const jg_real g_i_cross_h_j_in_j_1 = g_i_in_j_2 * C_j[6] - g_i_in_j_0 * C_j[8];
+    const jg_real g_i_cross_h_j_in_j_2 = g_i_in_j_0 * C_j[7] - g_i_in_j_1 * C_j[6];
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
+    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
+    const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
+    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     /* f_i_cross_g_j_in_j = f_i x g_j, axes of body j */
     const jg_real f_i_cross_g_j_in_j_1 = f_i_in_j_2 * C_j[3] - f_i_in_j_0 * C_j[5];
     const jg_real f_i_cross_g_j_in_j_0 = f_i_in_j_1 * C_j[5] - f_i_in_j_2 * C_j[4];
     const jg_real f_i_cross_g_j_in_j_2 = f_i_in_j_0 * C_j[4] - f_i_in_j_1 * C_j[3];
+    phi_q_v[0] = v_3_in_i_0;
+    phi_q_v[1] = v_3_in_i_1;
+    phi_q_v[2] = v_3_in_i_2;
+    phi_q_v[3] = omega_i_in_j_0 * g_i_cross_h_j_in_j_0 + omega_i_in_j_1 * g_i_cross_h_j_in_j_1 + omega_i_in_j_2 *
+        g_i_cross_h_j_in_j_2 - (omega_j[0] * g_i_cross_h_j_in_j_0 + omega_j[1] * g_i_cross_h_j_in_j_1 + omega_j[2] *
+        g_i_cross_h_j_in_j_2);
     phi_q_v[4] = omega_i_in_j_0 * h_i_cross_f_j_in_j_0 + omega_i_in_j_1 * h_i_cross_f_j_in_j_1 + omega_i_in_j_2 *
         h_i_cross_f_j_in_j_2 - (omega_j[0] * h_i_cross_f_j_in_j_0 + omega_j[1] * h_i_cross_f_j_in_j_1 + omega_j[2] *
         h_i_cross_f_j_in_j_2);
@@ -667,16 +658,12 @@ void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *
         f_i_cross_g_j_in_j_2);
 }
 
-void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_rigid_parametric_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -691,10 +678,6 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     /* h_i_in_j = h_i, axes of body j */
@@ -703,56 +686,62 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
     const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
-    const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
-    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_1 = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_1 = g_i_in_j_0 * C_j[8] - g_i_in_j_2 * C_j[6];
-    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
+    const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
+    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
+    const jg_real h_j_cross_g_i_in_j_0 = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
+    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
+    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
     /* v_2_in_j = lambda_4 f_j x h_i, axes of body j */
     const jg_real v_2_in_j_1 = lambda[4] * f_j_cross_h_i_in_j_1;
     /* v_4_in_j = lambda_3 h_j x g_i, axes of body j */
     const jg_real v_4_in_j_1 = lambda[3] * h_j_cross_g_i_in_j_1;
-    const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
-    const jg_real h_j_cross_g_i_in_j_0 = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
-    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_h_i_in_j_2 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
-    const jg_real h_j_cross_g_i_in_j_2 = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
     const jg_real v_2_in_j_0 = lambda[4] * f_j_cross_h_i_in_j_0;
     const jg_real v_4_in_j_0 = lambda[3] * h_j_cross_g_i_in_j_0;
+    const jg_real h_j_cross_g_i_in_j_2 = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
+    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
     const jg_real v_2_in_j_2 = lambda[4] * f_j_cross_h_i_in_j_2;
-    const jg_real v_4_in_j_2 = lambda[3] * h_j_cross_g_i_in_j_2;
     /* g_j_cross_f_i_in_j = g_j x f_i, axes of body j */
     const jg_real g_j_cross_f_i_in_j_0 = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
+    const jg_real v_4_in_j_2 = lambda[3] * h_j_cross_g_i_in_j_2;
     const jg_real g_j_cross_f_i_in_j_1 = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
     const jg_real g_j_cross_f_i_in_j_2 = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
     /* v_3_in_j = lambda_5 g_j x f_i, axes of body j */
     const jg_real v_3_in_j_0 = lambda[5] * g_j_cross_f_i_in_j_0;
     const jg_real v_3_in_j_1 = lambda[5] * g_j_cross_f_i_in_j_1;
     const jg_real v_3_in_j_2 = lambda[5] * g_j_cross_f_i_in_j_2;
+    /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
+    const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_i + lambda_4 f_j x h_i + lambda_5 g_j x f_i, axes of ... */
     const jg_real v_5_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_2_in_j_0 + v_3_in_j_0 + v_4_in_j_0;
-    phi_q_t_lambda[9] = v_5_in_j_0;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[9] = v_5_in_j_0;
     phi_q_t_lambda[10] = v_5_in_j_1;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
-    phi_q_t_lambda[11] = v_5_in_j_2;
+    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
+    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     /* v_5_in_i = s_j x lambda_0_1_2 + lambda_3 h_j x g_i + lambda_4 f_j x h_i + lambda_5 g_j x f_i, axes of ... */
     const jg_real v_5_in_i_0 = A_ij_0 * v_5_in_j_0 + A_ij_3 * v_5_in_j_1 + A_ij_6 * v_5_in_j_2;
     const jg_real v_5_in_i_1 = A_ij_1 * v_5_in_j_0 + A_ij_4 * v_5_in_j_1 + A_ij_7 * v_5_in_j_2;
@@ -761,15 +750,15 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
     const jg_real v_6_in_i_0 = v_1_in_i_0 + v_5_in_i_0;
     const jg_real v_6_in_i_1 = v_1_in_i_1 + v_5_in_i_1;
     const jg_real v_6_in_i_2 = v_1_in_i_2 + v_5_in_i_2;
+    phi_q_t_lambda[11] = v_5_in_j_2;
     phi_q_t_lambda[3] = -v_6_in_i_0;
     phi_q_t_lambda[4] = -v_6_in_i_1;
     phi_q_t_lambda[5] = -v_6_in_i_2;
 }
 
-void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_rigid_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -783,284 +772,286 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    phi_q[22] = A_ij_4;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
+    phi_q[26] = A_ij_8;
     phi_q_t_lambda_q[1] = lambda[1];
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
-    phi_q_t_lambda_q[4] = -lambda[1];
-    /* v_3_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_3_in_j_1 = C_j[7] * lambda[3];
-    /* v_1_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_1_in_j_1 = C_j[1] * lambda[4];
-    /* v_2_in_j = lambda_5 g_j, axes of body j */
-    const jg_real v_2_in_j_1 = C_j[4] * lambda[5];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ij_4;
-    const jg_real v_3_in_j_2 = C_j[8] * lambda[3];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[26] = A_ij_8;
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     phi_q[23] = A_ij_5;
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    phi_q_t_lambda_q[4] = -lambda[1];
     phi_q[25] = A_ij_7;
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     phi_q[21] = A_ij_3;
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     phi_q[24] = A_ij_6;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     phi_q[18] = A_ij_0;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    phi_q[20] = A_ij_2;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
+    const jg_real s_j_in_i_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
+    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
+    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real t21 = h_j_in_i_0 * C_i[3];
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real g_j_in_i_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
     const jg_real g_j_in_i_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    phi_q[9] = e_ij_in_i_0;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    phi_q[13] = e_ij_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    phi_q[3] = e_ij_in_i_2;
+    const jg_real t26 = h_j_in_i_0 * C_i[5];
+    const jg_real t27 = h_j_in_i_0 * C_i[4];
+    const jg_real t28 = g_j_in_i_0 * C_i[0];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    const jg_real t31 = g_j_in_i_0 * C_i[2];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
+    const jg_real t33 = h_j_in_i_1 * C_i[4];
+    const jg_real t34 = h_j_in_i_2 * C_i[5];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    phi_q[19] = A_ij_1;
+    phi_q[20] = A_ij_2;
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[3] = e_ij_in_i_2;
+    phi[0] = d_ij_in_i_0;
+    phi_q[14] = -e_ij_in_i_0;
     phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
-    phi_q[4] = -e_ij_in_i_1;
+    const jg_real t37 = g_j_in_i_1 * C_i[1];
+    const jg_real t38 = g_j_in_i_2 * C_i[2];
+    const jg_real t39 = C_i[4] * h_j_in_i_2;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_0 = h_j_in_i_2 * g_j_in_i_1 - h_j_in_i_1 * g_j_in_i_2;
-    phi_q[8] = -e_ij_in_i_2;
+    const jg_real t41 = h_j_in_i_1 * C_i[5];
     const jg_real f_j_in_i_1 = h_j_in_i_0 * g_j_in_i_2 - h_j_in_i_2 * g_j_in_i_0;
+    const jg_real t43 = g_j_in_i_2 * C_i[1];
+    const jg_real t44 = g_j_in_i_1 * C_i[2];
     const jg_real f_j_in_i_2 = h_j_in_i_1 * g_j_in_i_0 - h_j_in_i_0 * g_j_in_i_1;
-    phi_q[14] = -e_ij_in_i_0;
-    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
-    const jg_real g_i_cross_h_j_in_i_0 = h_j_in_i_2 * C_i[4] - h_j_in_i_1 * C_i[5];
-    phi_q[5] = g_i_cross_h_j_in_i_0;
+    const jg_real t46 = C_i[3] * h_j_in_i_2;
     /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
-    phi[3] = g_i_dot_h_j;
+    const jg_real g_i_dot_h_j = t21 + t33 + t34;
+    const jg_real t48 = g_j_in_i_2 * C_i[0];
+    const jg_real t49 = C_i[3] * h_j_in_i_1;
+    const jg_real t50 = f_j_in_i_0 * C_i[6];
+    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
+    const jg_real g_i_cross_h_j_in_i_0 = t39 - t41;
+    const jg_real t52 = f_j_in_i_1 * C_i[7];
+    const jg_real t53 = f_j_in_i_1 * C_i[8];
     /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
-    const jg_real f_i_cross_g_j_in_i_0 = g_j_in_i_2 * C_i[1] - g_j_in_i_1 * C_i[2];
-    phi_q[7] = f_i_cross_g_j_in_i_0;
-    const jg_real g_i_cross_h_j_in_i_1 = h_j_in_i_0 * C_i[5] - h_j_in_i_2 * C_i[3];
-    phi_q[10] = g_i_cross_h_j_in_i_1;
+    const jg_real f_i_cross_g_j_in_i_0 = t43 - t44;
+    const jg_real t55 = f_j_in_i_0 * C_i[8];
+    const jg_real t56 = f_j_in_i_2 * C_i[8];
     /* f_i_dot_g_j = f_i . g_j */
-    const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
+    const jg_real f_i_dot_g_j = t28 + t37 + t38;
+    const jg_real t58 = C_i[7] * f_j_in_i_2;
+    const jg_real g_i_cross_h_j_in_i_1 = t26 - t46;
+    phi[2] = d_ij_in_i_2;
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[8] = -e_ij_in_i_2;
+    phi[3] = g_i_dot_h_j;
+    phi_q[5] = g_i_cross_h_j_in_i_0;
+    phi_q[7] = f_i_cross_g_j_in_i_0;
     phi[5] = f_i_dot_g_j;
-    const jg_real f_i_cross_g_j_in_i_1 = g_j_in_i_0 * C_i[2] - g_j_in_i_2 * C_i[0];
-    phi_q[12] = f_i_cross_g_j_in_i_1;
-    const jg_real g_i_cross_h_j_in_i_2 = h_j_in_i_1 * C_i[3] - h_j_in_i_0 * C_i[4];
-    phi_q[15] = g_i_cross_h_j_in_i_2;
-    const jg_real f_i_cross_g_j_in_i_2 = g_j_in_i_1 * C_i[0] - g_j_in_i_0 * C_i[1];
-    phi_q[17] = f_i_cross_g_j_in_i_2;
-    phi_q[27] = A_ij_1 * s_j_in_i_2 - A_ij_2 * s_j_in_i_1;
+    phi_q[10] = g_i_cross_h_j_in_i_1;
+    const jg_real t60 = C_i[6] * f_j_in_i_2;
+    const jg_real f_i_cross_g_j_in_i_1 = t31 - t48;
+    const jg_real g_i_cross_h_j_in_i_2 = t49 - t27;
+    const jg_real t63 = C_i[6] * f_j_in_i_1;
+    const jg_real t64 = f_j_in_i_0 * C_i[7];
+    const jg_real t65 = g_j_in_i_1 * C_i[0];
+    const jg_real t66 = g_j_in_i_0 * C_i[1];
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
-    const jg_real h_i_cross_f_j_in_i_0 = f_j_in_i_2 * C_i[7] - f_j_in_i_1 * C_i[8];
-    phi_q[6] = h_i_cross_f_j_in_i_0;
-    const jg_real h_i_cross_f_j_in_i_1 = f_j_in_i_0 * C_i[8] - f_j_in_i_2 * C_i[6];
-    phi_q[11] = h_i_cross_f_j_in_i_1;
-    const jg_real h_i_cross_f_j_in_i_2 = f_j_in_i_1 * C_i[6] - f_j_in_i_0 * C_i[7];
-    phi_q[16] = h_i_cross_f_j_in_i_2;
-    phi_q[28] = A_ij_2 * s_j_in_i_0 - A_ij_0 * s_j_in_i_2;
-    phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
+    const jg_real h_i_cross_f_j_in_i_0 = t58 - t53;
+    const jg_real h_i_cross_f_j_in_i_1 = t55 - t60;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = f_j_in_i_0 * C_i[6] + f_j_in_i_1 * C_i[7] + f_j_in_i_2 * C_i[8];
+    const jg_real h_i_dot_f_j = t50 + t52 + t56;
+    const jg_real h_i_cross_f_j_in_i_2 = t63 - t64;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real f_i_cross_g_j_in_i_2 = t65 - t66;
+    phi_q[12] = f_i_cross_g_j_in_i_1;
+    phi_q[15] = g_i_cross_h_j_in_i_2;
+    phi_q[6] = h_i_cross_f_j_in_i_0;
+    phi_q[11] = h_i_cross_f_j_in_i_1;
     phi[4] = h_i_dot_f_j;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
+    phi_q[16] = h_i_cross_f_j_in_i_2;
+    phi_q[17] = f_i_cross_g_j_in_i_2;
+    phi_q[27] = A_ij_1 * s_j_in_i_2 - s_j_in_i_1 * A_ij_2;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real f_i_in_j_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
-    phi_q[31] = h_i_in_j_2 * C_j[1] - h_i_in_j_1 * C_j[2];
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - f_i_in_j_0 * h_i_in_j_1;
+    phi_q[28] = s_j_in_i_0 * A_ij_2 - A_ij_0 * s_j_in_i_2;
+    phi_q[29] = A_ij_0 * s_j_in_i_1 - s_j_in_i_0 * A_ij_1;
     phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
     phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
     phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
-    phi_q[37] = h_i_in_j_0 * C_j[2] - h_i_in_j_2 * C_j[0];
     phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
     phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
-    /* v_1_in_i = lambda_4 f_j, axes of body i */
-    const jg_real v_1_in_i_1 = f_j_in_i_1 * lambda[4];
     phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
-    /* v_2_in_i = lambda_5 g_j, axes of body i */
-    const jg_real v_2_in_i_1 = g_j_in_i_1 * lambda[5];
-    const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - h_i_in_j_0 * f_i_in_j_2;
+    const jg_real g_i_in_j_1 = f_i_in_j_0 * h_i_in_j_2 - h_i_in_j_0 * f_i_in_j_2;
+    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - f_i_in_j_1 * h_i_in_j_2;
+    phi_q[31] = h_i_in_j_2 * C_j[1] - h_i_in_j_1 * C_j[2];
+    phi_q[37] = h_i_in_j_0 * C_j[2] - h_i_in_j_2 * C_j[0];
     phi_q[32] = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
-    /* v_3_in_i = lambda_3 h_j, axes of body i */
-    const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
-    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
-    const jg_real v_1_in_i_2 = f_j_in_i_2 * lambda[4];
     phi_q[38] = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
     phi_q[43] = h_i_in_j_1 * C_j[0] - h_i_in_j_0 * C_j[1];
-    const jg_real v_2_in_i_2 = g_j_in_i_2 * lambda[5];
-    const jg_real v_3_in_i_2 = h_j_in_i_2 * lambda[3];
     phi_q[44] = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
     phi_q[30] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
     phi_q[36] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    phi_q[42] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    const jg_real t64 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t64;
-    phi_q_t_lambda_q[33] = t64;
-    const jg_real t65 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t65;
-    phi_q_t_lambda_q[36] = t65;
-    const jg_real t66 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t66;
-    phi_q_t_lambda_q[39] = t66;
-    const jg_real v_1_in_j_2 = C_j[2] * lambda[4];
+    /* v_3_in_j = lambda_3 h_j, axes of body j */
+    const jg_real v_3_in_j_1 = C_j[7] * lambda[3];
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + C_i[7] * v_1_in_i_1 + C_i[1] * v_2_in_i_1 + C_i[4] *
-        v_3_in_i_1;
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + C_i[6] * v_1_in_i_1 + C_i[0] * v_2_in_i_1 + C_i[3] *
-        v_3_in_i_1;
+    const jg_real M_0_i_i_4 = t52 * lambda[4] + e_ij_in_i_1 * lambda[1] + t37 * lambda[5] + t33 * lambda[3];
+    const jg_real t83 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    const jg_real t84 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
+    /* v_1_in_j = lambda_4 f_j, axes of body j */
+    const jg_real v_1_in_j_1 = C_j[1] * lambda[4];
+    const jg_real M_0_i_i_8 = t56 * lambda[4] + e_ij_in_i_2 * lambda[2] + t38 * lambda[5] + t34 * lambda[3];
+    const jg_real t87 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
+    /* v_2_in_j = lambda_5 g_j, axes of body j */
+    const jg_real v_2_in_j_1 = C_j[4] * lambda[5];
+    const jg_real v_3_in_j_2 = C_j[8] * lambda[3];
+    const jg_real M_0_i_i_3 = t63 * lambda[4] + e_ij_in_i_1 * lambda[0] + t65 * lambda[5] + t49 * lambda[3];
+    phi_q[42] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    phi_q_t_lambda_q[9] = t83;
+    phi_q_t_lambda_q[33] = t83;
+    phi_q_t_lambda_q[10] = t84;
+    phi_q_t_lambda_q[36] = t84;
+    phi_q_t_lambda_q[11] = t87;
+    phi_q_t_lambda_q[39] = t87;
     phi_q_t_lambda_q[7] = M_0_i_i_3;
+    const jg_real v_1_in_j_2 = C_j[2] * lambda[4];
+    const jg_real M_0_i_i_6 = t60 * lambda[4] + e_ij_in_i_2 * lambda[0] + t48 * lambda[5] + t46 * lambda[3];
     const jg_real v_2_in_j_2 = C_j[5] * lambda[5];
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + C_i[8] * v_1_in_i_2 + C_i[2] * v_2_in_i_2 + C_i[5] *
-        v_3_in_i_2;
-    const jg_real v_1_in_j_0 = C_j[0] * lambda[4];
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_1_in_i_2 + C_i[0] * v_2_in_i_2 + C_i[3] *
-        v_3_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
-    const jg_real v_2_in_j_0 = C_j[3] * lambda[5];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
-    const jg_real v_3_in_j_0 = C_j[6] * lambda[3];
     const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    const jg_real v_1_in_j_0 = C_j[0] * lambda[4];
+    const jg_real v_2_in_j_0 = C_j[3] * lambda[5];
+    const jg_real v_3_in_j_0 = C_j[6] * lambda[3];
     const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real v_1_in_i_0 = f_j_in_i_0 * lambda[4];
-    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
-    const jg_real v_3_in_i_0 = h_j_in_i_0 * lambda[3];
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_1_in_j_1 + f_i_in_j_1 * v_2_in_j_1 +
         g_i_in_j_1 * v_3_in_j_1;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_1_in_j_0 + f_i_in_j_1 * v_2_in_j_0 +
-        g_i_in_j_1 * v_3_in_j_0;
-    phi_q_t_lambda_q[48] = M_1_j_j_1;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_1_in_j_2 + f_i_in_j_1 * v_2_in_j_2 +
         g_i_in_j_1 * v_3_in_j_2;
-    phi_q_t_lambda_q[64] = M_1_j_j_7;
     const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_1_in_j_2 + f_i_in_j_2 * v_2_in_j_2 +
         g_i_in_j_2 * v_3_in_j_2;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_1_in_j_0 + f_i_in_j_2 * v_2_in_j_0 +
-        g_i_in_j_2 * v_3_in_j_0;
-    phi_q_t_lambda_q[49] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_1_in_j_1 + f_i_in_j_2 * v_2_in_j_1 +
-        g_i_in_j_2 * v_3_in_j_1;
-    phi_q_t_lambda_q[57] = M_1_j_j_5;
+    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_1_in_j_0 + f_i_in_j_1 * v_2_in_j_0 +
+        g_i_in_j_1 * v_3_in_j_0;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + h_i_in_j_0 * v_1_in_j_1 + f_i_in_j_0 * v_2_in_j_1 +
         g_i_in_j_0 * v_3_in_j_1;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[64] = M_1_j_j_7;
+    phi_q_t_lambda_q[48] = M_1_j_j_1;
     phi_q_t_lambda_q[55] = M_1_j_j_3;
+    const jg_real t105 = M_1_j_j_4 + M_1_j_j_8;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + h_i_in_j_0 * v_1_in_j_2 + f_i_in_j_0 * v_2_in_j_2 +
         g_i_in_j_0 * v_3_in_j_2;
-    phi_q_t_lambda_q[63] = M_1_j_j_6;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + h_i_in_j_0 * v_1_in_j_0 + f_i_in_j_0 * v_2_in_j_0 +
         g_i_in_j_0 * v_3_in_j_0;
-    const jg_real t91 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t92 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t92;
-    phi_q_t_lambda_q[34] = t92;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_1_in_i_0 + C_i[1] * v_2_in_i_0 + C_i[4] *
-        v_3_in_i_0;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_1_in_j_0 + f_i_in_j_2 * v_2_in_j_0 +
+        g_i_in_j_2 * v_3_in_j_0;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_1_in_j_1 + f_i_in_j_2 * v_2_in_j_1 +
+        g_i_in_j_2 * v_3_in_j_1;
+    const jg_real t110 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t111 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_0_i_i_1 = t64 * lambda[4] + e_ij_in_i_0 * lambda[1] + t66 * lambda[5] + t27 * lambda[3];
+    const jg_real M_0_i_i_0 = t50 * lambda[4] + e_ij_in_i_0 * lambda[0] + t28 * lambda[5] + t21 * lambda[3];
+    const jg_real t114 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    const jg_real t115 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    phi_q_t_lambda_q[63] = M_1_j_j_6;
+    phi_q_t_lambda_q[49] = M_1_j_j_2;
+    phi_q_t_lambda_q[57] = M_1_j_j_5;
     phi_q_t_lambda_q[15] = M_0_i_i_1;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_1_in_i_0 + C_i[0] * v_2_in_i_0 + C_i[3] *
-        v_3_in_i_0;
-    const jg_real t95 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t95;
-    phi_q_t_lambda_q[37] = t95;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_1_in_i_2 + C_i[1] * v_2_in_i_2 + C_i[4] *
-        v_3_in_i_2;
+    phi_q_t_lambda_q[18] = t114;
+    phi_q_t_lambda_q[34] = t114;
+    phi_q_t_lambda_q[19] = t115;
+    phi_q_t_lambda_q[37] = t115;
+    const jg_real t116 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    const jg_real t117 = A_ij_6 * t111 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t118 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t105 + A_ij_6 * M_1_j_j_6);
+    const jg_real M_0_i_i_7 = t58 * lambda[4] + e_ij_in_i_2 * lambda[1] + t43 * lambda[5] + t39 * lambda[3];
+    phi_q_t_lambda_q[20] = t116;
+    phi_q_t_lambda_q[40] = t116;
+    phi_q_t_lambda_q[14] = t117;
+    phi_q_t_lambda_q[58] = t117;
+    phi_q_t_lambda_q[12] = t118;
+    phi_q_t_lambda_q[42] = t118;
     phi_q_t_lambda_q[17] = M_0_i_i_7;
-    const jg_real t97 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t98 = M_1_j_j_0 + M_1_j_j_4;
-    const jg_real t99 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t99;
-    phi_q_t_lambda_q[40] = t99;
-    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real t100 = A_ij_6 * t98 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t100;
-    phi_q_t_lambda_q[58] = t100;
-    const jg_real t101 = A_ij_7 * t98 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[23] = t101;
-    phi_q_t_lambda_q[59] = t101;
-    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t102 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t102;
-    phi_q_t_lambda_q[35] = t102;
-    const jg_real t103 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t103;
-    phi_q_t_lambda_q[38] = t103;
-    const jg_real t104 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t91 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t104;
-    phi_q_t_lambda_q[42] = t104;
-    const jg_real t105 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t91 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[21] = t105;
-    phi_q_t_lambda_q[43] = t105;
-    const jg_real t106 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t106;
-    phi_q_t_lambda_q[41] = t106;
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_1_in_i_0 + C_i[2] * v_2_in_i_0 + C_i[5] *
-        v_3_in_i_0;
+    phi_q_t_lambda_q[16] = -(M_0_i_i_8 + M_0_i_i_0);
+    const jg_real t120 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t110 + A_ij_6 * M_1_j_j_7);
+    const jg_real t121 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t105 + A_ij_7 * M_1_j_j_6);
+    const jg_real t122 = A_ij_7 * t111 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t123 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t110 + A_ij_7 * M_1_j_j_7);
+    phi_q_t_lambda_q[13] = t120;
+    phi_q_t_lambda_q[50] = t120;
+    phi_q_t_lambda_q[21] = t121;
+    phi_q_t_lambda_q[43] = t121;
+    phi_q_t_lambda_q[23] = t122;
+    phi_q_t_lambda_q[59] = t122;
+    phi_q_t_lambda_q[26] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[22] = t123;
+    phi_q_t_lambda_q[51] = t123;
+    const jg_real t124 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    const jg_real t125 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    const jg_real t126 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    const jg_real M_0_i_i_2 = t55 * lambda[4] + e_ij_in_i_0 * lambda[2] + t31 * lambda[5] + t26 * lambda[3];
+    phi_q_t_lambda_q[27] = t124;
+    phi_q_t_lambda_q[35] = t124;
+    phi_q_t_lambda_q[28] = t125;
+    phi_q_t_lambda_q[38] = t125;
+    phi_q_t_lambda_q[29] = t126;
+    phi_q_t_lambda_q[41] = t126;
     phi_q_t_lambda_q[24] = M_0_i_i_2;
     phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
-    const jg_real t108 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t97 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t108;
-    phi_q_t_lambda_q[50] = t108;
-    phi_q_t_lambda_q[47] = -t91;
-    const jg_real t109 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t97 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[22] = t109;
-    phi_q_t_lambda_q[51] = t109;
-    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[56] = -t97;
-    phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_1_in_i_1 + C_i[2] * v_2_in_i_1 + C_i[5] *
-        v_3_in_i_1;
-    phi_q_t_lambda_q[25] = M_0_i_i_5;
-    phi_q_t_lambda_q[65] = -t98;
+    const jg_real M_0_i_i_5 = t53 * lambda[4] + e_ij_in_i_1 * lambda[2] + t44 * lambda[5] + t41 * lambda[3];
     /* v_4_in_i = 2 omega_i, axes of body i */
     const jg_real v_4_in_i_0 = JG_REAL(2.0) * omega_i[0];
     const jg_real v_4_in_i_1 = JG_REAL(2.0) * omega_i[1];
+    const jg_real t131 = A_ij_8 * t111 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    phi_q_t_lambda_q[47] = -t105;
+    phi_q_t_lambda_q[25] = M_0_i_i_5;
+    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[56] = -t110;
+    phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[65] = -t111;
+    phi_q_t_lambda_q[32] = t131;
+    phi_q_t_lambda_q[60] = t131;
+    const jg_real t132 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t105 + A_ij_8 * M_1_j_j_6);
     const jg_real v_4_in_i_2 = JG_REAL(2.0) * omega_i[2];
-    const jg_real t114 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t91 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t114;
-    phi_q_t_lambda_q[44] = t114;
-    const jg_real t115 = A_ij_8 * t98 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t115;
-    phi_q_t_lambda_q[60] = t115;
-    const jg_real t116 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t97 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[31] = t116;
-    phi_q_t_lambda_q[52] = t116;
+    const jg_real t134 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t110 + A_ij_8 * M_1_j_j_7);
     /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
+    const jg_real g_i_dot_omega_j = g_i_in_j_1 * omega_j[1] + g_i_in_j_0 * omega_j[0] + g_i_in_j_2 * omega_j[2];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
     /* h_i_dot_omega_j = h_i . omega_j */
@@ -1069,71 +1060,75 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    /* omega_j_in_i = omega_j, axes of body i */
+    const jg_real omega_j_in_i_0 = C_i[3] * g_i_dot_omega_j + C_i[0] * f_i_dot_omega_j + C_i[6] * h_i_dot_omega_j;
+    const jg_real omega_j_in_i_1 = C_i[4] * g_i_dot_omega_j + C_i[1] * f_i_dot_omega_j + C_i[7] * h_i_dot_omega_j;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    const jg_real t123 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
+    const jg_real omega_j_in_i_2 = C_i[5] * g_i_dot_omega_j + C_i[2] * f_i_dot_omega_j + C_i[8] * h_i_dot_omega_j;
+    const jg_real t144 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
-    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
-    /* omega_j_in_i = omega_j, axes of body i */
-    const jg_real omega_j_in_i_0 = C_i[0] * f_i_dot_omega_j + C_i[3] * g_i_dot_omega_j + C_i[6] * h_i_dot_omega_j;
-    const jg_real omega_j_in_i_1 = C_i[1] * f_i_dot_omega_j + C_i[4] * g_i_dot_omega_j + C_i[7] * h_i_dot_omega_j;
-    const jg_real omega_j_in_i_2 = C_i[2] * f_i_dot_omega_j + C_i[5] * g_i_dot_omega_j + C_i[8] * h_i_dot_omega_j;
-    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
+    const jg_real omega_j_dot_omega_j = g_i_dot_omega_j * g_i_dot_omega_j + f_i_dot_omega_j * f_i_dot_omega_j +
         h_i_dot_omega_j * h_i_dot_omega_j;
-    /* v_5_in_i = v_j - v_i, axes of body i */
-    const jg_real v_5_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_5_in_i_1 = v_j_in_i_1 - v_i[1];
     /* v_7_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_7_in_i_0 = v_4_in_i_0 - omega_j_in_i_0;
     const jg_real v_7_in_i_1 = v_4_in_i_1 - omega_j_in_i_1;
     const jg_real v_7_in_i_2 = v_4_in_i_2 - omega_j_in_i_2;
-    const jg_real v_5_in_i_0 = v_j_in_i_0 - v_i[0];
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
+    /* v_5_in_i = v_j - v_i, axes of body i */
+    const jg_real v_5_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = f_i_dot_omega_i * f_i_dot_omega_j + g_i_dot_omega_i * g_i_dot_omega_j +
-        h_i_dot_omega_i * h_i_dot_omega_j;
+    const jg_real omega_i_dot_omega_j = g_i_dot_omega_j * g_i_dot_omega_i + f_i_dot_omega_j * f_i_dot_omega_i +
+        h_i_dot_omega_j * h_i_dot_omega_i;
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = f_i_dot_omega_i * f_i_dot_omega_i + g_i_dot_omega_i * g_i_dot_omega_i +
         h_i_dot_omega_i * h_i_dot_omega_i;
+    const jg_real v_5_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real t156 = s_j_in_i_0 * v_7_in_i_0 + s_j_in_i_1 * v_7_in_i_1 + s_j_in_i_2 * v_7_in_i_2;
+    /* v_6_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_6_in_i_0 = v_4_in_i_1 * v_5_in_i_2 - v_4_in_i_2 * v_5_in_i_1;
+    const jg_real v_5_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real t159 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    /* v_6_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_6_in_i_0 = v_4_in_i_1 * v_5_in_i_2 - v_4_in_i_2 * v_5_in_i_1;
-    const jg_real v_6_in_i_1 = v_4_in_i_2 * v_5_in_i_0 - v_4_in_i_0 * v_5_in_i_2;
-    const jg_real v_6_in_i_2 = v_4_in_i_0 * v_5_in_i_1 - v_4_in_i_1 * v_5_in_i_0;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    const jg_real t146 = s_j_in_i_0 * v_7_in_i_0 + s_j_in_i_1 * v_7_in_i_1 + s_j_in_i_2 * v_7_in_i_2;
-    const jg_real t147 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
+    const jg_real v_6_in_i_1 = v_4_in_i_2 * v_5_in_i_0 - v_4_in_i_0 * v_5_in_i_2;
+    const jg_real v_6_in_i_2 = v_4_in_i_0 * v_5_in_i_1 - v_4_in_i_1 * v_5_in_i_0;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    /* v_8_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_8_in_i_0 = s_j_in_i_0 * t159 + v_0_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t144 +
+        omega_j_in_i_0 * t156;
+    const jg_real v_8_in_i_1 = s_j_in_i_1 * t159 + v_0_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t144 +
+        omega_j_in_i_1 * t156;
+    const jg_real v_8_in_i_2 = s_j_in_i_2 * t159 + v_0_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t144 +
+        omega_j_in_i_2 * t156;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    gamma[3] = g_i_dot_h_j * t147 + g_i_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) -
-        g_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[4] = h_i_dot_f_j * t147 + h_i_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
-        h_i_dot_omega_i * f_j_dot_omega_i;
-    /* v_8_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_8_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i + s_j_in_i_0 * t147 - omega_i[0] * t123 +
-        omega_j_in_i_0 * t146;
-    const jg_real v_8_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i + s_j_in_i_1 * t147 - omega_i[1] * t123 +
-        omega_j_in_i_1 * t146;
-    const jg_real v_8_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i + s_j_in_i_2 * t147 - omega_i[2] * t123 +
-        omega_j_in_i_2 * t146;
     /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_9_in_i_0 = v_6_in_i_0 + v_8_in_i_0;
+    const jg_real v_9_in_i_0 = v_8_in_i_0 + v_6_in_i_0;
+    const jg_real v_9_in_i_1 = v_8_in_i_1 + v_6_in_i_1;
+    const jg_real v_9_in_i_2 = v_8_in_i_2 + v_6_in_i_2;
+    phi_q_t_lambda_q[30] = t132;
+    phi_q_t_lambda_q[44] = t132;
+    phi_q_t_lambda_q[31] = t134;
+    phi_q_t_lambda_q[52] = t134;
     gamma[0] = v_9_in_i_0;
-    const jg_real v_9_in_i_1 = v_6_in_i_1 + v_8_in_i_1;
     gamma[1] = v_9_in_i_1;
-    const jg_real v_9_in_i_2 = v_6_in_i_2 + v_8_in_i_2;
     gamma[2] = v_9_in_i_2;
-    gamma[5] = f_i_dot_g_j * t147 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+    gamma[3] = g_i_dot_h_j * t159 + g_i_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) -
+        g_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[4] = h_i_dot_f_j * t159 + h_i_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
+        h_i_dot_omega_i * f_j_dot_omega_i;
+    gamma[5] = f_i_dot_g_j * t159 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
         f_i_dot_omega_i * g_j_dot_omega_i;
 }
 

@@ -4,10 +4,6 @@
  * joint screw, form conventional, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/screw.h"
 
 const int *jg_screw_conventional_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_screw_conventional_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_screw_conventional_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -48,55 +43,54 @@ void jg_screw_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[2] = f_i_dot_h_j;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[3] = g_i_dot_h_j;
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
-    phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
-    phi[1] = d_ij_in_i_0 * C_i[3] + d_ij_in_i_1 * C_i[4] + d_ij_in_i_2 * C_i[5];
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
+    phi[2] = f_i_dot_h_j;
+    phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
+    phi[1] = d_ij_in_i_0 * C_i[3] + d_ij_in_i_1 * C_i[4] + d_ij_in_i_2 * C_i[5];
+    phi[3] = g_i_dot_h_j;
     phi[4] = d_ij_in_i_0 * C_i[6] + d_ij_in_i_1 * C_i[7] + d_ij_in_i_2 * C_i[8] - pitch * (theta + theta_0 +
         revolutions * JG_REAL(6.283185307179586));
 }
 
-void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_screw_conventional_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -108,34 +102,32 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
-    phi_q[28] = g_i_world_1;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    phi_q[32] = h_i_world_2;
     const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
-    phi_q[31] = g_i_world_2;
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    phi_q[29] = h_i_world_1;
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    phi_q[25] = g_i_world_0;
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    phi_q[26] = h_i_world_0;
+    phi_q[28] = g_i_world_1;
+    phi_q[32] = h_i_world_2;
+    phi_q[31] = g_i_world_2;
+    phi_q[29] = h_i_world_1;
     phi_q[4] = -g_i_world_1;
+    phi_q[25] = g_i_world_0;
     phi_q[8] = -h_i_world_2;
+    phi_q[26] = h_i_world_0;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
+    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
+    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
     phi_q[7] = -g_i_world_2;
     phi_q[5] = -h_i_world_1;
     phi_q[1] = -g_i_world_0;
     phi_q[2] = -h_i_world_0;
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
     phi_q[24] = f_i_world_0;
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
     phi_q[27] = f_i_world_1;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
     phi_q[30] = f_i_world_2;
     phi_q[0] = -f_i_world_0;
-    phi_q[3] = -f_i_world_1;
-    phi_q[6] = -f_i_world_2;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
     const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
@@ -149,77 +141,77 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
     const jg_real r_ij_in_joint_i_2 = h_i_world_0 * r_ij_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
         r_ij_world_2;
+    /* s_j_in_joint_i = s_j, axes of joint i */
+    const jg_real s_j_in_joint_i_1 = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
     const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
         r_ij_world_2;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
-    /* s_j_in_joint_i = s_j, axes of joint i */
-    const jg_real s_j_in_joint_i_1 = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
-    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
-    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     /* h_j_in_joint_i = h_j, axes of joint i */
     const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
+    const jg_real t24 = r_ij_in_joint_i_1 + s_j_in_joint_i_1;
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     const jg_real s_j_in_joint_i_2 = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
     const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
-    const jg_real t28 = r_ij_in_joint_i_1 + s_j_in_joint_i_1;
     /* f_j_in_joint_i = f_j, axes of joint i */
     const jg_real f_j_in_joint_i_1 = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
     /* v_0_in_joint_i = r_ij x f_i + s_j x f_i, axes of joint i */
     const jg_real v_0_in_joint_i_1 = r_ij_in_joint_i_2 + s_j_in_joint_i_2;
     const jg_real f_j_in_joint_i_2 = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
+    const jg_real f_i_cross_h_j_in_i_0 = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
+    const jg_real f_i_cross_h_j_in_i_1 = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
+    const jg_real s_j_in_joint_i_0 = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
+    const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
     /* v_2_in_joint_i = (h_i . f_j) f_j, axes of joint i */
     const jg_real v_2_in_joint_i_1 = f_j_in_joint_i_1 * f_j_in_joint_i_2;
     const jg_real v_2_in_joint_i_2 = f_j_in_joint_i_2 * f_j_in_joint_i_2;
-    /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
-    const jg_real f_i_cross_h_j_in_i_0 = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
-    phi_q[11] = f_i_cross_h_j_in_i_0;
-    const jg_real f_i_cross_h_j_in_i_1 = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
-    phi_q[16] = f_i_cross_h_j_in_i_1;
-    const jg_real s_j_in_joint_i_0 = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
-    const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    const jg_real f_i_cross_h_j_in_i_2 = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
-    phi_q[21] = f_i_cross_h_j_in_i_2;
-    /* s_j_cross_g_i_in_j = s_j x g_i, axes of body j */
-    const jg_real s_j_cross_g_i_in_j_0 = s_j[1] * g_i_in_j_2 - s_j[2] * g_i_in_j_1;
-    phi_q[34] = s_j_cross_g_i_in_j_0;
-    phi_q[9] = C_i[6] * t28 - C_i[3] * v_0_in_joint_i_1;
-    /* across_in_joint_i = across, axes of joint i */
-    const jg_real across_in_joint_i_2 = JG_REAL(1.0) - v_2_in_joint_i_2;
     const jg_real f_j_in_joint_i_0 = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
-    phi_q[14] = C_i[7] * t28 - C_i[4] * v_0_in_joint_i_1;
-    phi_q[19] = C_i[8] * t28 - C_i[5] * v_0_in_joint_i_1;
     /* v_1_in_joint_i = r_ij x g_i + s_j x g_i, axes of joint i */
     const jg_real v_1_in_joint_i_2 = r_ij_in_joint_i_0 + s_j_in_joint_i_0;
-    const jg_real s_j_cross_g_i_in_j_1 = s_j[2] * g_i_in_j_0 - s_j[0] * g_i_in_j_2;
-    phi_q[39] = s_j_cross_g_i_in_j_1;
-    /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
-    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
-    phi_q[33] = s_j_cross_f_i_in_j_0;
-    phi_q[35] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / across_in_joint_i_2;
+    /* across_in_joint_i = across, axes of joint i */
+    const jg_real across_in_joint_i_2 = JG_REAL(1.0) - v_2_in_joint_i_2;
     const jg_real v_2_in_joint_i_0 = f_j_in_joint_i_0 * f_j_in_joint_i_2;
-    const jg_real s_j_cross_f_i_in_j_1 = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
-    phi_q[38] = s_j_cross_f_i_in_j_1;
+    const jg_real f_i_cross_h_j_in_i_2 = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
+    phi_q[3] = -f_i_world_1;
+    phi_q[6] = -f_i_world_2;
+    phi_q[11] = f_i_cross_h_j_in_i_0;
+    phi_q[16] = f_i_cross_h_j_in_i_1;
+    phi_q[9] = C_i[6] * t24 - C_i[3] * v_0_in_joint_i_1;
+    phi_q[14] = C_i[7] * t24 - C_i[4] * v_0_in_joint_i_1;
+    phi_q[19] = C_i[8] * t24 - C_i[5] * v_0_in_joint_i_1;
+    phi_q[21] = f_i_cross_h_j_in_i_2;
     /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
     const jg_real g_i_cross_h_j_in_i_0 = C_i[0] * h_j_in_joint_i_2 - C_i[6] * h_j_in_joint_i_0;
-    phi_q[12] = g_i_cross_h_j_in_i_0;
     const jg_real g_i_cross_h_j_in_i_1 = C_i[1] * h_j_in_joint_i_2 - C_i[7] * h_j_in_joint_i_0;
-    phi_q[17] = g_i_cross_h_j_in_i_1;
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / across_in_joint_i_2;
     const jg_real g_i_cross_h_j_in_i_2 = C_i[2] * h_j_in_joint_i_2 - C_i[8] * h_j_in_joint_i_0;
+    /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
+    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
+    /* s_j_cross_g_i_in_j = s_j x g_i, axes of body j */
+    const jg_real s_j_cross_g_i_in_j_0 = s_j[1] * g_i_in_j_2 - s_j[2] * g_i_in_j_1;
+    phi_q[12] = g_i_cross_h_j_in_i_0;
+    phi_q[17] = g_i_cross_h_j_in_i_1;
     phi_q[22] = g_i_cross_h_j_in_i_2;
-    phi_q[36] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
-    const jg_real s_j_cross_g_i_in_j_2 = s_j[0] * g_i_in_j_1 - s_j[1] * g_i_in_j_0;
-    phi_q[44] = s_j_cross_g_i_in_j_2;
-    phi_q[40] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
-    phi_q[41] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
+    phi_q[33] = s_j_cross_f_i_in_j_0;
+    phi_q[34] = s_j_cross_g_i_in_j_0;
     phi_q[10] = v_0_in_joint_i_1 * C_i[0] - C_i[6] * v_1_in_joint_i_2;
     phi_q[15] = v_0_in_joint_i_1 * C_i[1] - C_i[7] * v_1_in_joint_i_2;
     phi_q[20] = v_0_in_joint_i_1 * C_i[2] - C_i[8] * v_1_in_joint_i_2;
+    const jg_real s_j_cross_f_i_in_j_1 = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
+    const jg_real s_j_cross_g_i_in_j_1 = s_j[2] * g_i_in_j_0 - s_j[0] * g_i_in_j_2;
     const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
+    const jg_real s_j_cross_g_i_in_j_2 = s_j[0] * g_i_in_j_1 - s_j[1] * g_i_in_j_0;
+    phi_q[35] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
+    phi_q[36] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
+    phi_q[38] = s_j_cross_f_i_in_j_1;
+    phi_q[39] = s_j_cross_g_i_in_j_1;
+    phi_q[40] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
+    phi_q[41] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
     phi_q[43] = s_j_cross_f_i_in_j_2;
-    phi_q[45] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
-    phi_q[46] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
+    phi_q[44] = s_j_cross_g_i_in_j_2;
     const jg_real t53 = spread * pitch;
     /* v_3_in_joint_i = spread pitch across - s_j x h_i, axes of joint i */
     const jg_real v_3_in_joint_i_2 = across_in_joint_i_2 * t53;
@@ -234,10 +226,12 @@ void jg_screw_conventional_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_rea
     const jg_real v_3_in_j_2 = g_i_in_j_2 * v_3_in_joint_i_1 - f_i_in_j_2 * t56 + h_i_in_j_2 * v_3_in_joint_i_2;
     /* v_4_in_i = spread pitch across - r_ij x h_i - s_j x h_i, axes of body i */
     const jg_real v_4_in_i_0 = C_i[3] * v_4_in_joint_i_1 - C_i[0] * t58 + C_i[6] * v_3_in_joint_i_2;
-    phi_q[13] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = C_i[4] * v_4_in_joint_i_1 - C_i[1] * t58 + C_i[7] * v_3_in_joint_i_2;
-    phi_q[18] = v_4_in_i_1;
     const jg_real v_4_in_i_2 = C_i[5] * v_4_in_joint_i_1 - C_i[2] * t58 + C_i[8] * v_3_in_joint_i_2;
+    phi_q[45] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
+    phi_q[46] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
+    phi_q[13] = v_4_in_i_0;
+    phi_q[18] = v_4_in_i_1;
     phi_q[23] = v_4_in_i_2;
     phi_q[37] = -v_3_in_j_0;
     phi_q[42] = -v_3_in_j_1;
@@ -253,9 +247,8 @@ void jg_screw_conventional_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_
     jg_scatter(jg_screw_conventional_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -263,155 +256,151 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real pitch = geometry[24];
     /* v_0_in_i = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body i */
     const jg_real v_0_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4] + lambda[4] * C_i[7];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_in_i_2 = lambda[0] * C_i[2] + lambda[1] * C_i[5] + lambda[4] * C_i[8];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3] + lambda[4] * C_i[6];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real t4 = v_0_in_i_1 * A_i[6] - v_0_in_i_2 * A_i[3];
+    const jg_real t5 = v_0_in_i_1 * A_i[7] - v_0_in_i_2 * A_i[4];
+    const jg_real t6 = v_0_in_i_2 * A_i[0] - v_0_in_i_0 * A_i[6];
+    const jg_real t7 = v_0_in_i_0 * A_i[3] - v_0_in_i_1 * A_i[0];
+    phi_q_t_lambda_q[15] = t4;
+    phi_q_t_lambda_q[45] = t4;
+    phi_q_t_lambda_q[16] = t5;
+    phi_q_t_lambda_q[48] = t5;
+    phi_q_t_lambda_q[27] = t6;
+    phi_q_t_lambda_q[46] = t6;
+    phi_q_t_lambda_q[39] = t7;
+    phi_q_t_lambda_q[47] = t7;
+    const jg_real t8 = v_0_in_i_2 * A_i[1] - v_0_in_i_0 * A_i[7];
+    const jg_real t9 = v_0_in_i_0 * A_i[4] - v_0_in_i_1 * A_i[1];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real t11 = v_0_in_i_1 * A_i[8] - v_0_in_i_2 * A_i[5];
     const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t9 = v_0_in_i_1 * A_i[6] - v_0_in_i_2 * A_i[3];
-    phi_q_t_lambda_q[15] = t9;
-    phi_q_t_lambda_q[45] = t9;
+    const jg_real t13 = -t4;
+    phi_q_t_lambda_q[28] = t8;
+    phi_q_t_lambda_q[49] = t8;
+    phi_q_t_lambda_q[40] = t9;
+    phi_q_t_lambda_q[50] = t9;
+    phi_q_t_lambda_q[17] = t11;
+    phi_q_t_lambda_q[51] = t11;
+    phi_q_t_lambda_q[0] = t13;
+    phi_q_t_lambda_q[9] = t13;
+    const jg_real t14 = v_0_in_i_2 * A_i[2] - v_0_in_i_0 * A_i[8];
+    const jg_real t15 = -t5;
+    const jg_real t16 = -t6;
+    const jg_real t17 = -t7;
+    phi_q_t_lambda_q[29] = t14;
+    phi_q_t_lambda_q[52] = t14;
+    phi_q_t_lambda_q[3] = t15;
+    phi_q_t_lambda_q[10] = t15;
+    phi_q_t_lambda_q[1] = t16;
+    phi_q_t_lambda_q[21] = t16;
+    phi_q_t_lambda_q[2] = t17;
+    phi_q_t_lambda_q[33] = t17;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real t11 = v_0_in_i_1 * A_i[7] - v_0_in_i_2 * A_i[4];
-    phi_q_t_lambda_q[16] = t11;
-    phi_q_t_lambda_q[48] = t11;
-    const jg_real t12 = v_0_in_i_2 * A_i[0] - v_0_in_i_0 * A_i[6];
-    phi_q_t_lambda_q[27] = t12;
-    phi_q_t_lambda_q[46] = t12;
-    const jg_real t13 = v_0_in_i_0 * A_i[3] - v_0_in_i_1 * A_i[0];
-    phi_q_t_lambda_q[39] = t13;
-    phi_q_t_lambda_q[47] = t13;
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real t15 = v_0_in_i_2 * A_i[1] - v_0_in_i_0 * A_i[7];
-    phi_q_t_lambda_q[28] = t15;
-    phi_q_t_lambda_q[49] = t15;
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real t17 = v_0_in_i_0 * A_i[4] - v_0_in_i_1 * A_i[1];
-    phi_q_t_lambda_q[40] = t17;
-    phi_q_t_lambda_q[50] = t17;
-    const jg_real t18 = v_0_in_i_1 * A_i[8] - v_0_in_i_2 * A_i[5];
-    phi_q_t_lambda_q[17] = t18;
-    phi_q_t_lambda_q[51] = t18;
-    const jg_real t19 = v_0_in_i_2 * A_i[2] - v_0_in_i_0 * A_i[8];
-    phi_q_t_lambda_q[29] = t19;
-    phi_q_t_lambda_q[52] = t19;
+    const jg_real t19 = -t8;
     const jg_real t20 = v_0_in_i_0 * A_i[5] - v_0_in_i_1 * A_i[2];
+    const jg_real t21 = -t9;
+    const jg_real t22 = -t11;
+    phi_q_t_lambda_q[4] = t19;
+    phi_q_t_lambda_q[22] = t19;
     phi_q_t_lambda_q[41] = t20;
     phi_q_t_lambda_q[53] = t20;
-    const jg_real t21 = -t9;
-    phi_q_t_lambda_q[0] = t21;
-    phi_q_t_lambda_q[9] = t21;
-    const jg_real t22 = -t11;
-    phi_q_t_lambda_q[3] = t22;
-    phi_q_t_lambda_q[10] = t22;
-    const jg_real t23 = -t12;
-    phi_q_t_lambda_q[1] = t23;
-    phi_q_t_lambda_q[21] = t23;
-    const jg_real t24 = -t13;
-    phi_q_t_lambda_q[2] = t24;
-    phi_q_t_lambda_q[33] = t24;
-    const jg_real t25 = -t15;
-    phi_q_t_lambda_q[4] = t25;
-    phi_q_t_lambda_q[22] = t25;
-    const jg_real t26 = -t17;
-    phi_q_t_lambda_q[5] = t26;
-    phi_q_t_lambda_q[34] = t26;
-    const jg_real t27 = -t18;
-    phi_q_t_lambda_q[6] = t27;
-    phi_q_t_lambda_q[11] = t27;
-    const jg_real t28 = -t19;
-    phi_q_t_lambda_q[7] = t28;
-    phi_q_t_lambda_q[23] = t28;
-    const jg_real t29 = -t20;
-    phi_q_t_lambda_q[8] = t29;
-    phi_q_t_lambda_q[35] = t29;
+    phi_q_t_lambda_q[5] = t21;
+    phi_q_t_lambda_q[34] = t21;
+    phi_q_t_lambda_q[6] = t22;
+    phi_q_t_lambda_q[11] = t22;
+    const jg_real t23 = -t14;
+    const jg_real t24 = -t20;
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     /* v_4_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
     const jg_real v_4_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     const jg_real h_i_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     /* r_ij_in_i = r_ij, axes of body i */
     const jg_real r_ij_in_i_1 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     const jg_real r_ij_in_i_2 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
-    const jg_real v_4_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
     const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
+    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real h_i_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real v_4_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real v_4_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_1 = r_ij_in_i_1 + s_j_in_i_1;
+    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     const jg_real e_ij_in_i_2 = r_ij_in_i_2 + s_j_in_i_2;
-    /* v_0_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_0_in_j_0 = v_0_in_i_0 * A_ij_0 + v_0_in_i_1 * A_ij_1 + v_0_in_i_2 * A_ij_2;
+    const jg_real v_4_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
-    const jg_real h_i_cross_f_j_in_i_2 = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
     const jg_real h_i_cross_f_j_in_i_1 = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
+    const jg_real h_i_cross_f_j_in_i_2 = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
     const jg_real h_i_cross_f_j_in_i_0 = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
-    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
-    const jg_real h_i_cross_f_j_in_j_1 = C_j[0] * h_i_in_j_2 - C_j[2] * h_i_in_j_0;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    const jg_real v_0_in_j_1 = v_0_in_i_0 * A_ij_3 + v_0_in_i_1 * A_ij_4 + v_0_in_i_2 * A_ij_5;
-    /* v_4_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
-    const jg_real v_4_in_j_0 = A_ij_0 * v_4_in_i_0 + A_ij_1 * v_4_in_i_1 + A_ij_2 * v_4_in_i_2;
+    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
+    const jg_real h_i_cross_f_j_in_j_1 = C_j[0] * h_i_in_j_2 - C_j[2] * h_i_in_j_0;
     /* v_1_in_j = (h_i . f_j) f_j, axes of body j */
     const jg_real v_1_in_j_0 = C_j[0] * h_i_dot_f_j;
     const jg_real v_1_in_j_1 = C_j[1] * h_i_dot_f_j;
     const jg_real v_1_in_j_2 = C_j[2] * h_i_dot_f_j;
-    const jg_real h_i_cross_f_j_in_j_2 = C_j[1] * h_i_in_j_0 - C_j[0] * h_i_in_j_1;
-    const jg_real v_4_in_j_1 = A_ij_3 * v_4_in_i_0 + A_ij_4 * v_4_in_i_1 + A_ij_5 * v_4_in_i_2;
-    const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - C_j[1] * h_i_in_j_2;
     /* across_in_j = across, axes of body j */
     const jg_real across_in_j_0 = h_i_in_j_0 - v_1_in_j_0;
     const jg_real across_in_j_1 = h_i_in_j_1 - v_1_in_j_1;
     const jg_real across_in_j_2 = h_i_in_j_2 - v_1_in_j_2;
-    const jg_real v_0_in_j_2 = v_0_in_i_0 * A_ij_6 + v_0_in_i_1 * A_ij_7 + v_0_in_i_2 * A_ij_8;
-    const jg_real v_4_in_j_2 = A_ij_6 * v_4_in_i_0 + A_ij_7 * v_4_in_i_1 + A_ij_8 * v_4_in_i_2;
+    /* v_0_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
+    const jg_real v_0_in_j_0 = v_0_in_i_0 * A_ij_0 + v_0_in_i_1 * A_ij_1 + v_0_in_i_2 * A_ij_2;
+    /* v_4_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
+    const jg_real v_4_in_j_0 = A_ij_0 * v_4_in_i_0 + A_ij_1 * v_4_in_i_1 + A_ij_2 * v_4_in_i_2;
+    const jg_real v_0_in_j_1 = v_0_in_i_0 * A_ij_3 + v_0_in_i_1 * A_ij_4 + v_0_in_i_2 * A_ij_5;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    const jg_real h_i_cross_f_j_in_j_2 = C_j[1] * h_i_in_j_0 - C_j[0] * h_i_in_j_1;
     /* v_6_in_j = (h_i . f_j) f_j + across, axes of body j */
-    const jg_real v_6_in_j_0 = v_1_in_j_0 + across_in_j_0;
-    const jg_real v_6_in_j_1 = v_1_in_j_1 + across_in_j_1;
     const jg_real v_6_in_j_2 = v_1_in_j_2 + across_in_j_2;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    const jg_real r_ij_in_i_0 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
-    const jg_real e_ij_in_i_0 = r_ij_in_i_0 + s_j_in_i_0;
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    const jg_real t77 = h_i_dot_f_j * JG_REAL(2.0) * spread;
-    const jg_real t78 = lambda[4] * pitch * spread;
-    const jg_real t79 = h_i_dot_f_j * t78;
+    const jg_real v_4_in_j_1 = A_ij_3 * v_4_in_i_0 + A_ij_4 * v_4_in_i_1 + A_ij_5 * v_4_in_i_2;
+    const jg_real v_6_in_j_1 = v_1_in_j_1 + across_in_j_1;
+    const jg_real v_0_in_j_2 = v_0_in_i_0 * A_ij_6 + v_0_in_i_1 * A_ij_7 + v_0_in_i_2 * A_ij_8;
+    const jg_real v_4_in_j_2 = A_ij_6 * v_4_in_i_0 + A_ij_7 * v_4_in_i_1 + A_ij_8 * v_4_in_i_2;
+    const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - C_j[1] * h_i_in_j_2;
+    const jg_real v_6_in_j_0 = v_1_in_j_0 + across_in_j_0;
+    const jg_real t73 = h_i_dot_f_j * JG_REAL(2.0) * spread;
+    const jg_real t74 = lambda[4] * pitch * spread;
+    const jg_real t75 = h_i_dot_f_j * t74;
     /* v_7_in_j = lambda_4 (h_i . f_j) pitch spread f_j + lambda_4 pitch spread across, axes of body j */
-    const jg_real v_7_in_j_2 = t78 * v_6_in_j_2;
-    const jg_real v_7_in_j_1 = t78 * v_6_in_j_1;
-    const jg_real v_7_in_j_0 = t78 * v_6_in_j_0;
+    const jg_real v_7_in_j_2 = t74 * v_6_in_j_2;
+    const jg_real v_7_in_j_1 = t74 * v_6_in_j_1;
+    const jg_real v_7_in_j_0 = t74 * v_6_in_j_0;
+    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
     /* v_2_in_j = f_j - 2 (h_i . f_j) spread across, axes of body j */
-    const jg_real v_2_in_j_0 = C_j[0] - t77 * across_in_j_0;
-    const jg_real v_2_in_j_1 = C_j[1] - t77 * across_in_j_1;
-    const jg_real v_2_in_j_2 = C_j[2] - t77 * across_in_j_2;
+    const jg_real v_2_in_j_0 = C_j[0] - t73 * across_in_j_0;
+    const jg_real v_2_in_j_1 = C_j[1] - t73 * across_in_j_1;
+    const jg_real v_2_in_j_2 = C_j[2] - t73 * across_in_j_2;
     /* v_5_in_i = lambda_4 (h_i . f_j) pitch spread f_j, axes of body i */
-    const jg_real v_5_in_i_2 = f_j_in_i_2 * t79;
-    const jg_real v_5_in_i_1 = f_j_in_i_1 * t79;
-    const jg_real v_5_in_i_0 = f_j_in_i_0 * t79;
+    const jg_real v_5_in_i_2 = f_j_in_i_2 * t75;
+    const jg_real v_5_in_i_1 = f_j_in_i_1 * t75;
+    const jg_real v_5_in_i_0 = f_j_in_i_0 * t75;
+    const jg_real r_ij_in_i_0 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
     /* v_3_in_j = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, axes of body j */
-    const jg_real v_3_in_j_0 = t78 * v_2_in_j_0;
-    const jg_real v_3_in_j_1 = t78 * v_2_in_j_1;
-    const jg_real v_3_in_j_2 = t78 * v_2_in_j_2;
+    const jg_real v_3_in_j_0 = t74 * v_2_in_j_0;
+    const jg_real v_3_in_j_1 = t74 * v_2_in_j_1;
+    const jg_real v_3_in_j_2 = t74 * v_2_in_j_2;
+    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real e_ij_in_i_0 = r_ij_in_i_0 + s_j_in_i_0;
     /* M_2_j_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
     const jg_real M_2_j_j_3 = s_j[1] * v_0_in_j_0 + C_j[7] * v_4_in_j_0 - v_3_in_j_0 * h_i_cross_f_j_in_j_1;
     const jg_real M_2_j_j_4 = s_j[1] * v_0_in_j_1 + C_j[7] * v_4_in_j_1 - v_3_in_j_1 * h_i_cross_f_j_in_j_1;
@@ -420,27 +409,28 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
     const jg_real M_2_j_j_1 = s_j[0] * v_0_in_j_1 + C_j[6] * v_4_in_j_1 - v_3_in_j_1 * h_i_cross_f_j_in_j_0;
     const jg_real M_2_j_j_0 = s_j[0] * v_0_in_j_0 + C_j[6] * v_4_in_j_0 - v_3_in_j_0 * h_i_cross_f_j_in_j_0;
     const jg_real M_2_j_j_7 = s_j[2] * v_0_in_j_1 + C_j[8] * v_4_in_j_1 - v_3_in_j_1 * h_i_cross_f_j_in_j_2;
-    const jg_real M_2_j_j_2 = s_j[0] * v_0_in_j_2 + C_j[6] * v_4_in_j_2 - v_3_in_j_2 * h_i_cross_f_j_in_j_0;
-    const jg_real M_2_j_j_5 = s_j[1] * v_0_in_j_2 + C_j[7] * v_4_in_j_2 - v_3_in_j_2 * h_i_cross_f_j_in_j_1;
     /* v_3_in_i = lambda_4 pitch spread f_j - 2 lambda_4 (h_i . f_j) pitch spread spread across, axes of body i */
     const jg_real v_3_in_i_1 = A_ij_1 * v_3_in_j_0 + A_ij_4 * v_3_in_j_1 + A_ij_7 * v_3_in_j_2;
+    const jg_real M_2_j_j_2 = s_j[0] * v_0_in_j_2 + C_j[6] * v_4_in_j_2 - v_3_in_j_2 * h_i_cross_f_j_in_j_0;
+    const jg_real M_2_j_j_5 = s_j[1] * v_0_in_j_2 + C_j[7] * v_4_in_j_2 - v_3_in_j_2 * h_i_cross_f_j_in_j_1;
     const jg_real v_3_in_i_2 = A_ij_2 * v_3_in_j_0 + A_ij_5 * v_3_in_j_1 + A_ij_8 * v_3_in_j_2;
     const jg_real t103 = M_2_j_j_3 + v_7_in_j_2;
-    phi_q_t_lambda_q[63] = t103;
     const jg_real t104 = M_2_j_j_4 + M_2_j_j_8;
     const jg_real t105 = M_2_j_j_6 - v_7_in_j_1;
-    phi_q_t_lambda_q[69] = t105;
     const jg_real t106 = M_2_j_j_1 - v_7_in_j_2;
-    phi_q_t_lambda_q[58] = t106;
     const jg_real t107 = M_2_j_j_0 + M_2_j_j_8;
     const jg_real t108 = M_2_j_j_7 + v_7_in_j_0;
+    phi_q_t_lambda_q[7] = t23;
+    phi_q_t_lambda_q[23] = t23;
+    phi_q_t_lambda_q[8] = t24;
+    phi_q_t_lambda_q[35] = t24;
+    phi_q_t_lambda_q[63] = t103;
+    phi_q_t_lambda_q[69] = t105;
+    phi_q_t_lambda_q[58] = t106;
     phi_q_t_lambda_q[70] = t108;
     const jg_real t109 = M_2_j_j_2 + v_7_in_j_1;
-    phi_q_t_lambda_q[59] = t109;
     const jg_real t110 = M_2_j_j_5 - v_7_in_j_0;
-    phi_q_t_lambda_q[65] = t110;
     const jg_real t111 = M_2_j_j_0 + M_2_j_j_4;
-    const jg_real v_3_in_i_0 = A_ij_0 * v_3_in_j_0 + A_ij_3 * v_3_in_j_1 + A_ij_6 * v_3_in_j_2;
     /* M_0_i_i = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ... */
     const jg_real M_0_i_i_4 = v_0_in_i_1 * e_ij_in_i_1 - v_3_in_i_1 * h_i_cross_f_j_in_i_1 + h_j_in_i_1 *
         v_4_in_i_1;
@@ -450,53 +440,56 @@ void jg_screw_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, c
         v_4_in_i_2;
     const jg_real M_0_i_i_6 = v_0_in_i_0 * e_ij_in_i_2 - v_3_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
         v_4_in_i_0;
-    const jg_real M_0_i_i_7 = v_0_in_i_1 * e_ij_in_i_2 - v_3_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
-        v_4_in_i_1;
-    phi_q_t_lambda_q[20] = A_ij_6 * t111 - (A_ij_0 * t109 + A_ij_3 * t110);
-    const jg_real M_0_i_i_1 = v_0_in_i_1 * e_ij_in_i_0 - v_3_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
-        v_4_in_i_1;
+    const jg_real v_3_in_i_0 = A_ij_0 * v_3_in_j_0 + A_ij_3 * v_3_in_j_1 + A_ij_6 * v_3_in_j_2;
+    phi_q_t_lambda_q[59] = t109;
+    phi_q_t_lambda_q[65] = t110;
     phi_q_t_lambda_q[13] = M_0_i_i_3 - v_5_in_i_2;
-    const jg_real M_0_i_i_0 = v_0_in_i_0 * e_ij_in_i_0 - v_3_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
-        v_4_in_i_0;
     phi_q_t_lambda_q[14] = M_0_i_i_6 + v_5_in_i_1;
-    phi_q_t_lambda_q[26] = M_0_i_i_7 - v_5_in_i_0;
+    phi_q_t_lambda_q[20] = A_ij_6 * t111 - (A_ij_0 * t109 + A_ij_3 * t110);
     phi_q_t_lambda_q[18] = -(A_ij_3 * t103 - A_ij_0 * t104 + A_ij_6 * t105);
     phi_q_t_lambda_q[19] = -(A_ij_0 * t106 - A_ij_3 * t107 + A_ij_6 * t108);
-    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_5_in_i_2;
-    const jg_real M_0_i_i_5 = v_0_in_i_2 * e_ij_in_i_1 - v_3_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
-        v_4_in_i_2;
     phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
-    phi_q_t_lambda_q[30] = -(A_ij_4 * t103 - A_ij_1 * t104 + A_ij_7 * t105);
-    phi_q_t_lambda_q[32] = A_ij_7 * t111 - (A_ij_1 * t109 + A_ij_4 * t110);
-    phi_q_t_lambda_q[31] = -(A_ij_1 * t106 - A_ij_4 * t107 + A_ij_7 * t108);
+    const jg_real M_0_i_i_7 = v_0_in_i_1 * e_ij_in_i_2 - v_3_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
+        v_4_in_i_1;
+    const jg_real M_0_i_i_1 = v_0_in_i_1 * e_ij_in_i_0 - v_3_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
+        v_4_in_i_1;
+    const jg_real M_0_i_i_0 = v_0_in_i_0 * e_ij_in_i_0 - v_3_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
+        v_4_in_i_0;
     const jg_real M_0_i_i_2 = v_0_in_i_2 * e_ij_in_i_0 - v_3_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
         v_4_in_i_2;
-    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_5_in_i_0;
-    const jg_real t122 = M_2_j_j_8 + t111;
+    const jg_real M_0_i_i_5 = v_0_in_i_2 * e_ij_in_i_1 - v_3_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
+        v_4_in_i_2;
+    phi_q_t_lambda_q[26] = M_0_i_i_7 - v_5_in_i_0;
+    phi_q_t_lambda_q[30] = -(A_ij_4 * t103 - A_ij_1 * t104 + A_ij_7 * t105);
+    phi_q_t_lambda_q[32] = A_ij_7 * t111 - (A_ij_1 * t109 + A_ij_4 * t110);
+    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_5_in_i_2;
+    phi_q_t_lambda_q[31] = -(A_ij_1 * t106 - A_ij_4 * t107 + A_ij_7 * t108);
     phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
     phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[57] = -t104;
-    phi_q_t_lambda_q[64] = -t107;
     phi_q_t_lambda_q[36] = M_0_i_i_2 - v_5_in_i_1;
-    phi_q_t_lambda_q[44] = A_ij_8 * t111 - (A_ij_2 * t109 + A_ij_5 * t110);
-    phi_q_t_lambda_q[42] = -(A_ij_5 * t103 - A_ij_2 * t104 + A_ij_8 * t105);
+    const jg_real t122 = M_2_j_j_8 + t111;
     /* M_1_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
     const jg_real M_1_i_j_0 = s_j_in_i_0 * v_0_in_j_0 - v_3_in_i_0 * h_i_cross_f_j_in_j_0 + h_j_in_i_0 * v_4_in_j_0;
     const jg_real M_1_i_j_3 = s_j_in_i_1 * v_0_in_j_0 - v_3_in_i_1 * h_i_cross_f_j_in_j_0 + h_j_in_i_1 * v_4_in_j_0;
-    phi_q_t_lambda_q[43] = -(A_ij_2 * t106 - A_ij_5 * t107 + A_ij_8 * t108);
     const jg_real M_1_i_j_6 = s_j_in_i_2 * v_0_in_j_0 - v_3_in_i_2 * h_i_cross_f_j_in_j_0 + h_j_in_i_2 * v_4_in_j_0;
     const jg_real M_1_i_j_1 = s_j_in_i_0 * v_0_in_j_1 - v_3_in_i_0 * h_i_cross_f_j_in_j_1 + h_j_in_i_0 * v_4_in_j_1;
+    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_5_in_i_0;
+    phi_q_t_lambda_q[42] = -(A_ij_5 * t103 - A_ij_2 * t104 + A_ij_8 * t105);
+    phi_q_t_lambda_q[44] = A_ij_8 * t111 - (A_ij_2 * t109 + A_ij_5 * t110);
+    phi_q_t_lambda_q[43] = -(A_ij_2 * t106 - A_ij_5 * t107 + A_ij_8 * t108);
+    phi_q_t_lambda_q[57] = -t104;
+    phi_q_t_lambda_q[54] = A_ij_2 * v_5_in_i_1 - A_ij_1 * v_5_in_i_2 - (M_1_i_j_0 - A_ij_0 * t122);
+    phi_q_t_lambda_q[55] = A_ij_0 * v_5_in_i_2 - A_ij_2 * v_5_in_i_0 - (M_1_i_j_3 - A_ij_1 * t122);
+    phi_q_t_lambda_q[64] = -t107;
     const jg_real M_1_i_j_4 = s_j_in_i_1 * v_0_in_j_1 - v_3_in_i_1 * h_i_cross_f_j_in_j_1 + h_j_in_i_1 * v_4_in_j_1;
     const jg_real M_1_i_j_7 = s_j_in_i_2 * v_0_in_j_1 - v_3_in_i_2 * h_i_cross_f_j_in_j_1 + h_j_in_i_2 * v_4_in_j_1;
     const jg_real M_1_i_j_2 = s_j_in_i_0 * v_0_in_j_2 - v_3_in_i_0 * h_i_cross_f_j_in_j_2 + h_j_in_i_0 * v_4_in_j_2;
-    phi_q_t_lambda_q[71] = -t111;
-    phi_q_t_lambda_q[54] = A_ij_2 * v_5_in_i_1 - A_ij_1 * v_5_in_i_2 - (M_1_i_j_0 - A_ij_0 * t122);
-    phi_q_t_lambda_q[55] = A_ij_0 * v_5_in_i_2 - A_ij_2 * v_5_in_i_0 - (M_1_i_j_3 - A_ij_1 * t122);
     const jg_real M_1_i_j_5 = s_j_in_i_1 * v_0_in_j_2 - v_3_in_i_1 * h_i_cross_f_j_in_j_2 + h_j_in_i_1 * v_4_in_j_2;
+    const jg_real M_1_i_j_8 = s_j_in_i_2 * v_0_in_j_2 - v_3_in_i_2 * h_i_cross_f_j_in_j_2 + h_j_in_i_2 * v_4_in_j_2;
     phi_q_t_lambda_q[56] = A_ij_1 * v_5_in_i_0 - A_ij_0 * v_5_in_i_1 - (M_1_i_j_6 - A_ij_2 * t122);
     phi_q_t_lambda_q[60] = A_ij_5 * v_5_in_i_1 - A_ij_4 * v_5_in_i_2 - (M_1_i_j_1 - A_ij_3 * t122);
     phi_q_t_lambda_q[61] = A_ij_3 * v_5_in_i_2 - A_ij_5 * v_5_in_i_0 - (M_1_i_j_4 - A_ij_4 * t122);
-    const jg_real M_1_i_j_8 = s_j_in_i_2 * v_0_in_j_2 - v_3_in_i_2 * h_i_cross_f_j_in_j_2 + h_j_in_i_2 * v_4_in_j_2;
+    phi_q_t_lambda_q[71] = -t111;
     phi_q_t_lambda_q[62] = A_ij_4 * v_5_in_i_0 - A_ij_3 * v_5_in_i_1 - (M_1_i_j_7 - A_ij_5 * t122);
     phi_q_t_lambda_q[66] = A_ij_8 * v_5_in_i_1 - A_ij_7 * v_5_in_i_2 - (M_1_i_j_2 - A_ij_6 * t122);
     phi_q_t_lambda_q[67] = A_ij_6 * v_5_in_i_2 - A_ij_8 * v_5_in_i_0 - (M_1_i_j_5 - A_ij_7 * t122);
@@ -512,9 +505,8 @@ void jg_screw_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i
     jg_scatter(jg_screw_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_screw_conventional_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -528,86 +520,86 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
     const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
-    /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
     const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = g_i_world_0 * A_j[6] + g_i_world_1 * A_j[7] + g_i_world_2 * A_j[8];
     const jg_real g_i_in_j_1 = g_i_world_0 * A_j[3] + g_i_world_1 * A_j[4] + g_i_world_2 * A_j[5];
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     const jg_real g_i_in_j_0 = g_i_world_0 * A_j[0] + g_i_world_1 * A_j[1] + g_i_world_2 * A_j[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
+    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* g_i_dot_omega_j = g_i . omega_j */
+    const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = f_i_dot_omega_i * f_i_dot_omega_i + g_i_dot_omega_i * g_i_dot_omega_i +
+        h_i_dot_omega_i * h_i_dot_omega_i;
+    /* s_j_dot_f_i = s_j . f_i */
+    const jg_real s_j_dot_f_i = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
+    /* s_j_dot_g_i = s_j . g_i */
+    const jg_real s_j_dot_g_i = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
+    /* h_i_dot_omega_j = h_i . omega_j */
+    const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
+    /* s_j_dot_h_i = s_j . h_i */
+    const jg_real s_j_dot_h_i = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
         f_i_world_2;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = f_i_dot_omega_i * f_i_dot_omega_i + g_i_dot_omega_i * g_i_dot_omega_i +
-        h_i_dot_omega_i * h_i_dot_omega_i;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = f_i_in_j_1 * g_i_in_j_2 - f_i_in_j_2 * g_i_in_j_1;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    const jg_real h_i_in_j_1 = f_i_in_j_2 * g_i_in_j_0 - f_i_in_j_0 * g_i_in_j_2;
-    const jg_real h_i_in_j_2 = f_i_in_j_0 * g_i_in_j_1 - f_i_in_j_1 * g_i_in_j_0;
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
-    /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
-    /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
-    /* r_ij_dot_g_i = r_ij . g_i */
-    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
-        g_i_world_2;
-    /* s_j_dot_g_i = s_j . g_i */
-    const jg_real s_j_dot_g_i = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
-    /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
-        h_i_world_2;
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
-    /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
-    const jg_real f_i_cross_omega_i_world_0 = g_i_dot_omega_i * h_i_world_0 - h_i_dot_omega_i * g_i_world_0;
-    const jg_real f_i_cross_omega_i_world_1 = g_i_dot_omega_i * h_i_world_1 - h_i_dot_omega_i * g_i_world_1;
-    /* h_i_dot_omega_j = h_i . omega_j */
-    const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
-    /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
-    const jg_real f_i_cross_omega_i_world_2 = g_i_dot_omega_i * h_i_world_2 - h_i_dot_omega_i * g_i_world_2;
-    /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
-    const jg_real g_i_cross_omega_i_world_0 = h_i_dot_omega_i * f_i_world_0 - f_i_dot_omega_i * h_i_world_0;
-    const jg_real g_i_cross_omega_i_world_1 = h_i_dot_omega_i * f_i_world_1 - f_i_dot_omega_i * h_i_world_1;
-    /* r_ij_dot_omega_i = r_ij . omega_i */
-    const jg_real r_ij_dot_omega_i = f_i_dot_omega_i * r_ij_dot_f_i + g_i_dot_omega_i * r_ij_dot_g_i +
-        h_i_dot_omega_i * r_ij_dot_h_i;
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = f_i_dot_omega_i * f_i_dot_omega_j + g_i_dot_omega_i * g_i_dot_omega_j +
         h_i_dot_omega_i * h_i_dot_omega_j;
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = f_i_dot_omega_i * s_j_dot_f_i + g_i_dot_omega_i * s_j_dot_g_i + h_i_dot_omega_i
         * s_j_dot_h_i;
+    /* r_ij_dot_g_i = r_ij . g_i */
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
+    /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
+    const jg_real f_i_cross_omega_i_world_0 = g_i_dot_omega_i * h_i_world_0 - h_i_dot_omega_i * g_i_world_0;
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
+    const jg_real f_i_cross_omega_i_world_1 = g_i_dot_omega_i * h_i_world_1 - h_i_dot_omega_i * g_i_world_1;
+    const jg_real f_i_cross_omega_i_world_2 = g_i_dot_omega_i * h_i_world_2 - h_i_dot_omega_i * g_i_world_2;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
+    const jg_real t41 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
+    /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
+    const jg_real g_i_cross_omega_i_world_0 = h_i_dot_omega_i * f_i_world_0 - f_i_dot_omega_i * h_i_world_0;
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = f_i_dot_omega_i * r_ij_dot_f_i + g_i_dot_omega_i * r_ij_dot_g_i +
+        h_i_dot_omega_i * r_ij_dot_h_i;
+    const jg_real g_i_cross_omega_i_world_1 = h_i_dot_omega_i * f_i_world_1 - f_i_dot_omega_i * h_i_world_1;
     const jg_real g_i_cross_omega_i_world_2 = h_i_dot_omega_i * f_i_world_2 - f_i_dot_omega_i * h_i_world_2;
     /* h_i_dot_h_j = h_i . h_j */
     const jg_real h_i_dot_h_j = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    const jg_real t47 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
     /* f_j_in_joint_i = f_j, axes of joint i */
@@ -620,55 +612,54 @@ void jg_screw_conventional_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = f_i_dot_omega_i * f_i_dot_h_j + g_i_dot_omega_i * g_i_dot_h_j + h_i_dot_omega_i
         * h_i_dot_h_j;
-    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
-    const jg_real h_i_cross_omega_i_world_0 = f_i_dot_omega_i * g_i_world_0 - g_i_dot_omega_i * f_i_world_0;
-    const jg_real t55 = g_i_dot_omega_i * f_j_in_joint_i_0 - f_i_dot_omega_i * f_j_in_joint_i_1;
-    const jg_real t56 = g_i_dot_omega_j * f_j_in_joint_i_0 - f_i_dot_omega_j * f_j_in_joint_i_1;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - f_j_in_joint_i_2 * f_j_in_joint_i_2);
     /* omega_i_cross_f_j_in_joint_i = omega_i x f_j, axes of joint i */
-    const jg_real omega_i_cross_f_j_in_joint_i_0 = g_i_dot_omega_i * f_j_in_joint_i_2 - h_i_dot_omega_i *
-        f_j_in_joint_i_1;
     const jg_real omega_i_cross_f_j_in_joint_i_1 = h_i_dot_omega_i * f_j_in_joint_i_0 - f_i_dot_omega_i *
         f_j_in_joint_i_2;
-    const jg_real h_i_cross_omega_i_world_1 = f_i_dot_omega_i * g_i_world_1 - g_i_dot_omega_i * f_i_world_1;
-    const jg_real t61 = JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j;
+    /* h_i_cross_omega_i_world = h_i x omega_i, world axes */
+    const jg_real h_i_cross_omega_i_world_0 = f_i_dot_omega_i * g_i_world_0 - g_i_dot_omega_i * f_i_world_0;
+    const jg_real t57 = g_i_dot_omega_i * f_j_in_joint_i_0 - f_i_dot_omega_i * f_j_in_joint_i_1;
+    const jg_real t58 = g_i_dot_omega_j * f_j_in_joint_i_0 - f_i_dot_omega_j * f_j_in_joint_i_1;
+    const jg_real omega_i_cross_f_j_in_joint_i_0 = g_i_dot_omega_i * f_j_in_joint_i_2 - h_i_dot_omega_i *
+        f_j_in_joint_i_1;
+    const jg_real t60 = JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = f_i_dot_omega_j * f_j_in_joint_i_0 + g_i_dot_omega_j * f_j_in_joint_i_1 +
         h_i_dot_omega_j * f_j_in_joint_i_2;
     /* omega_i_dot_f_j = omega_i . f_j */
     const jg_real omega_i_dot_f_j = f_i_dot_omega_i * f_j_in_joint_i_0 + g_i_dot_omega_i * f_j_in_joint_i_1 +
         h_i_dot_omega_i * f_j_in_joint_i_2;
-    const jg_real t64 = t56 - t55;
+    const jg_real t63 = t58 - t57;
+    const jg_real h_i_cross_omega_i_world_1 = f_i_dot_omega_i * g_i_world_1 - g_i_dot_omega_i * f_i_world_1;
     const jg_real h_i_cross_omega_i_world_2 = f_i_dot_omega_i * g_i_world_2 - g_i_dot_omega_i * f_i_world_2;
     const jg_real t66 = omega_i_dot_f_j - omega_j_dot_f_j;
-    gamma[0] = s_j_dot_f_i * t47 + s_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) +
+    const jg_real t67 = t57 * t66;
+    const jg_real t68 = t58 * t66;
+    gamma[0] = s_j_dot_f_i * t41 + s_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) +
         omega_i_dot_omega_i * r_ij_dot_f_i - f_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j * f_i_dot_omega_j
         - (f_i_cross_omega_i_world_0 * v_i[0] + f_i_cross_omega_i_world_1 * v_i[1] + f_i_cross_omega_i_world_2 *
         v_i[2]) * JG_REAL(2.0) + (f_i_cross_omega_i_world_0 * v_j[0] + f_i_cross_omega_i_world_1 * v_j[1] +
         f_i_cross_omega_i_world_2 * v_j[2]) * JG_REAL(2.0);
-    gamma[1] = s_j_dot_g_i * t47 + s_j_dot_omega_i * (g_i_dot_omega_j * JG_REAL(2.0) - g_i_dot_omega_i) +
+    gamma[1] = s_j_dot_g_i * t41 + s_j_dot_omega_i * (g_i_dot_omega_j * JG_REAL(2.0) - g_i_dot_omega_i) +
         omega_i_dot_omega_i * r_ij_dot_g_i - g_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
         - JG_REAL(2.0) * (v_i[0] * g_i_cross_omega_i_world_0 + v_i[1] * g_i_cross_omega_i_world_1 + v_i[2] *
         g_i_cross_omega_i_world_2) + JG_REAL(2.0) * (v_j[0] * g_i_cross_omega_i_world_0 + v_j[1] *
         g_i_cross_omega_i_world_1 + v_j[2] * g_i_cross_omega_i_world_2);
-    const jg_real t67 = t55 * t66;
-    const jg_real t68 = t56 * t66;
-    gamma[2] = t47 * f_i_dot_h_j + f_i_dot_omega_j * t61 - f_i_dot_omega_i * omega_i_dot_h_j;
-    gamma[3] = t47 * g_i_dot_h_j + g_i_dot_omega_j * t61 - g_i_dot_omega_i * omega_i_dot_h_j;
-    gamma[4] = (f_j_in_joint_i_2 * ((f_j_in_joint_i_2 * (t67 - t68) + h_i_dot_omega_i * t64 - h_i_dot_omega_j * t64)
+    gamma[2] = t41 * f_i_dot_h_j + f_i_dot_omega_j * t60 - f_i_dot_omega_i * omega_i_dot_h_j;
+    gamma[3] = t41 * g_i_dot_h_j + g_i_dot_omega_j * t60 - g_i_dot_omega_i * omega_i_dot_h_j;
+    gamma[4] = (f_j_in_joint_i_2 * ((f_j_in_joint_i_2 * (t67 - t68) + h_i_dot_omega_i * t63 - h_i_dot_omega_j * t63)
         * (JG_REAL(2.0) * spread) - (f_i_dot_omega_j * omega_i_cross_f_j_in_joint_i_0 + g_i_dot_omega_j *
-        omega_i_cross_f_j_in_joint_i_1 - h_i_dot_omega_j * t55)) - t68 + t67 - (f_i_dot_omega_i * g_i_dot_omega_j -
-        g_i_dot_omega_i * f_i_dot_omega_j)) * (pitch * spread) + s_j_dot_h_i * t47 + s_j_dot_omega_i *
+        omega_i_cross_f_j_in_joint_i_1 - h_i_dot_omega_j * t57)) - t68 + t67 - (f_i_dot_omega_i * g_i_dot_omega_j -
+        g_i_dot_omega_i * f_i_dot_omega_j)) * (pitch * spread) + s_j_dot_h_i * t41 + s_j_dot_omega_i *
         (h_i_dot_omega_j * JG_REAL(2.0) - h_i_dot_omega_i) + omega_i_dot_omega_i * r_ij_dot_h_i - h_i_dot_omega_i *
         r_ij_dot_omega_i - s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0) * (v_i[0] * h_i_cross_omega_i_world_0 +
         v_i[1] * h_i_cross_omega_i_world_1 + v_i[2] * h_i_cross_omega_i_world_2) + JG_REAL(2.0) * (v_j[0] *
         h_i_cross_omega_i_world_0 + v_j[1] * h_i_cross_omega_i_world_1 + v_j[2] * h_i_cross_omega_i_world_2);
 }
 
-void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_screw_conventional_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -678,26 +669,24 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    /* h_i_dot_omega_i = h_i . omega_i */
-    const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
     /* g_i_in_j = g_i, axes of body j */
@@ -709,15 +698,9 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
         g_i_world_2;
     /* f_i_dot_v_i = f_i . v_i */
     const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
-    /* f_i_dot_v_j = f_i . v_j */
-    const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
-    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
-        f_i_world_2;
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = h_i_world_0 * A_j[0] + h_i_world_1 * A_j[1] + h_i_world_2 * A_j[2];
     const jg_real h_i_in_j_1 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + h_i_world_2 * A_j[5];
-    /* g_i_dot_v_i = g_i . v_i */
-    const jg_real g_i_dot_v_i = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     const jg_real h_i_in_j_2 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + h_i_world_2 * A_j[8];
     const jg_real r_ij_in_joint_i_2 = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
         h_i_world_2;
@@ -726,47 +709,55 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
         omega_j[2];
     /* s_j_in_joint_i = s_j, axes of joint i */
     const jg_real s_j_in_joint_i_1 = s_j[0] * g_i_in_j_0 + s_j[1] * g_i_in_j_1 + s_j[2] * g_i_in_j_2;
-    /* g_i_dot_v_j = g_i . v_j */
-    const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    /* f_i_dot_v_j = f_i . v_j */
+    const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
     const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
-    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
     const jg_real s_j_in_joint_i_2 = s_j[0] * h_i_in_j_0 + s_j[1] * h_i_in_j_1 + s_j[2] * h_i_in_j_2;
     const jg_real omega_j_in_joint_i_2 = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 *
         omega_j[2];
-    /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
-    /* g_i_dot_f_j = g_i . f_j */
-    const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
-    const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
+        f_i_world_2;
+    /* g_i_dot_v_i = g_i . v_i */
+    const jg_real g_i_dot_v_i = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     const jg_real s_j_in_joint_i_0 = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
     const jg_real omega_j_in_joint_i_0 = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 *
         omega_j[2];
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    /* g_i_dot_v_j = g_i . v_j */
+    const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    /* h_j_in_joint_i = h_j, axes of joint i */
+    const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
+    const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
     const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
-    phi_q_v[2] = omega_j_in_joint_i_1 * h_j_in_joint_i_2 - omega_j_in_joint_i_2 * h_j_in_joint_i_1 -
-        (g_i_dot_omega_i * h_j_in_joint_i_2 - h_i_dot_omega_i * h_j_in_joint_i_1);
-    /* h_i_dot_v_i = h_i . v_i */
-    const jg_real h_i_dot_v_i = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
-    /* h_i_dot_v_j = h_i . v_j */
-    const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
-    phi_q_v[3] = omega_j_in_joint_i_2 * h_j_in_joint_i_0 - omega_j_in_joint_i_0 * h_j_in_joint_i_2 -
-        (h_i_dot_omega_i * h_j_in_joint_i_0 - f_i_dot_omega_i * h_j_in_joint_i_2);
-    phi_q_v[0] = s_j_in_joint_i_2 * omega_j_in_joint_i_1 - s_j_in_joint_i_1 * omega_j_in_joint_i_2 -
-        (r_ij_in_joint_i_2 * g_i_dot_omega_i - r_ij_in_joint_i_1 * h_i_dot_omega_i + (g_i_dot_omega_i *
-        s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1) + f_i_dot_v_i - f_i_dot_v_j);
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    /* g_i_dot_f_j = g_i . f_j */
+    const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j_in_joint_i_0 * f_i_dot_f_j + omega_j_in_joint_i_1 * g_i_dot_f_j +
         omega_j_in_joint_i_2 * h_i_dot_f_j;
     /* omega_i_dot_f_j = omega_i . f_j */
     const jg_real omega_i_dot_f_j = f_i_dot_omega_i * f_i_dot_f_j + g_i_dot_omega_i * g_i_dot_f_j + h_i_dot_omega_i
         * h_i_dot_f_j;
+    /* h_i_dot_v_i = h_i . v_i */
+    const jg_real h_i_dot_v_i = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
+    /* h_i_dot_v_j = h_i . v_j */
+    const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    phi_q_v[0] = s_j_in_joint_i_2 * omega_j_in_joint_i_1 - s_j_in_joint_i_1 * omega_j_in_joint_i_2 -
+        (r_ij_in_joint_i_2 * g_i_dot_omega_i - r_ij_in_joint_i_1 * h_i_dot_omega_i + (g_i_dot_omega_i *
+        s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1) + f_i_dot_v_i - f_i_dot_v_j);
+    phi_q_v[2] = omega_j_in_joint_i_1 * h_j_in_joint_i_2 - omega_j_in_joint_i_2 * h_j_in_joint_i_1 -
+        (g_i_dot_omega_i * h_j_in_joint_i_2 - h_i_dot_omega_i * h_j_in_joint_i_1);
+    phi_q_v[3] = omega_j_in_joint_i_2 * h_j_in_joint_i_0 - omega_j_in_joint_i_0 * h_j_in_joint_i_2 -
+        (h_i_dot_omega_i * h_j_in_joint_i_0 - f_i_dot_omega_i * h_j_in_joint_i_2);
     phi_q_v[1] = s_j_in_joint_i_0 * omega_j_in_joint_i_2 - s_j_in_joint_i_2 * omega_j_in_joint_i_0 -
         (r_ij_in_joint_i_0 * h_i_dot_omega_i - r_ij_in_joint_i_2 * f_i_dot_omega_i + (h_i_dot_omega_i *
         s_j_in_joint_i_0 - f_i_dot_omega_i * s_j_in_joint_i_2) + g_i_dot_v_i - g_i_dot_v_j);
@@ -776,9 +767,8 @@ void jg_screw_conventional_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real
         h_i_dot_omega_i + omega_j_in_joint_i_2) * (pitch * spread)) + h_i_dot_v_i - h_i_dot_v_j);
 }
 
-void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_screw_conventional_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -795,59 +785,53 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real g_i_world_1 = f_i_world_0 * h_i_world_2 - f_i_world_2 * h_i_world_0;
     const jg_real g_i_world_2 = f_i_world_1 * h_i_world_0 - f_i_world_0 * h_i_world_1;
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real v_2_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
-    const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
     const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
-    phi_q_t_lambda[6] = v_0_world_0;
+    const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
-    phi_q_t_lambda[7] = v_0_world_1;
     const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
-    phi_q_t_lambda[8] = v_0_world_2;
-    phi_q_t_lambda[0] = -v_0_world_0;
-    phi_q_t_lambda[1] = -v_0_world_1;
-    phi_q_t_lambda[2] = -v_0_world_2;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_3_world = lambda_2 f_i x h_j + lambda_3 g_i x h_j, world axes */
     const jg_real v_3_world_0 = h_j_world_2 * v_2_world_1 - h_j_world_1 * v_2_world_2;
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    const jg_real v_3_world_1 = h_j_world_0 * v_2_world_2 - h_j_world_2 * v_2_world_0;
-    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - h_j_world_0 * v_2_world_1;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* v_1_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, world axes */
     const jg_real v_1_world_0 = v_0_world_2 * s_j_world_1 - v_0_world_1 * s_j_world_2;
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* v_7_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i + lambda_4 r_ij x h_i, world axes */
     const jg_real v_7_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
     const jg_real v_1_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
-    const jg_real v_7_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
     const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
-    const jg_real v_7_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
     /* v_4_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i - lambda_2 f_i x h_j - ... */
     const jg_real v_4_world_0 = v_1_world_0 - v_3_world_0;
+    const jg_real v_3_world_1 = h_j_world_0 * v_2_world_2 - h_j_world_2 * v_2_world_0;
+    const jg_real v_7_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - h_j_world_0 * v_2_world_1;
+    const jg_real v_7_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
     /* across_world = across, world axes */
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
-    const jg_real v_4_world_1 = v_1_world_1 - v_3_world_1;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
-    const jg_real v_4_world_2 = v_1_world_2 - v_3_world_2;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
+    const jg_real v_4_world_1 = v_1_world_1 - v_3_world_1;
+    const jg_real v_4_world_2 = v_1_world_2 - v_3_world_2;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     const jg_real t44 = lambda[4] * spread * pitch;
@@ -870,8 +854,14 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     const jg_real v_6_in_j_2 = A_j[6] * v_6_world_0 + A_j[7] * v_6_world_1 + A_j[8] * v_6_world_2;
     /* v_8_in_i = lambda_4 spread pitch across - lambda_0 r_ij x f_i - lambda_1 r_ij x g_i - lambda_4 r_ij x ... */
     const jg_real v_8_in_i_0 = A_i[0] * v_8_world_0 + A_i[1] * v_8_world_1 + A_i[2] * v_8_world_2;
-    phi_q_t_lambda[3] = v_8_in_i_0;
     const jg_real v_8_in_i_1 = A_i[3] * v_8_world_0 + A_i[4] * v_8_world_1 + A_i[5] * v_8_world_2;
+    phi_q_t_lambda[6] = v_0_world_0;
+    phi_q_t_lambda[7] = v_0_world_1;
+    phi_q_t_lambda[8] = v_0_world_2;
+    phi_q_t_lambda[0] = -v_0_world_0;
+    phi_q_t_lambda[1] = -v_0_world_1;
+    phi_q_t_lambda[2] = -v_0_world_2;
+    phi_q_t_lambda[3] = v_8_in_i_0;
     phi_q_t_lambda[4] = v_8_in_i_1;
     const jg_real v_8_in_i_2 = A_i[6] * v_8_world_0 + A_i[7] * v_8_world_1 + A_i[8] * v_8_world_2;
     phi_q_t_lambda[5] = v_8_in_i_2;
@@ -880,10 +870,9 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
     phi_q_t_lambda[11] = -v_6_in_j_2;
 }
 
-void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_screw_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -900,406 +889,400 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    /* v_7_in_i = lambda_0 f_i, axes of body i */
-    const jg_real v_7_in_i_1 = C_i[1] * lambda[0];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real v_7_in_i_2 = C_i[2] * lambda[0];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real v_7_in_i_0 = C_i[0] * lambda[0];
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    /* v_7_in_i = lambda_0 f_i, axes of body i */
+    const jg_real v_7_in_i_1 = C_i[1] * lambda[0];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    /* v_6_in_i = lambda_1 g_i + lambda_4 h_i, axes of body i */
-    const jg_real v_6_in_i_1 = C_i[4] * lambda[1] + C_i[7] * lambda[4];
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    const jg_real v_6_in_i_2 = C_i[5] * lambda[1] + C_i[8] * lambda[4];
-    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    /* v_8_in_i = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body i */
-    const jg_real v_8_in_i_1 = v_6_in_i_1 + v_7_in_i_1;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    const jg_real v_8_in_i_2 = v_6_in_i_2 + v_7_in_i_2;
-    const jg_real v_6_in_i_0 = C_i[3] * lambda[1] + C_i[6] * lambda[4];
-    /* v_15_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
-    const jg_real v_15_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
-    const jg_real v_15_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real v_8_in_i_0 = v_6_in_i_0 + v_7_in_i_0;
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
-    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
-    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
+    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
     const jg_real h_i_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
     const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
-    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
-    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_1 = A_j[1] * g_i_in_j_0 + A_j[4] * g_i_in_j_1 + A_j[7] * g_i_in_j_2;
-    phi_q[28] = g_i_world_1;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = A_j[2] * h_i_in_j_0 + A_j[5] * h_i_in_j_1 + A_j[8] * h_i_in_j_2;
-    phi_q[32] = h_i_world_2;
-    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
     const jg_real g_i_world_2 = A_j[2] * g_i_in_j_0 + A_j[5] * g_i_in_j_1 + A_j[8] * g_i_in_j_2;
-    phi_q[31] = g_i_world_2;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
     const jg_real h_i_world_1 = A_j[1] * h_i_in_j_0 + A_j[4] * h_i_in_j_1 + A_j[7] * h_i_in_j_2;
-    phi_q[29] = h_i_world_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     const jg_real h_i_world_0 = A_j[0] * h_i_in_j_0 + A_j[3] * h_i_in_j_1 + A_j[6] * h_i_in_j_2;
-    phi_q[26] = h_i_world_0;
     const jg_real g_i_world_0 = A_j[0] * g_i_in_j_0 + A_j[3] * g_i_in_j_1 + A_j[6] * g_i_in_j_2;
-    phi_q[25] = g_i_world_0;
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = g_i_in_j_0 * s_j[0] + g_i_in_j_1 * s_j[1] + g_i_in_j_2 * s_j[2];
-    /* s_j_dot_h_i = s_j . h_i */
-    const jg_real s_j_dot_h_i = h_i_in_j_0 * s_j[0] + h_i_in_j_1 * s_j[1] + h_i_in_j_2 * s_j[2];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
-    phi[2] = f_i_dot_h_j;
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
-    phi[3] = g_i_dot_h_j;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - h_i_world_2 * g_i_world_0;
+    phi_q[28] = g_i_world_1;
+    phi_q[32] = h_i_world_2;
+    phi_q[31] = g_i_world_2;
+    phi_q[29] = h_i_world_1;
+    phi_q[26] = h_i_world_0;
+    phi_q[25] = g_i_world_0;
     phi_q[24] = f_i_world_0;
-    phi_q[1] = -g_i_world_0;
-    phi_q[2] = -h_i_world_0;
-    const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - g_i_world_0 * h_i_world_2;
     phi_q[27] = f_i_world_1;
-    const jg_real f_i_world_2 = g_i_world_0 * h_i_world_1 - g_i_world_1 * h_i_world_0;
-    phi_q[30] = f_i_world_2;
-    phi_q[4] = -g_i_world_1;
+    const jg_real f_i_world_2 = h_i_world_1 * g_i_world_0 - g_i_world_1 * h_i_world_0;
     /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = s_j[0] * f_i_in_j_0 + s_j[1] * f_i_in_j_1 + s_j[2] * f_i_in_j_2;
-    phi_q[5] = -h_i_world_1;
-    phi_q[7] = -g_i_world_2;
-    phi_q[8] = -h_i_world_2;
-    /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
-    const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
-    phi_q[11] = f_i_cross_h_j_in_i_0;
-    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
-    const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
-    phi_q[12] = g_i_cross_h_j_in_i_0;
-    /* g_i_dot_f_j = g_i . f_j */
-    const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
-    phi_q[0] = -f_i_world_0;
+    const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
+    /* s_j_dot_h_i = s_j . h_i */
+    const jg_real s_j_dot_h_i = h_i_in_j_0 * s_j[0] + h_i_in_j_1 * s_j[1] + h_i_in_j_2 * s_j[2];
     /* r_ij_dot_g_i = r_ij . g_i */
-    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
-        g_i_world_2;
+    const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
-        h_i_world_2;
-    phi_q[3] = -f_i_world_1;
-    phi_q[6] = -f_i_world_2;
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + h_i_world_1 * r_ij_world_1 + h_i_world_2 *
+        r_ij_world_2;
     /* e_ij_in_joint_i = r_ij + s_j, axes of joint i */
     const jg_real e_ij_in_joint_i_1 = r_ij_dot_g_i + s_j_dot_g_i;
+    /* f_i_dot_f_j = f_i . f_j */
+    const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
     const jg_real e_ij_in_joint_i_2 = r_ij_dot_h_i + s_j_dot_h_i;
-    const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
-    phi_q[16] = f_i_cross_h_j_in_i_1;
+    phi_q[30] = f_i_world_2;
+    phi_q[0] = -f_i_world_0;
+    phi_q[1] = -g_i_world_0;
+    phi_q[2] = -h_i_world_0;
+    phi_q[3] = -f_i_world_1;
+    phi_q[4] = -g_i_world_1;
+    phi_q[5] = -h_i_world_1;
+    phi_q[6] = -f_i_world_2;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    /* g_i_dot_f_j = g_i . f_j */
+    const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
+    const jg_real e_ij_in_joint_i_0 = r_ij_dot_f_i + s_j_dot_f_i;
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
-    const jg_real g_i_cross_h_j_in_i_1 = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
-    phi_q[17] = g_i_cross_h_j_in_i_1;
-    const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
-    phi_q[21] = f_i_cross_h_j_in_i_2;
-    const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
-    phi_q[22] = g_i_cross_h_j_in_i_2;
-    /* r_ij_dot_f_i = r_ij . f_i */
-    const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
-        f_i_world_2;
-    /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
-    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - s_j[2] * f_i_in_j_1;
-    phi_q[33] = s_j_cross_f_i_in_j_0;
+    /* f_i_cross_h_j_in_i = f_i x h_j, axes of body i */
+    const jg_real f_i_cross_h_j_in_i_0 = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
+    /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
+    const jg_real g_i_cross_h_j_in_i_0 = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real f_i_cross_h_j_in_i_1 = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    const jg_real g_i_cross_h_j_in_i_1 = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
+    phi_q[7] = -g_i_world_2;
+    phi[2] = f_i_dot_h_j;
+    phi_q[8] = -h_i_world_2;
+    phi[3] = g_i_dot_h_j;
+    phi_q[11] = f_i_cross_h_j_in_i_0;
+    phi_q[12] = g_i_cross_h_j_in_i_0;
+    phi_q[16] = f_i_cross_h_j_in_i_1;
+    phi_q[17] = g_i_cross_h_j_in_i_1;
+    const jg_real f_i_cross_h_j_in_i_2 = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
+    const jg_real g_i_cross_h_j_in_i_2 = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
+    const jg_real e_ij_in_i_0 = e_ij_in_joint_i_0 * C_i[0] + C_i[3] * e_ij_in_joint_i_1 + C_i[6] *
+        e_ij_in_joint_i_2;
+    const jg_real e_ij_in_i_1 = e_ij_in_joint_i_0 * C_i[1] + C_i[4] * e_ij_in_joint_i_1 + C_i[7] *
+        e_ij_in_joint_i_2;
+    const jg_real e_ij_in_i_2 = e_ij_in_joint_i_0 * C_i[2] + C_i[5] * e_ij_in_joint_i_1 + C_i[8] *
+        e_ij_in_joint_i_2;
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    /* s_j_cross_f_i_in_j = s_j x f_i, axes of body j */
+    const jg_real s_j_cross_f_i_in_j_0 = s_j[1] * f_i_in_j_2 - f_i_in_j_1 * s_j[2];
     /* s_j_cross_g_i_in_j = s_j x g_i, axes of body j */
     const jg_real s_j_cross_g_i_in_j_0 = g_i_in_j_2 * s_j[1] - g_i_in_j_1 * s_j[2];
-    phi_q[34] = s_j_cross_g_i_in_j_0;
-    phi_q[35] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
-    phi_q[36] = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
-    const jg_real e_ij_in_joint_i_0 = r_ij_dot_f_i + s_j_dot_f_i;
-    /* v_4_in_j = (h_i . f_j) f_j, axes of body j */
-    const jg_real v_4_in_j_0 = C_j[0] * h_i_dot_f_j;
-    /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
-    const jg_real s_j_cross_h_i_in_j_0 = h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2];
-    const jg_real s_j_cross_f_i_in_j_1 = s_j[2] * f_i_in_j_0 - s_j[0] * f_i_in_j_2;
-    phi_q[38] = s_j_cross_f_i_in_j_1;
-    const jg_real v_4_in_j_1 = C_j[1] * h_i_dot_f_j;
-    const jg_real s_j_cross_g_i_in_j_1 = g_i_in_j_0 * s_j[2] - g_i_in_j_2 * s_j[0];
-    phi_q[39] = s_j_cross_g_i_in_j_1;
-    phi_q[40] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
-    phi_q[41] = g_i_in_j_0 * C_j[8] - g_i_in_j_2 * C_j[6];
-    /* across_in_i = across, axes of body i */
-    const jg_real across_in_i_0 = C_i[6] - h_i_dot_f_j * f_j_in_i_0;
-    const jg_real across_in_i_1 = C_i[7] - h_i_dot_f_j * f_j_in_i_1;
-    const jg_real across_in_i_2 = C_i[8] - h_i_dot_f_j * f_j_in_i_2;
-    /* across_in_j = across, axes of body j */
-    const jg_real across_in_j_0 = h_i_in_j_0 - v_4_in_j_0;
-    const jg_real across_in_j_1 = h_i_in_j_1 - v_4_in_j_1;
-    const jg_real s_j_cross_h_i_in_j_1 = h_i_in_j_0 * s_j[2] - h_i_in_j_2 * s_j[0];
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    const jg_real v_4_in_j_2 = C_j[2] * h_i_dot_f_j;
-    const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - s_j[1] * f_i_in_j_0;
-    phi_q[43] = s_j_cross_f_i_in_j_2;
-    const jg_real t84 = A_i[6] * v_8_in_i_1 - A_i[3] * v_8_in_i_2;
-    phi_q_t_lambda_q[15] = t84;
-    phi_q_t_lambda_q[45] = t84;
-    /* e_ij_in_i = r_ij + s_j, axes of body i */
-    const jg_real e_ij_in_i_0 = C_i[0] * e_ij_in_joint_i_0 + C_i[3] * e_ij_in_joint_i_1 + C_i[6] *
-        e_ij_in_joint_i_2;
-    const jg_real e_ij_in_i_1 = C_i[1] * e_ij_in_joint_i_0 + C_i[4] * e_ij_in_joint_i_1 + C_i[7] *
-        e_ij_in_joint_i_2;
-    const jg_real e_ij_in_i_2 = C_i[2] * e_ij_in_joint_i_0 + C_i[5] * e_ij_in_joint_i_1 + C_i[8] *
-        e_ij_in_joint_i_2;
-    const jg_real s_j_cross_g_i_in_j_2 = g_i_in_j_1 * s_j[0] - g_i_in_j_0 * s_j[1];
-    phi_q[44] = s_j_cross_g_i_in_j_2;
-    phi_q[45] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
-    phi_q[46] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
-    const jg_real across_in_j_2 = h_i_in_j_2 - v_4_in_j_2;
-    const jg_real s_j_cross_h_i_in_j_2 = h_i_in_j_1 * s_j[0] - h_i_in_j_0 * s_j[1];
-    const jg_real t91 = -t84;
-    phi_q_t_lambda_q[0] = t91;
-    phi_q_t_lambda_q[9] = t91;
-    const jg_real t92 = v_8_in_i_2 * A_i[0] - A_i[6] * v_8_in_i_0;
-    phi_q_t_lambda_q[27] = t92;
-    phi_q_t_lambda_q[46] = t92;
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi_q[9] = C_i[1] * e_ij_in_i_2 - C_i[2] * e_ij_in_i_1;
-    phi_q[10] = C_i[4] * e_ij_in_i_2 - C_i[5] * e_ij_in_i_1;
+    /* across_in_i = across, axes of body i */
+    const jg_real across_in_i_0 = C_i[6] - h_i_dot_f_j * f_j_in_i_0;
     /* v_2_in_i = r_ij x h_i + s_j x h_i, axes of body i */
     const jg_real v_2_in_i_0 = C_i[8] * e_ij_in_i_1 - C_i[7] * e_ij_in_i_2;
-    const jg_real t97 = pitch * spread;
-    phi_q[14] = C_i[2] * e_ij_in_i_0 - C_i[0] * e_ij_in_i_2;
-    phi_q[15] = C_i[5] * e_ij_in_i_0 - C_i[3] * e_ij_in_i_2;
-    const jg_real v_2_in_i_1 = C_i[6] * e_ij_in_i_2 - C_i[8] * e_ij_in_i_0;
-    const jg_real t99 = -t92;
-    phi_q_t_lambda_q[1] = t99;
-    phi_q_t_lambda_q[21] = t99;
-    const jg_real t100 = A_i[3] * v_8_in_i_0 - v_8_in_i_1 * A_i[0];
-    phi_q_t_lambda_q[39] = t100;
-    phi_q_t_lambda_q[47] = t100;
-    const jg_real t101 = A_i[7] * v_8_in_i_1 - A_i[4] * v_8_in_i_2;
-    phi_q_t_lambda_q[16] = t101;
-    phi_q_t_lambda_q[48] = t101;
-    const jg_real t102 = v_8_in_i_2 * A_i[1] - A_i[7] * v_8_in_i_0;
-    phi_q_t_lambda_q[28] = t102;
-    phi_q_t_lambda_q[49] = t102;
-    phi_q[19] = C_i[0] * e_ij_in_i_1 - C_i[1] * e_ij_in_i_0;
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    const jg_real across_in_i_1 = C_i[7] - h_i_dot_f_j * f_j_in_i_1;
+    phi_q[21] = f_i_cross_h_j_in_i_2;
+    phi_q[22] = g_i_cross_h_j_in_i_2;
+    phi_q[33] = s_j_cross_f_i_in_j_0;
+    phi_q[34] = s_j_cross_g_i_in_j_0;
+    phi_q[9] = C_i[1] * e_ij_in_i_2 - e_ij_in_i_1 * C_i[2];
+    phi_q[10] = C_i[4] * e_ij_in_i_2 - C_i[5] * e_ij_in_i_1;
     phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
-    phi_q[20] = C_i[3] * e_ij_in_i_1 - C_i[4] * e_ij_in_i_0;
-    phi[1] = C_i[3] * d_ij_in_i_0 + C_i[4] * d_ij_in_i_1 + C_i[5] * d_ij_in_i_2;
+    phi_q[14] = e_ij_in_i_0 * C_i[2] - C_i[0] * e_ij_in_i_2;
+    const jg_real v_2_in_i_1 = C_i[6] * e_ij_in_i_2 - C_i[8] * e_ij_in_i_0;
+    /* v_4_in_j = (h_i . f_j) f_j, axes of body j */
+    const jg_real v_4_in_j_0 = C_j[0] * h_i_dot_f_j;
     const jg_real v_2_in_i_2 = C_i[7] * e_ij_in_i_0 - C_i[6] * e_ij_in_i_1;
-    const jg_real t104 = -t100;
-    phi_q_t_lambda_q[2] = t104;
-    phi_q_t_lambda_q[33] = t104;
-    const jg_real t105 = -t101;
-    phi_q_t_lambda_q[3] = t105;
-    phi_q_t_lambda_q[10] = t105;
-    const jg_real t106 = -t102;
-    phi_q_t_lambda_q[4] = t106;
-    phi_q_t_lambda_q[22] = t106;
+    const jg_real across_in_i_2 = C_i[8] - h_i_dot_f_j * f_j_in_i_2;
+    /* across_in_j = across, axes of body j */
+    const jg_real across_in_j_0 = h_i_in_j_0 - v_4_in_j_0;
+    const jg_real t75 = pitch * spread;
+    /* s_j_cross_h_i_in_j = s_j x h_i, axes of body j */
+    const jg_real s_j_cross_h_i_in_j_0 = h_i_in_j_2 * s_j[1] - h_i_in_j_1 * s_j[2];
+    const jg_real s_j_cross_f_i_in_j_1 = f_i_in_j_0 * s_j[2] - s_j[0] * f_i_in_j_2;
+    const jg_real v_4_in_j_1 = C_j[1] * h_i_dot_f_j;
+    const jg_real s_j_cross_g_i_in_j_1 = g_i_in_j_0 * s_j[2] - g_i_in_j_2 * s_j[0];
+    phi[1] = C_i[3] * d_ij_in_i_0 + C_i[4] * d_ij_in_i_1 + C_i[5] * d_ij_in_i_2;
+    phi_q[15] = C_i[5] * e_ij_in_i_0 - C_i[3] * e_ij_in_i_2;
+    phi_q[19] = C_i[0] * e_ij_in_i_1 - e_ij_in_i_0 * C_i[1];
+    phi_q[35] = f_i_in_j_2 * C_j[7] - f_i_in_j_1 * C_j[8];
+    phi_q[20] = C_i[3] * e_ij_in_i_1 - C_i[4] * e_ij_in_i_0;
+    phi_q[36] = g_i_in_j_2 * C_j[7] - g_i_in_j_1 * C_j[8];
+    phi_q[38] = s_j_cross_f_i_in_j_1;
+    phi_q[39] = s_j_cross_g_i_in_j_1;
+    const jg_real across_in_j_1 = h_i_in_j_1 - v_4_in_j_1;
+    const jg_real s_j_cross_h_i_in_j_1 = h_i_in_j_0 * s_j[2] - h_i_in_j_2 * s_j[0];
+    const jg_real s_j_cross_f_i_in_j_2 = s_j[0] * f_i_in_j_1 - f_i_in_j_0 * s_j[1];
     /* v_3_in_i = pitch spread across - r_ij x h_i - s_j x h_i, axes of body i */
-    const jg_real v_3_in_i_0 = t97 * across_in_i_0 - v_2_in_i_0;
+    const jg_real v_3_in_i_0 = t75 * across_in_i_0 - v_2_in_i_0;
+    const jg_real v_3_in_i_1 = t75 * across_in_i_1 - v_2_in_i_1;
+    const jg_real v_3_in_i_2 = t75 * across_in_i_2 - v_2_in_i_2;
+    const jg_real s_j_cross_g_i_in_j_2 = g_i_in_j_1 * s_j[0] - g_i_in_j_0 * s_j[1];
+    phi_q[40] = f_i_in_j_0 * C_j[8] - f_i_in_j_2 * C_j[6];
+    phi_q[41] = g_i_in_j_0 * C_j[8] - g_i_in_j_2 * C_j[6];
+    phi_q[43] = s_j_cross_f_i_in_j_2;
     phi_q[13] = v_3_in_i_0;
-    const jg_real v_3_in_i_1 = t97 * across_in_i_1 - v_2_in_i_1;
     phi_q[18] = v_3_in_i_1;
-    phi_q[37] = s_j_cross_h_i_in_j_0 - t97 * across_in_j_0;
-    phi_q[42] = s_j_cross_h_i_in_j_1 - t97 * across_in_j_1;
-    phi_q[47] = s_j_cross_h_i_in_j_2 - t97 * across_in_j_2;
-    const jg_real v_3_in_i_2 = t97 * across_in_i_2 - v_2_in_i_2;
     phi_q[23] = v_3_in_i_2;
+    phi_q[37] = s_j_cross_h_i_in_j_0 - t75 * across_in_j_0;
+    phi_q[44] = s_j_cross_g_i_in_j_2;
+    const jg_real v_4_in_j_2 = C_j[2] * h_i_dot_f_j;
+    /* v_6_in_i = lambda_1 g_i + lambda_4 h_i, axes of body i */
+    const jg_real v_6_in_i_1 = C_i[4] * lambda[1] + C_i[7] * lambda[4];
+    const jg_real v_6_in_i_2 = C_i[5] * lambda[1] + C_i[8] * lambda[4];
+    const jg_real v_7_in_i_2 = C_i[2] * lambda[0];
+    const jg_real v_7_in_i_0 = C_i[0] * lambda[0];
+    const jg_real across_in_j_2 = h_i_in_j_2 - v_4_in_j_2;
     /* v_10_in_joint_i = pitch spread lambda_4 h_i, axes of joint i */
-    const jg_real v_10_in_joint_i_2 = t97 * lambda[4];
-    const jg_real t111 = A_i[4] * v_8_in_i_0 - v_8_in_i_1 * A_i[1];
-    phi_q_t_lambda_q[40] = t111;
-    phi_q_t_lambda_q[50] = t111;
-    const jg_real t112 = A_i[8] * v_8_in_i_1 - A_i[5] * v_8_in_i_2;
-    phi_q_t_lambda_q[17] = t112;
-    phi_q_t_lambda_q[51] = t112;
-    const jg_real t113 = v_8_in_i_2 * A_i[2] - A_i[8] * v_8_in_i_0;
-    phi_q_t_lambda_q[29] = t113;
-    phi_q_t_lambda_q[52] = t113;
-    const jg_real t114 = A_i[5] * v_8_in_i_0 - v_8_in_i_1 * A_i[2];
-    phi_q_t_lambda_q[41] = t114;
-    phi_q_t_lambda_q[53] = t114;
-    /* v_11_in_joint_i = pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_11_in_joint_i_2 = spread * v_10_in_joint_i_2;
+    const jg_real v_10_in_joint_i_2 = t75 * lambda[4];
+    const jg_real s_j_cross_h_i_in_j_2 = h_i_in_j_1 * s_j[0] - h_i_in_j_0 * s_j[1];
+    /* v_8_in_i = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body i */
+    const jg_real v_8_in_i_1 = v_6_in_i_1 + v_7_in_i_1;
+    const jg_real t96 = spread * JG_REAL(2.0);
+    const jg_real v_8_in_i_2 = v_6_in_i_2 + v_7_in_i_2;
+    const jg_real v_6_in_i_0 = C_i[3] * lambda[1] + C_i[6] * lambda[4];
     /* v_9_in_i = pitch spread lambda_4 f_j, axes of body i */
     const jg_real v_9_in_i_1 = f_j_in_i_1 * v_10_in_joint_i_2;
+    const jg_real v_9_in_i_2 = f_j_in_i_2 * v_10_in_joint_i_2;
+    const jg_real v_8_in_i_0 = v_6_in_i_0 + v_7_in_i_0;
+    const jg_real t102 = A_i[6] * v_8_in_i_1 - A_i[3] * v_8_in_i_2;
+    /* v_13_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
+    const jg_real v_13_in_joint_i_2 = v_10_in_joint_i_2 * t96;
+    const jg_real t104 = A_i[7] * v_8_in_i_1 - A_i[4] * v_8_in_i_2;
+    phi_q[45] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
+    phi_q[42] = s_j_cross_h_i_in_j_1 - t75 * across_in_j_1;
+    phi_q[46] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
+    phi_q[47] = s_j_cross_h_i_in_j_2 - t75 * across_in_j_2;
+    phi_q_t_lambda_q[15] = t102;
+    phi_q_t_lambda_q[45] = t102;
+    phi_q_t_lambda_q[16] = t104;
+    phi_q_t_lambda_q[48] = t104;
+    const jg_real t105 = A_i[8] * v_8_in_i_1 - A_i[5] * v_8_in_i_2;
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
     const jg_real h_i_cross_f_j_in_i_1 = C_i[4] * f_i_dot_f_j - C_i[1] * g_i_dot_f_j;
-    const jg_real v_9_in_i_2 = f_j_in_i_2 * v_10_in_joint_i_2;
+    const jg_real t107 = -t102;
+    /* v_15_in_i = lambda_2 f_i + lambda_3 g_i, axes of body i */
+    const jg_real v_15_in_i_1 = C_i[1] * lambda[2] + C_i[4] * lambda[3];
+    const jg_real t109 = h_i_dot_f_j * v_13_in_joint_i_2;
+    const jg_real t110 = v_8_in_i_2 * A_i[0] - A_i[6] * v_8_in_i_0;
+    const jg_real t111 = A_i[3] * v_8_in_i_0 - v_8_in_i_1 * A_i[0];
+    phi_q_t_lambda_q[17] = t105;
+    phi_q_t_lambda_q[51] = t105;
+    phi_q_t_lambda_q[0] = t107;
+    phi_q_t_lambda_q[9] = t107;
+    phi_q_t_lambda_q[27] = t110;
+    phi_q_t_lambda_q[46] = t110;
+    phi_q_t_lambda_q[39] = t111;
+    phi_q_t_lambda_q[47] = t111;
+    const jg_real t112 = -t104;
+    const jg_real t113 = v_8_in_i_2 * A_i[1] - A_i[7] * v_8_in_i_0;
+    const jg_real t114 = A_i[4] * v_8_in_i_0 - v_8_in_i_1 * A_i[1];
+    const jg_real t115 = v_8_in_i_2 * A_i[2] - A_i[8] * v_8_in_i_0;
+    phi_q_t_lambda_q[3] = t112;
+    phi_q_t_lambda_q[10] = t112;
+    phi_q_t_lambda_q[28] = t113;
+    phi_q_t_lambda_q[49] = t113;
+    phi_q_t_lambda_q[40] = t114;
+    phi_q_t_lambda_q[50] = t114;
+    phi_q_t_lambda_q[29] = t115;
+    phi_q_t_lambda_q[52] = t115;
+    const jg_real t116 = -t105;
+    const jg_real t117 = A_i[5] * v_8_in_i_0 - v_8_in_i_1 * A_i[2];
+    const jg_real t118 = -t110;
     const jg_real t119 = -t111;
-    phi_q_t_lambda_q[5] = t119;
-    phi_q_t_lambda_q[34] = t119;
-    const jg_real t120 = -t112;
-    phi_q_t_lambda_q[6] = t120;
-    phi_q_t_lambda_q[11] = t120;
-    const jg_real h_i_cross_f_j_in_i_2 = C_i[5] * f_i_dot_f_j - C_i[2] * g_i_dot_f_j;
-    const jg_real t122 = -t113;
+    phi_q_t_lambda_q[6] = t116;
+    phi_q_t_lambda_q[11] = t116;
+    phi_q_t_lambda_q[41] = t117;
+    phi_q_t_lambda_q[53] = t117;
+    phi_q_t_lambda_q[1] = t118;
+    phi_q_t_lambda_q[21] = t118;
+    phi_q_t_lambda_q[2] = t119;
+    phi_q_t_lambda_q[33] = t119;
+    const jg_real t120 = -t113;
+    const jg_real t121 = -t114;
+    const jg_real t122 = -t115;
+    const jg_real t123 = -t117;
+    phi_q_t_lambda_q[4] = t120;
+    phi_q_t_lambda_q[22] = t120;
+    phi_q_t_lambda_q[5] = t121;
+    phi_q_t_lambda_q[34] = t121;
     phi_q_t_lambda_q[7] = t122;
     phi_q_t_lambda_q[23] = t122;
-    const jg_real h_i_cross_f_j_in_i_0 = C_i[3] * f_i_dot_f_j - C_i[0] * g_i_dot_f_j;
-    const jg_real t124 = -t114;
-    phi_q_t_lambda_q[8] = t124;
-    phi_q_t_lambda_q[35] = t124;
-    const jg_real v_15_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
-    /* v_13_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_13_in_joint_i_2 = JG_REAL(2.0) * v_11_in_joint_i_2;
+    phi_q_t_lambda_q[8] = t123;
+    phi_q_t_lambda_q[35] = t123;
+    const jg_real h_i_cross_f_j_in_i_2 = C_i[5] * f_i_dot_f_j - C_i[2] * g_i_dot_f_j;
+    /* v_14_in_i = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body i */
+    const jg_real v_14_in_i_1 = v_9_in_i_1 - across_in_i_1 * t109;
+    const jg_real v_14_in_i_2 = v_9_in_i_2 - across_in_i_2 * t109;
     /* v_16_in_i = pitch (h_i . f_j) spread lambda_4 f_j, axes of body i */
-    const jg_real v_16_in_i_1 = h_i_dot_f_j * v_9_in_i_1;
     const jg_real v_16_in_i_2 = h_i_dot_f_j * v_9_in_i_2;
-    /* v_17_in_j = (h_i . f_j) f_j + across, axes of body j */
-    const jg_real v_17_in_j_2 = v_4_in_j_2 + across_in_j_2;
+    const jg_real v_16_in_i_1 = h_i_dot_f_j * v_9_in_i_1;
+    const jg_real v_15_in_i_2 = C_i[2] * lambda[2] + C_i[5] * lambda[3];
+    const jg_real h_i_cross_f_j_in_i_0 = C_i[3] * f_i_dot_f_j - C_i[0] * g_i_dot_f_j;
+    const jg_real v_15_in_i_0 = C_i[0] * lambda[2] + C_i[3] * lambda[3];
+    /* v_14_in_j = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body j */
+    const jg_real v_14_in_j_0 = C_j[0] * v_10_in_joint_i_2 - across_in_j_0 * t109;
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
     const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
-    const jg_real t131 = h_i_dot_f_j * v_13_in_joint_i_2;
     /* v_15_in_j = lambda_2 f_i + lambda_3 g_i, axes of body j */
     const jg_real v_15_in_j_0 = f_i_in_j_0 * lambda[2] + g_i_in_j_0 * lambda[3];
-    /* v_18_in_j = pitch (h_i . f_j) spread lambda_4 f_j + pitch spread lambda_4 across, axes of body j */
-    const jg_real v_18_in_j_2 = v_10_in_joint_i_2 * v_17_in_j_2;
-    const jg_real v_15_in_j_1 = f_i_in_j_1 * lambda[2] + g_i_in_j_1 * lambda[3];
-    const jg_real v_17_in_j_1 = v_4_in_j_1 + across_in_j_1;
-    /* v_8_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
-    const jg_real v_8_in_j_0 = A_ji_0 * v_8_in_i_0 + A_ji_3 * v_8_in_i_1 + A_ji_6 * v_8_in_i_2;
-    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
-    const jg_real v_15_in_j_2 = f_i_in_j_2 * lambda[2] + g_i_in_j_2 * lambda[3];
-    const jg_real v_8_in_j_1 = A_ji_1 * v_8_in_i_0 + A_ji_4 * v_8_in_i_1 + A_ji_7 * v_8_in_i_2;
-    const jg_real v_18_in_j_1 = v_10_in_joint_i_2 * v_17_in_j_1;
-    /* v_14_in_i = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body i */
-    const jg_real v_14_in_i_1 = v_9_in_i_1 - across_in_i_1 * t131;
-    const jg_real v_14_in_i_2 = v_9_in_i_2 - across_in_i_2 * t131;
-    /* v_14_in_j = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, axes of body j */
-    const jg_real v_14_in_j_0 = C_j[0] * v_10_in_joint_i_2 - across_in_j_0 * t131;
-    const jg_real v_14_in_j_1 = C_j[1] * v_10_in_joint_i_2 - across_in_j_1 * t131;
-    const jg_real v_14_in_j_2 = C_j[2] * v_10_in_joint_i_2 - across_in_j_2 * t131;
-    const jg_real v_8_in_j_2 = A_ji_2 * v_8_in_i_0 + A_ji_5 * v_8_in_i_1 + A_ji_8 * v_8_in_i_2;
-    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
-    /* M_2_j_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_2_j_j_3 = s_j[1] * v_8_in_j_0 + C_j[7] * v_15_in_j_0 - h_i_cross_f_j_in_j_1 * v_14_in_j_0;
-    const jg_real v_17_in_j_0 = v_4_in_j_0 + across_in_j_0;
-    const jg_real M_2_j_j_6 = s_j[2] * v_8_in_j_0 + C_j[8] * v_15_in_j_0 - h_i_cross_f_j_in_j_2 * v_14_in_j_0;
-    const jg_real M_2_j_j_4 = s_j[1] * v_8_in_j_1 + C_j[7] * v_15_in_j_1 - h_i_cross_f_j_in_j_1 * v_14_in_j_1;
-    const jg_real M_2_j_j_1 = s_j[0] * v_8_in_j_1 + C_j[6] * v_15_in_j_1 - h_i_cross_f_j_in_j_0 * v_14_in_j_1;
+    /* v_17_in_j = (h_i . f_j) f_j + across, axes of body j */
+    const jg_real v_17_in_j_2 = v_4_in_j_2 + across_in_j_2;
     /* M_0_i_i = (lambda_0 r_ij + lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 r_ij + lambda_1 s_j + ... */
     const jg_real M_0_i_i_4 = e_ij_in_i_1 * v_8_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_i_1 + h_j_in_i_1 *
         v_15_in_i_1;
     const jg_real M_0_i_i_8 = e_ij_in_i_2 * v_8_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_i_2 + h_j_in_i_2 *
         v_15_in_i_2;
+    /* v_18_in_j = pitch (h_i . f_j) spread lambda_4 f_j + pitch spread lambda_4 across, axes of body j */
+    const jg_real v_18_in_j_2 = v_10_in_joint_i_2 * v_17_in_j_2;
+    /* v_8_in_j = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, axes of body j */
+    const jg_real v_8_in_j_0 = A_ji_0 * v_8_in_i_0 + A_ji_3 * v_8_in_i_1 + A_ji_6 * v_8_in_i_2;
+    const jg_real v_14_in_j_1 = C_j[1] * v_10_in_joint_i_2 - across_in_j_1 * t109;
     const jg_real M_0_i_i_3 = e_ij_in_i_1 * v_8_in_i_0 - v_14_in_i_1 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 *
         v_15_in_i_0;
     const jg_real M_0_i_i_6 = e_ij_in_i_2 * v_8_in_i_0 - v_14_in_i_2 * h_i_cross_f_j_in_i_0 + h_j_in_i_2 *
         v_15_in_i_0;
-    const jg_real M_2_j_j_0 = s_j[0] * v_8_in_j_0 + C_j[6] * v_15_in_j_0 - h_i_cross_f_j_in_j_0 * v_14_in_j_0;
-    const jg_real t158 = M_2_j_j_3 + v_18_in_j_2;
-    phi_q_t_lambda_q[63] = t158;
+    const jg_real v_15_in_j_1 = f_i_in_j_1 * lambda[2] + g_i_in_j_1 * lambda[3];
+    const jg_real v_14_in_j_2 = C_j[2] * v_10_in_joint_i_2 - across_in_j_2 * t109;
+    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
+    const jg_real v_8_in_j_1 = A_ji_1 * v_8_in_i_0 + A_ji_4 * v_8_in_i_1 + A_ji_7 * v_8_in_i_2;
+    const jg_real v_17_in_j_1 = v_4_in_j_1 + across_in_j_1;
+    const jg_real v_15_in_j_2 = f_i_in_j_2 * lambda[2] + g_i_in_j_2 * lambda[3];
+    /* M_2_j_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
+    const jg_real M_2_j_j_3 = C_j[7] * v_15_in_j_0 + s_j[1] * v_8_in_j_0 - v_14_in_j_0 * h_i_cross_f_j_in_j_1;
+    const jg_real v_18_in_j_1 = v_10_in_joint_i_2 * v_17_in_j_1;
+    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
+    const jg_real t152 = M_2_j_j_3 + v_18_in_j_2;
+    const jg_real v_8_in_j_2 = A_ji_2 * v_8_in_i_0 + A_ji_5 * v_8_in_i_1 + A_ji_8 * v_8_in_i_2;
+    const jg_real M_2_j_j_6 = C_j[8] * v_15_in_j_0 + s_j[2] * v_8_in_j_0 - v_14_in_j_0 * h_i_cross_f_j_in_j_2;
+    const jg_real M_2_j_j_4 = C_j[7] * v_15_in_j_1 + s_j[1] * v_8_in_j_1 - h_i_cross_f_j_in_j_1 * v_14_in_j_1;
+    const jg_real v_17_in_j_0 = v_4_in_j_0 + across_in_j_0;
+    const jg_real t157 = M_2_j_j_6 - v_18_in_j_1;
+    const jg_real M_2_j_j_1 = C_j[6] * v_15_in_j_1 + s_j[0] * v_8_in_j_1 - v_14_in_j_1 * h_i_cross_f_j_in_j_0;
+    const jg_real M_2_j_j_0 = C_j[6] * v_15_in_j_0 + s_j[0] * v_8_in_j_0 - v_14_in_j_0 * h_i_cross_f_j_in_j_0;
     const jg_real v_18_in_j_0 = v_10_in_joint_i_2 * v_17_in_j_0;
-    const jg_real t160 = M_2_j_j_6 - v_18_in_j_1;
-    phi_q_t_lambda_q[69] = t160;
-    const jg_real M_2_j_j_8 = s_j[2] * v_8_in_j_2 + C_j[8] * v_15_in_j_2 - h_i_cross_f_j_in_j_2 * v_14_in_j_2;
+    const jg_real M_2_j_j_7 = C_j[8] * v_15_in_j_1 + s_j[2] * v_8_in_j_1 - v_14_in_j_1 * h_i_cross_f_j_in_j_2;
     const jg_real t162 = M_2_j_j_1 - v_18_in_j_2;
-    phi_q_t_lambda_q[58] = t162;
+    const jg_real t163 = M_2_j_j_4 + M_2_j_j_0;
     const jg_real v_9_in_i_0 = f_j_in_i_0 * v_10_in_joint_i_2;
+    const jg_real M_2_j_j_8 = C_j[8] * v_15_in_j_2 + s_j[2] * v_8_in_j_2 - v_14_in_j_2 * h_i_cross_f_j_in_j_2;
+    const jg_real t166 = M_2_j_j_7 + v_18_in_j_0;
     phi_q_t_lambda_q[13] = M_0_i_i_3 - v_16_in_i_2;
-    phi_q_t_lambda_q[14] = M_0_i_i_6 + v_16_in_i_1;
-    const jg_real t164 = M_2_j_j_0 + M_2_j_j_4;
-    const jg_real M_2_j_j_7 = s_j[2] * v_8_in_j_1 + C_j[8] * v_15_in_j_1 - h_i_cross_f_j_in_j_2 * v_14_in_j_1;
-    const jg_real M_2_j_j_2 = s_j[0] * v_8_in_j_2 + C_j[6] * v_15_in_j_2 - h_i_cross_f_j_in_j_0 * v_14_in_j_2;
-    const jg_real t167 = M_2_j_j_4 + M_2_j_j_8;
-    const jg_real t168 = M_2_j_j_0 + M_2_j_j_8;
-    const jg_real v_14_in_i_0 = v_9_in_i_0 - across_in_i_0 * t131;
     phi_q_t_lambda_q[12] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real t170 = M_2_j_j_7 + v_18_in_j_0;
-    phi_q_t_lambda_q[70] = t170;
+    phi_q_t_lambda_q[14] = M_0_i_i_6 + v_16_in_i_1;
+    phi_q_t_lambda_q[63] = t152;
+    phi_q_t_lambda_q[69] = t157;
+    phi[4] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2 - (theta + theta_0 + revolutions *
+        JG_REAL(6.283185307179586)) * pitch;
+    phi_q_t_lambda_q[58] = t162;
+    phi_q_t_lambda_q[70] = t166;
+    const jg_real M_2_j_j_2 = C_j[6] * v_15_in_j_2 + s_j[0] * v_8_in_j_2 - v_14_in_j_2 * h_i_cross_f_j_in_j_0;
+    const jg_real v_14_in_i_0 = v_9_in_i_0 - across_in_i_0 * t109;
+    const jg_real t169 = M_2_j_j_4 + M_2_j_j_8;
+    const jg_real t170 = M_2_j_j_8 + M_2_j_j_0;
     const jg_real v_16_in_i_0 = h_i_dot_f_j * v_9_in_i_0;
-    const jg_real M_2_j_j_5 = s_j[1] * v_8_in_j_2 + C_j[7] * v_15_in_j_2 - h_i_cross_f_j_in_j_1 * v_14_in_j_2;
-    const jg_real t173 = M_2_j_j_2 + v_18_in_j_1;
-    phi_q_t_lambda_q[59] = t173;
+    const jg_real M_2_j_j_5 = C_j[7] * v_15_in_j_2 + s_j[1] * v_8_in_j_2 - h_i_cross_f_j_in_j_1 * v_14_in_j_2;
+    const jg_real t173 = v_18_in_j_1 + M_2_j_j_2;
     const jg_real t174 = M_2_j_j_5 - v_18_in_j_0;
-    phi_q_t_lambda_q[65] = t174;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_8_in_i_1 - v_14_in_i_2 * h_i_cross_f_j_in_i_1 + h_j_in_i_2 *
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * v_8_in_i_1 - h_i_cross_f_j_in_i_1 * v_14_in_i_2 + h_j_in_i_2 *
         v_15_in_i_1;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_8_in_i_1 - v_14_in_i_0 * h_i_cross_f_j_in_i_1 + h_j_in_i_0 *
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * v_8_in_i_1 - h_i_cross_f_j_in_i_1 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_i_1;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_8_in_i_0 - v_14_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_0 *
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * v_8_in_i_0 - h_i_cross_f_j_in_i_0 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_i_0;
+    phi_q_t_lambda_q[59] = t173;
+    phi_q_t_lambda_q[65] = t174;
     phi_q_t_lambda_q[26] = M_0_i_i_7 - v_16_in_i_0;
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_8_in_i_2 - v_14_in_i_0 * h_i_cross_f_j_in_i_2 + h_j_in_i_0 *
+    phi_q_t_lambda_q[24] = v_16_in_i_2 + M_0_i_i_1;
+    phi_q_t_lambda_q[18] = -(A_ji_1 * t152 - A_ji_0 * t169 + A_ji_2 * t157);
+    phi_q_t_lambda_q[19] = -(A_ji_0 * t162 - A_ji_1 * t170 + A_ji_2 * t166);
+    phi_q_t_lambda_q[30] = -(A_ji_4 * t152 - A_ji_3 * t169 + A_ji_5 * t157);
+    phi_q_t_lambda_q[20] = A_ji_2 * t163 - (A_ji_0 * t173 + A_ji_1 * t174);
+    const jg_real M_0_i_i_2 = e_ij_in_i_0 * v_8_in_i_2 - h_i_cross_f_j_in_i_2 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_i_2;
-    phi_q_t_lambda_q[18] = -(A_ji_1 * t158 - A_ji_0 * t167 + A_ji_2 * t160);
-    phi_q_t_lambda_q[19] = -(A_ji_0 * t162 - A_ji_1 * t168 + A_ji_2 * t170);
-    phi_q_t_lambda_q[30] = -(A_ji_4 * t158 - A_ji_3 * t167 + A_ji_5 * t160);
-    phi_q_t_lambda_q[24] = M_0_i_i_1 + v_16_in_i_2;
-    phi_q_t_lambda_q[31] = -(A_ji_3 * t162 - A_ji_4 * t168 + A_ji_5 * t170);
     const jg_real M_0_i_i_5 = e_ij_in_i_1 * v_8_in_i_2 - v_14_in_i_1 * h_i_cross_f_j_in_i_2 + h_j_in_i_1 *
         v_15_in_i_2;
+    const jg_real t180 = M_2_j_j_8 + t163;
+    phi_q_t_lambda_q[31] = -(A_ji_3 * t162 - A_ji_4 * t170 + A_ji_5 * t166);
+    phi_q_t_lambda_q[32] = A_ji_5 * t163 - (A_ji_3 * t173 + A_ji_4 * t174);
+    phi_q_t_lambda_q[25] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[38] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[36] = M_0_i_i_2 - v_16_in_i_1;
-    phi_q_t_lambda_q[20] = A_ji_2 * t164 - (A_ji_0 * t173 + A_ji_1 * t174);
-    phi_q_t_lambda_q[32] = A_ji_5 * t164 - (A_ji_3 * t173 + A_ji_4 * t174);
-    phi_q_t_lambda_q[25] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[38] = -(M_0_i_i_0 + M_0_i_i_4);
-    phi_q_t_lambda_q[37] = M_0_i_i_5 + v_16_in_i_0;
-    const jg_real t180 = M_2_j_j_8 + t164;
-    phi_q_t_lambda_q[42] = -(A_ji_7 * t158 - A_ji_6 * t167 + A_ji_8 * t160);
-    phi_q_t_lambda_q[44] = A_ji_8 * t164 - (A_ji_6 * t173 + A_ji_7 * t174);
-    phi_q_t_lambda_q[43] = -(A_ji_6 * t162 - A_ji_7 * t168 + A_ji_8 * t170);
+    phi_q_t_lambda_q[37] = v_16_in_i_0 + M_0_i_i_5;
+    phi_q_t_lambda_q[44] = A_ji_8 * t163 - (A_ji_6 * t173 + A_ji_7 * t174);
+    phi_q_t_lambda_q[42] = -(A_ji_7 * t152 - A_ji_6 * t169 + A_ji_8 * t157);
     /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = C_i[0] * s_j_dot_f_i + C_i[3] * s_j_dot_g_i + C_i[6] * s_j_dot_h_i;
-    phi_q_t_lambda_q[57] = -t167;
-    const jg_real s_j_in_i_1 = C_i[1] * s_j_dot_f_i + C_i[4] * s_j_dot_g_i + C_i[7] * s_j_dot_h_i;
-    phi[4] = C_i[6] * d_ij_in_i_0 + C_i[7] * d_ij_in_i_1 + C_i[8] * d_ij_in_i_2 - pitch * (theta + theta_0 +
-        revolutions * JG_REAL(6.283185307179586));
-    const jg_real s_j_in_i_2 = C_i[2] * s_j_dot_f_i + C_i[5] * s_j_dot_g_i + C_i[8] * s_j_dot_h_i;
-    phi_q_t_lambda_q[64] = -t168;
+    const jg_real s_j_in_i_0 = s_j_dot_f_i * C_i[0] + C_i[3] * s_j_dot_g_i + C_i[6] * s_j_dot_h_i;
+    const jg_real s_j_in_i_1 = s_j_dot_f_i * C_i[1] + C_i[4] * s_j_dot_g_i + C_i[7] * s_j_dot_h_i;
+    const jg_real s_j_in_i_2 = s_j_dot_f_i * C_i[2] + C_i[5] * s_j_dot_g_i + C_i[8] * s_j_dot_h_i;
     /* M_1_i_j = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j) ... */
-    const jg_real M_1_i_j_0 = s_j_in_i_0 * v_8_in_j_0 - v_14_in_i_0 * h_i_cross_f_j_in_j_0 + h_j_in_i_0 *
+    const jg_real M_1_i_j_0 = v_8_in_j_0 * s_j_in_i_0 - h_i_cross_f_j_in_j_0 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_j_0;
-    const jg_real M_1_i_j_1 = s_j_in_i_0 * v_8_in_j_1 - v_14_in_i_0 * h_i_cross_f_j_in_j_1 + h_j_in_i_0 *
+    const jg_real M_1_i_j_1 = v_8_in_j_1 * s_j_in_i_0 - h_i_cross_f_j_in_j_1 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_j_1;
-    const jg_real M_1_i_j_3 = s_j_in_i_1 * v_8_in_j_0 - v_14_in_i_1 * h_i_cross_f_j_in_j_0 + h_j_in_i_1 *
+    const jg_real M_1_i_j_3 = v_8_in_j_0 * s_j_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_0 + h_j_in_i_1 *
         v_15_in_j_0;
-    const jg_real M_1_i_j_4 = s_j_in_i_1 * v_8_in_j_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_1 + h_j_in_i_1 *
+    const jg_real M_1_i_j_4 = v_8_in_j_1 * s_j_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_1 + h_j_in_i_1 *
         v_15_in_j_1;
-    const jg_real M_1_i_j_2 = s_j_in_i_0 * v_8_in_j_2 - v_14_in_i_0 * h_i_cross_f_j_in_j_2 + h_j_in_i_0 *
+    const jg_real M_1_i_j_6 = v_8_in_j_0 * s_j_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_0 + h_j_in_i_2 *
+        v_15_in_j_0;
+    const jg_real M_1_i_j_7 = v_8_in_j_1 * s_j_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_1 + h_j_in_i_2 *
+        v_15_in_j_1;
+    const jg_real M_1_i_j_2 = v_8_in_j_2 * s_j_in_i_0 - h_i_cross_f_j_in_j_2 * v_14_in_i_0 + h_j_in_i_0 *
         v_15_in_j_2;
-    phi_q_t_lambda_q[71] = -t164;
-    const jg_real M_1_i_j_6 = s_j_in_i_2 * v_8_in_j_0 - v_14_in_i_2 * h_i_cross_f_j_in_j_0 + h_j_in_i_2 *
-        v_15_in_j_0;
-    const jg_real M_1_i_j_7 = s_j_in_i_2 * v_8_in_j_1 - v_14_in_i_2 * h_i_cross_f_j_in_j_1 + h_j_in_i_2 *
-        v_15_in_j_1;
+    phi_q_t_lambda_q[43] = -(A_ji_6 * t162 - A_ji_7 * t170 + A_ji_8 * t166);
+    phi_q_t_lambda_q[57] = -t169;
+    phi_q_t_lambda_q[64] = -t170;
     phi_q_t_lambda_q[54] = A_ji_6 * v_16_in_i_1 - A_ji_3 * v_16_in_i_2 - (M_1_i_j_0 - A_ji_0 * t180);
     phi_q_t_lambda_q[60] = A_ji_7 * v_16_in_i_1 - A_ji_4 * v_16_in_i_2 - (M_1_i_j_1 - A_ji_1 * t180);
-    const jg_real M_1_i_j_5 = s_j_in_i_1 * v_8_in_j_2 - v_14_in_i_1 * h_i_cross_f_j_in_j_2 + h_j_in_i_1 *
-        v_15_in_j_2;
-    const jg_real M_1_i_j_8 = s_j_in_i_2 * v_8_in_j_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_2 + h_j_in_i_2 *
-        v_15_in_j_2;
     phi_q_t_lambda_q[55] = A_ji_0 * v_16_in_i_2 - A_ji_6 * v_16_in_i_0 - (M_1_i_j_3 - A_ji_3 * t180);
     phi_q_t_lambda_q[61] = A_ji_1 * v_16_in_i_2 - A_ji_7 * v_16_in_i_0 - (M_1_i_j_4 - A_ji_4 * t180);
-    phi_q_t_lambda_q[66] = A_ji_8 * v_16_in_i_1 - A_ji_5 * v_16_in_i_2 - (M_1_i_j_2 - A_ji_2 * t180);
-    phi_q_t_lambda_q[56] = A_ji_3 * v_16_in_i_0 - A_ji_0 * v_16_in_i_1 - (M_1_i_j_6 - A_ji_6 * t180);
-    phi_q_t_lambda_q[62] = A_ji_4 * v_16_in_i_0 - A_ji_1 * v_16_in_i_1 - (M_1_i_j_7 - A_ji_7 * t180);
+    phi_q_t_lambda_q[71] = -t163;
+    const jg_real M_1_i_j_5 = v_8_in_j_2 * s_j_in_i_1 - v_14_in_i_1 * h_i_cross_f_j_in_j_2 + h_j_in_i_1 *
+        v_15_in_j_2;
+    const jg_real M_1_i_j_8 = v_8_in_j_2 * s_j_in_i_2 - v_14_in_i_2 * h_i_cross_f_j_in_j_2 + h_j_in_i_2 *
+        v_15_in_j_2;
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_in_j_0 * omega_j[0] + f_i_in_j_1 * omega_j[1] + f_i_in_j_2 * omega_j[2];
-    phi_q_t_lambda_q[67] = A_ji_2 * v_16_in_i_2 - A_ji_8 * v_16_in_i_0 - (M_1_i_j_5 - A_ji_5 * t180);
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
-    phi_q_t_lambda_q[68] = A_ji_5 * v_16_in_i_0 - A_ji_2 * v_16_in_i_1 - (M_1_i_j_8 - A_ji_8 * t180);
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
@@ -1308,67 +1291,71 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
     /* s_j_dot_omega_i = s_j . omega_i */
     const jg_real s_j_dot_omega_i = s_j_in_i_0 * omega_i[0] + s_j_in_i_1 * omega_i[1] + s_j_in_i_2 * omega_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
+        h_i_dot_omega_j * h_i_dot_omega_j;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j[0] * omega_j[0] + s_j[1] * omega_j[1] + s_j[2] * omega_j[2];
     /* v_i_in_joint_i = v_i, axes of joint i */
     const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
-        h_i_dot_omega_j * h_i_dot_omega_j;
-    const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
-    /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
-    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i_in_joint_i_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 *
         omega_i_in_joint_i_1 + omega_i_in_joint_i_2 * omega_i_in_joint_i_2;
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i_in_joint_i_0 * f_i_dot_omega_j + omega_i_in_joint_i_1 *
-        g_i_dot_omega_j + omega_i_in_joint_i_2 * h_i_dot_omega_j;
+    const jg_real omega_i_dot_omega_j = f_i_dot_omega_j * omega_i_in_joint_i_0 + g_i_dot_omega_j *
+        omega_i_in_joint_i_1 + h_i_dot_omega_j * omega_i_in_joint_i_2;
     /* r_ij_dot_omega_i = r_ij . omega_i */
     const jg_real r_ij_dot_omega_i = r_ij_dot_f_i * omega_i_in_joint_i_0 + r_ij_dot_g_i * omega_i_in_joint_i_1 +
         r_ij_dot_h_i * omega_i_in_joint_i_2;
+    const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
+    /* v_j_in_joint_i = v_j, axes of joint i */
+    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    const jg_real t208 = omega_j_dot_omega_j + omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j;
+    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
     const jg_real v_i_in_joint_i_0 = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     const jg_real v_j_in_joint_i_0 = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
-    const jg_real t211 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     const jg_real t213 = f_i_dot_f_j * g_i_dot_omega_j - g_i_dot_f_j * f_i_dot_omega_j;
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    const jg_real t215 = f_i_dot_f_j * omega_i_in_joint_i_1 - g_i_dot_f_j * omega_i_in_joint_i_0;
+    const jg_real t215 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_i_dot_f_j * f_i_dot_omega_j + g_i_dot_f_j * g_i_dot_omega_j + h_i_dot_f_j *
         h_i_dot_omega_j;
+    const jg_real t217 = f_i_dot_f_j * omega_i_in_joint_i_1 - g_i_dot_f_j * omega_i_in_joint_i_0;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    const jg_real t218 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
-    const jg_real t219 = t215 - t213;
+    const jg_real t219 = t217 - t213;
     const jg_real t220 = f_j_dot_omega_i - f_j_dot_omega_j;
-    const jg_real t221 = omega_i_in_joint_i_1 * f_i_dot_omega_j - omega_i_in_joint_i_0 * g_i_dot_omega_j;
+    const jg_real t221 = f_i_dot_omega_j * omega_i_in_joint_i_1 - g_i_dot_omega_j * omega_i_in_joint_i_0;
     const jg_real t222 = t213 * t220;
-    const jg_real t223 = t215 * t220;
-    gamma[2] = f_i_dot_h_j * t211 + f_i_dot_omega_j * t218 - omega_i_in_joint_i_0 * h_j_dot_omega_i;
-    gamma[3] = g_i_dot_h_j * t211 + g_i_dot_omega_j * t218 - omega_i_in_joint_i_1 * h_j_dot_omega_i;
-    gamma[0] = s_j_dot_f_i * t211 + s_j_dot_omega_i * (JG_REAL(2.0) * f_i_dot_omega_j - omega_i_in_joint_i_0) +
+    phi_q_t_lambda_q[56] = A_ji_3 * v_16_in_i_0 - A_ji_0 * v_16_in_i_1 - (M_1_i_j_6 - A_ji_6 * t180);
+    phi_q_t_lambda_q[62] = A_ji_4 * v_16_in_i_0 - A_ji_1 * v_16_in_i_1 - (M_1_i_j_7 - A_ji_7 * t180);
+    phi_q_t_lambda_q[66] = A_ji_8 * v_16_in_i_1 - A_ji_5 * v_16_in_i_2 - (M_1_i_j_2 - A_ji_2 * t180);
+    phi_q_t_lambda_q[67] = A_ji_2 * v_16_in_i_2 - A_ji_8 * v_16_in_i_0 - (M_1_i_j_5 - A_ji_5 * t180);
+    phi_q_t_lambda_q[68] = A_ji_5 * v_16_in_i_0 - A_ji_2 * v_16_in_i_1 - (M_1_i_j_8 - A_ji_8 * t180);
+    gamma[0] = s_j_dot_f_i * t208 + s_j_dot_omega_i * (JG_REAL(2.0) * f_i_dot_omega_j - omega_i_in_joint_i_0) +
         r_ij_dot_f_i * omega_i_dot_omega_i - omega_i_in_joint_i_0 * r_ij_dot_omega_i - f_i_dot_omega_j *
         s_j_dot_omega_j + JG_REAL(2.0) * (omega_i_in_joint_i_2 * v_i_in_joint_i_1 - omega_i_in_joint_i_1 *
         v_i_in_joint_i_2) + JG_REAL(2.0) * (omega_i_in_joint_i_1 * v_j_in_joint_i_2 - omega_i_in_joint_i_2 *
         v_j_in_joint_i_1);
-    gamma[1] = s_j_dot_g_i * t211 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_in_joint_i_1) +
+    gamma[1] = s_j_dot_g_i * t208 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_in_joint_i_1) +
         r_ij_dot_g_i * omega_i_dot_omega_i - omega_i_in_joint_i_1 * r_ij_dot_omega_i - g_i_dot_omega_j *
         s_j_dot_omega_j + JG_REAL(2.0) * (omega_i_in_joint_i_0 * v_i_in_joint_i_2 - omega_i_in_joint_i_2 *
         v_i_in_joint_i_0) - JG_REAL(2.0) * (omega_i_in_joint_i_0 * v_j_in_joint_i_2 - omega_i_in_joint_i_2 *
         v_j_in_joint_i_0);
-    gamma[4] = -(t97 * (t222 + h_i_dot_f_j * (f_i_dot_f_j * (omega_i_in_joint_i_2 * g_i_dot_omega_j -
-        omega_i_in_joint_i_1 * h_i_dot_omega_j) + g_i_dot_f_j * (omega_i_in_joint_i_0 * h_i_dot_omega_j -
-        omega_i_in_joint_i_2 * f_i_dot_omega_j) + h_i_dot_f_j * t221 + (h_i_dot_f_j * (t222 - t223) +
-        omega_i_in_joint_i_2 * t219 - h_i_dot_omega_j * t219) * (JG_REAL(2.0) * spread)) - t223 - t221) -
-        s_j_dot_h_i * t211 + s_j_dot_omega_i * (omega_i_in_joint_i_2 - JG_REAL(2.0) * h_i_dot_omega_j) -
-        r_ij_dot_h_i * omega_i_dot_omega_i + omega_i_in_joint_i_2 * r_ij_dot_omega_i + h_i_dot_omega_j *
-        s_j_dot_omega_j - JG_REAL(2.0) * (omega_i_in_joint_i_1 * v_i_in_joint_i_0 - omega_i_in_joint_i_0 *
-        v_i_in_joint_i_1) + JG_REAL(2.0) * (omega_i_in_joint_i_1 * v_j_in_joint_i_0 - omega_i_in_joint_i_0 *
-        v_j_in_joint_i_1));
+    gamma[2] = f_i_dot_h_j * t208 + f_i_dot_omega_j * t215 - omega_i_in_joint_i_0 * h_j_dot_omega_i;
+    const jg_real t223 = t220 * t217;
+    gamma[3] = g_i_dot_h_j * t208 + g_i_dot_omega_j * t215 - omega_i_in_joint_i_1 * h_j_dot_omega_i;
+    gamma[4] = -(t75 * (t222 + h_i_dot_f_j * (f_i_dot_f_j * (g_i_dot_omega_j * omega_i_in_joint_i_2 -
+        h_i_dot_omega_j * omega_i_in_joint_i_1) + g_i_dot_f_j * (h_i_dot_omega_j * omega_i_in_joint_i_0 -
+        f_i_dot_omega_j * omega_i_in_joint_i_2) + h_i_dot_f_j * t221 + t96 * (h_i_dot_f_j * (t222 - t223) +
+        omega_i_in_joint_i_2 * t219 - h_i_dot_omega_j * t219)) - t223 - t221) - s_j_dot_h_i * t208 + s_j_dot_omega_i
+        * (omega_i_in_joint_i_2 - JG_REAL(2.0) * h_i_dot_omega_j) - r_ij_dot_h_i * omega_i_dot_omega_i +
+        omega_i_in_joint_i_2 * r_ij_dot_omega_i + h_i_dot_omega_j * s_j_dot_omega_j - JG_REAL(2.0) *
+        (omega_i_in_joint_i_1 * v_i_in_joint_i_0 - omega_i_in_joint_i_0 * v_i_in_joint_i_1) + JG_REAL(2.0) *
+        (omega_i_in_joint_i_1 * v_j_in_joint_i_0 - omega_i_in_joint_i_0 * v_j_in_joint_i_1));
 }
 
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

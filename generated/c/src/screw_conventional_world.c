@@ -4,10 +4,6 @@
  * joint screw, form conventional, derivative exact, variation world, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/screw.h"
 
 const int *jg_screw_conventional_world_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_screw_conventional_world_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_screw_conventional_world_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -48,166 +43,163 @@ void jg_screw_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[2] = f_i_dot_h_j;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[3] = g_i_dot_h_j;
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
-    phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
-    phi[1] = d_ij_in_i_0 * C_i[3] + d_ij_in_i_1 * C_i[4] + d_ij_in_i_2 * C_i[5];
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
+    phi[2] = f_i_dot_h_j;
+    phi[0] = C_i[0] * d_ij_in_i_0 + C_i[1] * d_ij_in_i_1 + C_i[2] * d_ij_in_i_2;
+    phi[1] = d_ij_in_i_0 * C_i[3] + d_ij_in_i_1 * C_i[4] + d_ij_in_i_2 * C_i[5];
+    phi[3] = g_i_dot_h_j;
     phi[4] = d_ij_in_i_0 * C_i[6] + d_ij_in_i_1 * C_i[7] + d_ij_in_i_2 * C_i[8] - pitch * (theta + theta_0 +
         revolutions * JG_REAL(6.283185307179586));
 }
 
-void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_screw_conventional_world_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[24] = f_i_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[25] = g_i_world_0;
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[27] = f_i_world_1;
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[31] = g_i_world_2;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[30] = f_i_world_2;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    phi_q[28] = g_i_world_1;
+    phi_q[24] = f_i_world_0;
+    phi_q[25] = g_i_world_0;
+    phi_q[27] = f_i_world_1;
+    phi_q[31] = g_i_world_2;
     phi_q[0] = -f_i_world_0;
+    phi_q[30] = f_i_world_2;
     phi_q[1] = -g_i_world_0;
+    phi_q[28] = g_i_world_1;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     phi_q[3] = -f_i_world_1;
     phi_q[7] = -g_i_world_2;
     phi_q[6] = -f_i_world_2;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     phi_q[4] = -g_i_world_1;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* e_ij_world = r_ij + s_j, world axes */
-    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
     phi_q[29] = h_i_world_1;
-    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
     phi_q[26] = h_i_world_0;
-    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
     phi_q[32] = h_i_world_2;
+    phi_q[5] = -h_i_world_1;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    phi_q[5] = -h_i_world_1;
-    phi_q[2] = -h_i_world_0;
-    phi_q[8] = -h_i_world_2;
-    /* f_i_cross_h_j_world = f_i x h_j, world axes */
-    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[11] = f_i_cross_h_j_world_0;
-    /* g_i_cross_h_j_world = g_i x h_j, world axes */
-    const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
-    phi_q[12] = g_i_cross_h_j_world_0;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
-    phi_q[10] = e_ij_world_2 * g_i_world_1 - e_ij_world_1 * g_i_world_2;
     /* s_j_cross_h_i_world = s_j x h_i, world axes */
     const jg_real s_j_cross_h_i_world_0 = s_j_world_1 * h_i_world_2 - s_j_world_2 * h_i_world_1;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* f_i_cross_h_j_world = f_i x h_j, world axes */
+    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    /* g_i_cross_h_j_world = g_i x h_j, world axes */
+    const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
     /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
     const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
+    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
-    phi_q[35] = -f_i_cross_h_j_world_0;
-    phi_q[36] = -g_i_cross_h_j_world_0;
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
+    phi_q[2] = -h_i_world_0;
+    phi_q[8] = -h_i_world_2;
+    phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
+    phi_q[10] = e_ij_world_2 * g_i_world_1 - e_ij_world_1 * g_i_world_2;
+    phi_q[11] = f_i_cross_h_j_world_0;
+    phi_q[12] = g_i_cross_h_j_world_0;
+    phi_q[35] = -f_i_cross_h_j_world_0;
+    phi_q[36] = -g_i_cross_h_j_world_0;
     const jg_real s_j_cross_h_i_world_1 = s_j_world_2 * h_i_world_0 - s_j_world_0 * h_i_world_2;
-    const jg_real s_j_cross_h_i_world_2 = s_j_world_0 * h_i_world_1 - s_j_world_1 * h_i_world_0;
-    /* s_j_cross_f_i_world = s_j x f_i, world axes */
-    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
-    phi_q[33] = s_j_cross_f_i_world_0;
-    /* s_j_cross_g_i_world = s_j x g_i, world axes */
-    const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
-    phi_q[34] = s_j_cross_g_i_world_0;
-    phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
-    phi_q[15] = e_ij_world_0 * g_i_world_2 - e_ij_world_2 * g_i_world_0;
-    const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    phi_q[38] = s_j_cross_f_i_world_1;
-    phi_q[19] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
-    phi_q[20] = e_ij_world_1 * g_i_world_0 - e_ij_world_0 * g_i_world_1;
     /* across_world = across, world axes */
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
-    const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
-    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
-    phi_q[39] = s_j_cross_g_i_world_1;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[16] = f_i_cross_h_j_world_1;
     const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
-    phi_q[17] = g_i_cross_h_j_world_1;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[21] = f_i_cross_h_j_world_2;
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
+    phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
+    phi_q[15] = e_ij_world_0 * g_i_world_2 - e_ij_world_2 * g_i_world_0;
+    phi_q[16] = f_i_cross_h_j_world_1;
+    phi_q[17] = g_i_cross_h_j_world_1;
+    phi_q[19] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
+    phi_q[20] = e_ij_world_1 * g_i_world_0 - e_ij_world_0 * g_i_world_1;
+    phi_q[21] = f_i_cross_h_j_world_2;
     phi_q[22] = g_i_cross_h_j_world_2;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    const jg_real s_j_cross_h_i_world_2 = s_j_world_0 * h_i_world_1 - s_j_world_1 * h_i_world_0;
+    /* s_j_cross_f_i_world = s_j x f_i, world axes */
+    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
+    /* s_j_cross_g_i_world = s_j x g_i, world axes */
+    const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
+    const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
+    const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
+    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
+    phi_q[33] = s_j_cross_f_i_world_0;
+    phi_q[34] = s_j_cross_g_i_world_0;
     phi_q[40] = -f_i_cross_h_j_world_1;
     phi_q[41] = -g_i_cross_h_j_world_1;
     phi_q[45] = -f_i_cross_h_j_world_2;
     phi_q[46] = -g_i_cross_h_j_world_2;
+    phi_q[38] = s_j_cross_f_i_world_1;
+    phi_q[39] = s_j_cross_g_i_world_1;
     const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    phi_q[43] = s_j_cross_f_i_world_2;
     const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
-    phi_q[44] = s_j_cross_g_i_world_2;
     const jg_real t47 = spread * pitch;
     /* v_2_world = spread pitch across - s_j x h_i, world axes */
     const jg_real v_2_world_0 = t47 * across_world_0 - s_j_cross_h_i_world_0;
@@ -215,10 +207,12 @@ void jg_screw_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
     const jg_real v_2_world_2 = t47 * across_world_2 - s_j_cross_h_i_world_2;
     /* v_3_world = spread pitch across - r_ij x h_i - s_j x h_i, world axes */
     const jg_real v_3_world_0 = v_2_world_0 - r_ij_cross_h_i_world_0;
-    phi_q[13] = v_3_world_0;
     const jg_real v_3_world_1 = v_2_world_1 - r_ij_cross_h_i_world_1;
-    phi_q[18] = v_3_world_1;
     const jg_real v_3_world_2 = v_2_world_2 - r_ij_cross_h_i_world_2;
+    phi_q[43] = s_j_cross_f_i_world_2;
+    phi_q[44] = s_j_cross_g_i_world_2;
+    phi_q[13] = v_3_world_0;
+    phi_q[18] = v_3_world_1;
     phi_q[23] = v_3_world_2;
     phi_q[37] = -v_2_world_0;
     phi_q[42] = -v_2_world_1;
@@ -234,9 +228,8 @@ void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
     jg_scatter(jg_screw_conventional_world_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -250,81 +243,81 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* v_0_world = lambda_0 f_i + lambda_4 h_i, world axes */
     const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[4] * h_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = f_i_world_1 * h_i_world_0 - f_i_world_0 * h_i_world_1;
     const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[4] * h_i_world_1;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[4] * h_i_world_2;
     const jg_real g_i_world_1 = f_i_world_0 * h_i_world_2 - f_i_world_2 * h_i_world_0;
     const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
     /* v_1_world = lambda_1 g_i, world axes */
     const jg_real v_1_world_2 = lambda[1] * g_i_world_2;
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    /* h_i_cross_f_j_world = h_i x f_j, world axes */
-    const jg_real h_i_cross_f_j_world_2 = h_i_world_0 * f_j_world_1 - h_i_world_1 * f_j_world_0;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real v_1_world_1 = lambda[1] * g_i_world_1;
     const jg_real v_1_world_0 = lambda[1] * g_i_world_0;
-    const jg_real h_i_cross_f_j_world_1 = h_i_world_2 * f_j_world_0 - h_i_world_0 * f_j_world_2;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* v_2_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
     const jg_real v_2_world_2 = v_0_world_2 + v_1_world_2;
+    /* h_i_cross_f_j_world = h_i x f_j, world axes */
+    const jg_real h_i_cross_f_j_world_1 = h_i_world_2 * f_j_world_0 - h_i_world_0 * f_j_world_2;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real v_2_world_1 = v_0_world_1 + v_1_world_1;
     phi_q_t_lambda_q[2] = v_2_world_2;
     phi_q_t_lambda_q[6] = v_2_world_2;
     phi_q_t_lambda_q[21] = v_2_world_2;
     phi_q_t_lambda_q[36] = v_2_world_2;
-    /* v_5_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_5_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real v_2_world_1 = v_0_world_1 + v_1_world_1;
     phi_q_t_lambda_q[1] = v_2_world_1;
     phi_q_t_lambda_q[12] = v_2_world_1;
     phi_q_t_lambda_q[26] = v_2_world_1;
     phi_q_t_lambda_q[40] = v_2_world_1;
     const jg_real v_2_world_0 = v_0_world_0 + v_1_world_0;
+    /* v_5_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_5_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
+    const jg_real t25 = -v_2_world_2;
     phi_q_t_lambda_q[5] = v_2_world_0;
     phi_q_t_lambda_q[17] = v_2_world_0;
     phi_q_t_lambda_q[32] = v_2_world_0;
     phi_q_t_lambda_q[39] = v_2_world_0;
-    const jg_real v_5_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
-    const jg_real t32 = -v_2_world_2;
-    phi_q_t_lambda_q[0] = t32;
-    phi_q_t_lambda_q[11] = t32;
-    phi_q_t_lambda_q[16] = t32;
-    phi_q_t_lambda_q[38] = t32;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t34 = -v_2_world_1;
-    phi_q_t_lambda_q[4] = t34;
-    phi_q_t_lambda_q[7] = t34;
-    phi_q_t_lambda_q[31] = t34;
-    phi_q_t_lambda_q[37] = t34;
-    const jg_real t35 = -v_2_world_0;
-    phi_q_t_lambda_q[3] = t35;
-    phi_q_t_lambda_q[22] = t35;
-    phi_q_t_lambda_q[27] = t35;
-    phi_q_t_lambda_q[41] = t35;
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    phi_q_t_lambda_q[0] = t25;
+    phi_q_t_lambda_q[11] = t25;
+    phi_q_t_lambda_q[16] = t25;
+    phi_q_t_lambda_q[38] = t25;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
+    const jg_real h_i_cross_f_j_world_2 = h_i_world_0 * f_j_world_1 - h_i_world_1 * f_j_world_0;
+    const jg_real t29 = -v_2_world_1;
+    const jg_real t30 = -v_2_world_0;
+    phi_q_t_lambda_q[4] = t29;
+    phi_q_t_lambda_q[7] = t29;
+    phi_q_t_lambda_q[31] = t29;
+    phi_q_t_lambda_q[37] = t29;
+    phi_q_t_lambda_q[3] = t30;
+    phi_q_t_lambda_q[22] = t30;
+    phi_q_t_lambda_q[27] = t30;
+    phi_q_t_lambda_q[41] = t30;
+    const jg_real v_5_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* across_world = across, world axes */
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
-    const jg_real h_i_cross_f_j_world_0 = h_i_world_1 * f_j_world_2 - h_i_world_2 * f_j_world_1;
-    const jg_real v_5_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real h_i_cross_f_j_world_0 = h_i_world_1 * f_j_world_2 - h_i_world_2 * f_j_world_1;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real v_5_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
     const jg_real t44 = lambda[4] * pitch * spread;
     /* v_3_world = lambda_4 pitch spread f_j, world axes */
     const jg_real v_3_world_1 = f_j_world_1 * t44;
@@ -363,61 +356,61 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real t65 = M_0_world_world_4 + v_2_world_1 * r_ij_world_1;
     const jg_real t66 = M_0_world_world_8 + v_2_world_2 * r_ij_world_2;
     const jg_real t67 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t67;
-    phi_q_t_lambda_q[42] = t67;
     /* v_6_world = (2 lambda_4 (h_i . f_j) (h_i . f_j) (h_i . f_j) pitch spread spread + lambda_4 (h_i . f_j) ... */
     const jg_real v_6_world_2 = f_j_world_2 * t57;
     const jg_real v_6_world_1 = f_j_world_1 * t57;
     const jg_real v_6_world_0 = f_j_world_0 * t57;
     const jg_real t71 = M_0_world_world_1 + v_7_world_2;
-    phi_q_t_lambda_q[51] = t71;
     const jg_real t72 = M_0_world_world_3 - v_7_world_2;
-    phi_q_t_lambda_q[46] = t72;
     const jg_real t73 = M_0_world_world_0 + v_2_world_0 * r_ij_world_0;
     const jg_real t74 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real t75 = M_0_world_world_0 + M_0_world_world_4;
+    phi_q_t_lambda_q[13] = t67;
+    phi_q_t_lambda_q[42] = t67;
+    phi_q_t_lambda_q[51] = t71;
+    phi_q_t_lambda_q[46] = t72;
     phi_q_t_lambda_q[24] = t74;
     phi_q_t_lambda_q[49] = t74;
-    const jg_real t75 = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[35] = t75;
     phi_q_t_lambda_q[56] = t75;
     const jg_real t76 = M_0_world_world_6 + v_7_world_1;
-    phi_q_t_lambda_q[47] = t76;
     const jg_real t77 = M_0_world_world_7 - v_7_world_0;
+    const jg_real t78 = M_0_world_world_1 - v_6_world_2;
+    const jg_real t79 = M_0_world_world_2 + v_6_world_1;
+    const jg_real t80 = M_0_world_world_3 + v_6_world_2;
+    const jg_real t81 = M_0_world_world_5 - v_6_world_0;
+    const jg_real t82 = M_0_world_world_6 - v_6_world_1;
+    const jg_real t83 = M_0_world_world_7 + v_6_world_0;
+    phi_q_t_lambda_q[47] = t76;
     phi_q_t_lambda_q[53] = t77;
-    const jg_real t78 = M_0_world_world_2 - v_7_world_1;
-    phi_q_t_lambda_q[57] = t78;
-    const jg_real t79 = M_0_world_world_5 + v_7_world_0;
-    phi_q_t_lambda_q[58] = t79;
     phi_q_t_lambda_q[45] = -t67;
-    const jg_real t80 = M_0_world_world_1 - v_6_world_2;
-    const jg_real t81 = M_0_world_world_2 + v_6_world_1;
-    const jg_real t82 = M_0_world_world_3 + v_6_world_2;
-    const jg_real t83 = M_0_world_world_5 - v_6_world_0;
-    const jg_real t84 = M_0_world_world_6 - v_6_world_1;
-    const jg_real t85 = M_0_world_world_7 + v_6_world_0;
     phi_q_t_lambda_q[43] = -t72;
     phi_q_t_lambda_q[44] = -t76;
+    phi_q_t_lambda_q[8] = -(t65 + t66);
     phi_q_t_lambda_q[48] = -t71;
+    phi_q_t_lambda_q[9] = t78 + v_2_world_1 * r_ij_world_0;
+    phi_q_t_lambda_q[10] = t79 + v_2_world_2 * r_ij_world_0;
+    phi_q_t_lambda_q[14] = -t78;
+    phi_q_t_lambda_q[15] = -t79;
+    phi_q_t_lambda_q[18] = t80 + v_2_world_0 * r_ij_world_1;
+    phi_q_t_lambda_q[19] = -(t73 + t66);
+    phi_q_t_lambda_q[20] = t81 + v_2_world_2 * r_ij_world_1;
+    phi_q_t_lambda_q[23] = -t80;
+    phi_q_t_lambda_q[25] = -t81;
+    const jg_real t84 = M_0_world_world_2 - v_7_world_1;
+    phi_q_t_lambda_q[28] = t82 + v_2_world_0 * r_ij_world_2;
+    phi_q_t_lambda_q[29] = t83 + v_2_world_1 * r_ij_world_2;
+    phi_q_t_lambda_q[30] = -(t73 + t65);
+    phi_q_t_lambda_q[33] = -t82;
+    phi_q_t_lambda_q[34] = -t83;
     phi_q_t_lambda_q[50] = -t77;
     phi_q_t_lambda_q[52] = -t74;
-    phi_q_t_lambda_q[54] = -t78;
-    phi_q_t_lambda_q[8] = -(t65 + t66);
-    phi_q_t_lambda_q[55] = -t79;
-    phi_q_t_lambda_q[9] = t80 + v_2_world_1 * r_ij_world_0;
-    phi_q_t_lambda_q[10] = t81 + v_2_world_2 * r_ij_world_0;
-    phi_q_t_lambda_q[14] = -t80;
-    phi_q_t_lambda_q[15] = -t81;
-    phi_q_t_lambda_q[18] = t82 + v_2_world_0 * r_ij_world_1;
-    phi_q_t_lambda_q[19] = -(t73 + t66);
-    phi_q_t_lambda_q[20] = t83 + v_2_world_2 * r_ij_world_1;
-    phi_q_t_lambda_q[23] = -t82;
-    phi_q_t_lambda_q[25] = -t83;
-    phi_q_t_lambda_q[28] = t84 + v_2_world_0 * r_ij_world_2;
-    phi_q_t_lambda_q[29] = t85 + v_2_world_1 * r_ij_world_2;
-    phi_q_t_lambda_q[30] = -(t73 + t65);
-    phi_q_t_lambda_q[33] = -t84;
-    phi_q_t_lambda_q[34] = -t85;
+    phi_q_t_lambda_q[57] = t84;
+    const jg_real t85 = M_0_world_world_5 + v_7_world_0;
+    phi_q_t_lambda_q[58] = t85;
     phi_q_t_lambda_q[59] = -t75;
+    phi_q_t_lambda_q[54] = -t84;
+    phi_q_t_lambda_q[55] = -t85;
 }
 
 void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i,
@@ -429,9 +422,8 @@ void jg_screw_conventional_world_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
     jg_scatter(jg_screw_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_screw_conventional_world_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -451,46 +443,46 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* v_i_in_joint_i = v_i, axes of joint i */
     const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     /* omega_i_dot_g_i = omega_i . g_i */
     const jg_real omega_i_dot_g_i = omega_i[0] * g_i_world_0 + omega_i[1] * g_i_world_1 + omega_i[2] * g_i_world_2;
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    /* omega_i_dot_f_i = omega_i . f_i */
-    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    /* s_j_dot_omega_i = s_j . omega_i */
-    const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
-    const jg_real t24 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
     /* omega_i_dot_h_i = omega_i . h_i */
     const jg_real omega_i_dot_h_i = omega_i[0] * h_i_world_0 + omega_i[1] * h_i_world_1 + omega_i[2] * h_i_world_2;
     const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
     const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
+    /* omega_i_dot_f_i = omega_i . f_i */
+    const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
+    /* s_j_dot_omega_i = s_j . omega_i */
+    const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
+    const jg_real t27 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
+        r_ij_world_2;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    /* r_ij_dot_omega_i = r_ij . omega_i */
-    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
-        r_ij_world_2;
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
         r_ij_world_2;
@@ -510,7 +502,6 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* omega_j_dot_h_j = omega_j . h_j */
@@ -519,10 +510,8 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_world_0 + omega_i[1] * h_j_world_1 + omega_i[2] * h_j_world_2;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
-    gamma[0] = (omega_i_dot_h_i * v_i_in_joint_i_1 - omega_i_dot_g_i * v_i_in_joint_i_2) * JG_REAL(2.0) -
-        (s_j_dot_f_i * t24 + omega_i_dot_f_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
-        (s_j_dot_omega_j - s_j_dot_omega_i * JG_REAL(2.0)) - omega_i_dot_omega_i * r_ij_dot_f_i + (omega_i_dot_h_i *
-        v_j_in_joint_i_1 - omega_i_dot_g_i * v_j_in_joint_i_2) * JG_REAL(2.0));
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real t47 = omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j;
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = omega_j[0] * h_i_world_0 + omega_j[1] * h_i_world_1 + omega_j[2] * h_i_world_2;
     /* h_i_dot_f_j = h_i . f_j */
@@ -533,46 +522,48 @@ void jg_screw_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
     /* s_j_dot_h_i = s_j . h_i */
     const jg_real s_j_dot_h_i = s_j_world_0 * h_i_world_0 + s_j_world_1 * h_i_world_1 + s_j_world_2 * h_i_world_2;
-    const jg_real t52 = omega_j_dot_h_j - JG_REAL(2.0) * omega_i_dot_h_j;
-    /* r_ij_dot_h_i = r_ij . h_i */
-    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
-        h_i_world_2;
-    const jg_real t54 = omega_i_dot_g_i * f_i_dot_f_j - omega_i_dot_f_i * g_i_dot_f_j;
-    const jg_real t55 = g_i_dot_omega_j * f_i_dot_f_j - f_i_dot_omega_j * g_i_dot_f_j;
-    gamma[1] = s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t24 * s_j_dot_g_i +
-        omega_i_dot_omega_i * r_ij_dot_g_i - r_ij_dot_omega_i * omega_i_dot_g_i - s_j_dot_omega_j * g_i_dot_omega_j
-        - JG_REAL(2.0) * (omega_i_dot_f_i * v_j_in_joint_i_2 - omega_i_dot_h_i * v_j_in_joint_i_0) + JG_REAL(2.0) *
-        (omega_i_dot_f_i * v_i_in_joint_i_2 - omega_i_dot_h_i * v_i_in_joint_i_0);
-    /* omega_j_cross_f_j_in_joint_i = omega_j x f_j, axes of joint i */
-    const jg_real omega_j_cross_f_j_in_joint_i_0 = g_i_dot_omega_j * h_i_dot_f_j - h_i_dot_omega_j * g_i_dot_f_j;
-    const jg_real omega_j_cross_f_j_in_joint_i_1 = h_i_dot_omega_j * f_i_dot_f_j - f_i_dot_omega_j * h_i_dot_f_j;
+    const jg_real t53 = omega_i_dot_g_i * f_i_dot_f_j - omega_i_dot_f_i * g_i_dot_f_j;
+    const jg_real t54 = g_i_dot_omega_j * f_i_dot_f_j - f_i_dot_omega_j * g_i_dot_f_j;
     /* omega_i_dot_f_j = omega_i . f_j */
     const jg_real omega_i_dot_f_j = omega_i_dot_f_i * f_i_dot_f_j + omega_i_dot_g_i * g_i_dot_f_j + omega_i_dot_h_i
         * h_i_dot_f_j;
+    /* omega_j_cross_f_j_in_joint_i = omega_j x f_j, axes of joint i */
+    const jg_real omega_j_cross_f_j_in_joint_i_0 = g_i_dot_omega_j * h_i_dot_f_j - h_i_dot_omega_j * g_i_dot_f_j;
+    /* r_ij_dot_h_i = r_ij . h_i */
+    const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
+        h_i_world_2;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = f_i_dot_omega_j * f_i_dot_f_j + g_i_dot_omega_j * g_i_dot_f_j + h_i_dot_omega_j
         * h_i_dot_f_j;
-    const jg_real t60 = t55 - t54;
+    const jg_real omega_j_cross_f_j_in_joint_i_1 = h_i_dot_omega_j * f_i_dot_f_j - f_i_dot_omega_j * h_i_dot_f_j;
+    const jg_real t60 = t54 - t53;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     const jg_real t62 = omega_i_dot_f_j - omega_j_dot_f_j;
-    gamma[2] = -(t24 * f_i_dot_h_j + f_i_dot_omega_j * t52 + omega_i_dot_f_i * omega_i_dot_h_j);
-    gamma[3] = -(t24 * g_i_dot_h_j + g_i_dot_omega_j * t52 + omega_i_dot_g_i * omega_i_dot_h_j);
-    const jg_real t63 = t54 * t62;
-    const jg_real t64 = t55 * t62;
+    const jg_real t63 = t53 * t62;
+    const jg_real t64 = t54 * t62;
+    gamma[0] = (omega_i_dot_h_i * v_i_in_joint_i_1 - omega_i_dot_g_i * v_i_in_joint_i_2) * JG_REAL(2.0) -
+        (s_j_dot_f_i * t27 + omega_i_dot_f_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
+        (s_j_dot_omega_j - s_j_dot_omega_i * JG_REAL(2.0)) - omega_i_dot_omega_i * r_ij_dot_f_i + (omega_i_dot_h_i *
+        v_j_in_joint_i_1 - omega_i_dot_g_i * v_j_in_joint_i_2) * JG_REAL(2.0));
+    gamma[1] = s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t27 * s_j_dot_g_i +
+        omega_i_dot_omega_i * r_ij_dot_g_i - r_ij_dot_omega_i * omega_i_dot_g_i - s_j_dot_omega_j * g_i_dot_omega_j
+        - JG_REAL(2.0) * (omega_i_dot_f_i * v_j_in_joint_i_2 - omega_i_dot_h_i * v_j_in_joint_i_0) + JG_REAL(2.0) *
+        (omega_i_dot_f_i * v_i_in_joint_i_2 - omega_i_dot_h_i * v_i_in_joint_i_0);
+    gamma[2] = -(t27 * f_i_dot_h_j + f_i_dot_omega_j * t47 + omega_i_dot_f_i * omega_i_dot_h_j);
+    gamma[3] = -(t27 * g_i_dot_h_j + g_i_dot_omega_j * t47 + omega_i_dot_g_i * omega_i_dot_h_j);
     gamma[4] = (f_i_dot_omega_j * omega_i_dot_g_i - omega_i_dot_f_i * g_i_dot_omega_j + (t63 + h_i_dot_f_j *
         (omega_i_dot_f_i * omega_j_cross_f_j_in_joint_i_0 + omega_i_dot_g_i * omega_j_cross_f_j_in_joint_i_1 -
-        omega_i_dot_h_i * t55 + (h_i_dot_f_j * (t63 - t64) + omega_i_dot_h_i * t60 - h_i_dot_omega_j * t60) *
-        (JG_REAL(2.0) * spread)) - t64)) * (pitch * spread) - t24 * s_j_dot_h_i + s_j_dot_omega_i * (JG_REAL(2.0) *
+        omega_i_dot_h_i * t54 + (h_i_dot_f_j * (t63 - t64) + omega_i_dot_h_i * t60 - h_i_dot_omega_j * t60) *
+        (JG_REAL(2.0) * spread)) - t64)) * (pitch * spread) - t27 * s_j_dot_h_i + s_j_dot_omega_i * (JG_REAL(2.0) *
         h_i_dot_omega_j - omega_i_dot_h_i) + omega_i_dot_omega_i * r_ij_dot_h_i - r_ij_dot_omega_i * omega_i_dot_h_i
         - s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0) * (omega_i_dot_g_i * v_j_in_joint_i_0 - omega_i_dot_f_i *
         v_j_in_joint_i_1) + JG_REAL(2.0) * (omega_i_dot_g_i * v_i_in_joint_i_0 - omega_i_dot_f_i *
         v_i_in_joint_i_1);
 }
 
-void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_screw_conventional_world_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -584,44 +575,36 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
     const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
-    /* r_ij_in_joint_i = r_ij, axes of joint i */
-    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
-        g_i_world_2;
     /* s_j_in_joint_i = s_j, axes of joint i */
     const jg_real s_j_in_joint_i_1 = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 *
         s_j_world_2;
+    /* r_ij_in_joint_i = r_ij, axes of joint i */
+    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
+        g_i_world_2;
     /* f_i_dot_v_i = f_i . v_i */
     const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
-    /* f_i_dot_v_j = f_i . v_j */
-    const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
-    const jg_real s_j_in_joint_i_0 = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 *
-        s_j_world_2;
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
-    const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
-        r_ij_world_2;
     const jg_real s_j_in_joint_i_2 = h_i_world_0 * s_j_world_0 + h_i_world_1 * s_j_world_1 + h_i_world_2 *
         s_j_world_2;
     /* h_i_dot_omega_i = h_i . omega_i */
@@ -630,14 +613,22 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
         h_i_world_2;
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* f_i_dot_v_j = f_i . v_j */
+    const jg_real f_i_dot_v_j = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
+    const jg_real s_j_in_joint_i_0 = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 *
+        s_j_world_2;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
+    const jg_real r_ij_in_joint_i_0 = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     /* g_i_dot_v_i = g_i . v_i */
     const jg_real g_i_dot_v_i = v_i[0] * g_i_world_0 + v_i[1] * g_i_world_1 + v_i[2] * g_i_world_2;
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* g_i_dot_v_j = g_i . v_j */
     const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* f_j_world = f_j, world axes */
@@ -653,12 +644,6 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
         h_j_world_2;
     /* h_i_dot_v_i = h_i . v_i */
     const jg_real h_i_dot_v_i = v_i[0] * h_i_world_0 + v_i[1] * h_i_world_1 + v_i[2] * h_i_world_2;
-    phi_q_v[0] = f_i_dot_v_j - (g_i_dot_omega_i * s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1 +
-        (r_ij_in_joint_i_2 * g_i_dot_omega_i - r_ij_in_joint_i_1 * h_i_dot_omega_i + f_i_dot_v_i) -
-        (s_j_in_joint_i_2 * g_i_dot_omega_j - s_j_in_joint_i_1 * h_i_dot_omega_j));
-    phi_q_v[1] = g_i_dot_v_j - (h_i_dot_omega_i * s_j_in_joint_i_0 - f_i_dot_omega_i * s_j_in_joint_i_2 +
-        (r_ij_in_joint_i_0 * h_i_dot_omega_i - r_ij_in_joint_i_2 * f_i_dot_omega_i + g_i_dot_v_i) -
-        (s_j_in_joint_i_0 * h_i_dot_omega_j - s_j_in_joint_i_2 * f_i_dot_omega_j));
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* omega_i_dot_f_j = omega_i . f_j */
@@ -667,21 +652,26 @@ void jg_screw_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real omega_j_dot_f_j = omega_j[0] * f_j_world_0 + omega_j[1] * f_j_world_1 + omega_j[2] * f_j_world_2;
     /* h_i_dot_v_j = h_i . v_j */
     const jg_real h_i_dot_v_j = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
+    phi_q_v[0] = f_i_dot_v_j - (g_i_dot_omega_i * s_j_in_joint_i_2 - h_i_dot_omega_i * s_j_in_joint_i_1 +
+        (r_ij_in_joint_i_2 * g_i_dot_omega_i - r_ij_in_joint_i_1 * h_i_dot_omega_i + f_i_dot_v_i) -
+        (s_j_in_joint_i_2 * g_i_dot_omega_j - s_j_in_joint_i_1 * h_i_dot_omega_j));
+    phi_q_v[1] = g_i_dot_v_j - (h_i_dot_omega_i * s_j_in_joint_i_0 - f_i_dot_omega_i * s_j_in_joint_i_2 +
+        (r_ij_in_joint_i_0 * h_i_dot_omega_i - r_ij_in_joint_i_2 * f_i_dot_omega_i + g_i_dot_v_i) -
+        (s_j_in_joint_i_0 * h_i_dot_omega_j - s_j_in_joint_i_2 * f_i_dot_omega_j));
     phi_q_v[2] = g_i_dot_omega_j * h_j_in_joint_i_2 - h_i_dot_omega_j * h_j_in_joint_i_1 - (g_i_dot_omega_i *
         h_j_in_joint_i_2 - h_i_dot_omega_i * h_j_in_joint_i_1);
     phi_q_v[3] = h_i_dot_omega_j * h_j_in_joint_i_0 - f_i_dot_omega_j * h_j_in_joint_i_2 - (h_i_dot_omega_i *
         h_j_in_joint_i_0 - f_i_dot_omega_i * h_j_in_joint_i_2);
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     phi_q_v[4] = h_i_dot_v_j - (f_i_dot_omega_i * s_j_in_joint_i_1 - g_i_dot_omega_i * s_j_in_joint_i_0 +
         (r_ij_in_joint_i_1 * f_i_dot_omega_i - r_ij_in_joint_i_0 * g_i_dot_omega_i + (h_i_dot_v_i + (h_i_dot_f_j *
         (omega_i_dot_f_j - omega_j_dot_f_j) - h_i_dot_omega_i + h_i_dot_omega_j) * (pitch * spread))) -
         (s_j_in_joint_i_1 * f_i_dot_omega_j - s_j_in_joint_i_0 * g_i_dot_omega_j));
 }
 
-void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -698,54 +688,48 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real g_i_world_1 = f_i_world_0 * h_i_world_2 - f_i_world_2 * h_i_world_0;
     const jg_real g_i_world_2 = f_i_world_1 * h_i_world_0 - f_i_world_0 * h_i_world_1;
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real v_2_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
-    const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
     const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
-    phi_q_t_lambda[6] = v_0_world_0;
+    const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
-    phi_q_t_lambda[7] = v_0_world_1;
     const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
-    phi_q_t_lambda[8] = v_0_world_2;
-    phi_q_t_lambda[0] = -v_0_world_0;
-    phi_q_t_lambda[1] = -v_0_world_1;
-    phi_q_t_lambda[2] = -v_0_world_2;
+    const jg_real v_2_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* v_3_world = lambda_2 f_i x h_j + lambda_3 g_i x h_j, world axes */
     const jg_real v_3_world_0 = h_j_world_2 * v_2_world_1 - h_j_world_1 * v_2_world_2;
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    const jg_real v_3_world_1 = h_j_world_0 * v_2_world_2 - h_j_world_2 * v_2_world_0;
-    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - h_j_world_0 * v_2_world_1;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* v_1_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, world axes */
     const jg_real v_1_world_0 = v_0_world_2 * s_j_world_1 - v_0_world_1 * s_j_world_2;
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* v_6_world = lambda_0 r_ij x f_i + lambda_1 r_ij x g_i + lambda_4 r_ij x h_i, world axes */
     const jg_real v_6_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
-    const jg_real v_1_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real v_3_world_1 = h_j_world_0 * v_2_world_2 - h_j_world_2 * v_2_world_0;
+    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - h_j_world_0 * v_2_world_1;
     const jg_real v_6_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
-    const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
     const jg_real v_6_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
     /* across_world = across, world axes */
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
+    const jg_real v_1_world_1 = v_0_world_0 * s_j_world_2 - v_0_world_2 * s_j_world_0;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
+    const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - v_0_world_0 * s_j_world_1;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
@@ -761,8 +745,14 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real v_5_world_2 = v_3_world_2 - v_1_world_2 + v_4_world_2;
     /* v_7_world = lambda_4 spread pitch across - lambda_0 r_ij x f_i - lambda_0 s_j x f_i - lambda_1 r_ij x ... */
     const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
-    phi_q_t_lambda[3] = v_7_world_0;
     const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
+    phi_q_t_lambda[6] = v_0_world_0;
+    phi_q_t_lambda[7] = v_0_world_1;
+    phi_q_t_lambda[8] = v_0_world_2;
+    phi_q_t_lambda[0] = -v_0_world_0;
+    phi_q_t_lambda[1] = -v_0_world_1;
+    phi_q_t_lambda[2] = -v_0_world_2;
+    phi_q_t_lambda[3] = v_7_world_0;
     phi_q_t_lambda[4] = v_7_world_1;
     const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
     phi_q_t_lambda[5] = v_7_world_2;
@@ -771,10 +761,9 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     phi_q_t_lambda[11] = -v_5_world_2;
 }
 
-void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_screw_conventional_world_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -793,258 +782,230 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[24] = f_i_world_0;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[27] = f_i_world_1;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[30] = f_i_world_2;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* s_i_dot_f_i = s_i . f_i */
     const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[25] = g_i_world_0;
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    phi_q[28] = g_i_world_1;
+    /* s_j_dot_f_i = s_j . f_i */
+    const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[31] = g_i_world_2;
+    /* v_1_in_joint_i = r_ij x g_i + s_j x g_i, axes of joint i */
+    const jg_real v_1_in_joint_i_2 = s_j_dot_f_i + r_ij_dot_f_i;
     /* s_i_dot_g_i = s_i . g_i */
     const jg_real s_i_dot_g_i = s_i[0] * C_i[3] + s_i[1] * C_i[4] + s_i[2] * C_i[5];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    /* r_ij_dot_f_i = r_ij . f_i */
-    const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
-        f_i_world_2;
-    /* s_j_dot_f_i = s_j . f_i */
-    const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* v_1_in_joint_i = r_ij x g_i + s_j x g_i, axes of joint i */
-    const jg_real v_1_in_joint_i_2 = r_ij_dot_f_i + s_j_dot_f_i;
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    phi_q[26] = h_i_world_0;
-    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
-    phi_q[29] = h_i_world_1;
-    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
-    phi_q[32] = h_i_world_2;
-    /* s_i_dot_h_i = s_i . h_i */
-    const jg_real s_i_dot_h_i = s_i[0] * C_i[6] + s_i[1] * C_i[7] + s_i[2] * C_i[8];
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = s_j_world_0 * g_i_world_0 + s_j_world_1 * g_i_world_1 + s_j_world_2 * g_i_world_2;
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
         g_i_world_2;
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
+    phi_q[24] = f_i_world_0;
+    phi_q[27] = f_i_world_1;
+    phi_q[30] = f_i_world_2;
+    phi_q[25] = g_i_world_0;
+    phi_q[28] = g_i_world_1;
+    phi_q[31] = g_i_world_2;
     phi[0] = v_1_in_joint_i_2 - s_i_dot_f_i;
-    const jg_real t26 = r_ij_dot_g_i + s_j_dot_g_i;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    phi_q[0] = -f_i_world_0;
-    phi_q[1] = -g_i_world_0;
-    phi_q[2] = -h_i_world_0;
-    phi_q[3] = -f_i_world_1;
-    phi_q[4] = -g_i_world_1;
+    phi_q[26] = h_i_world_0;
+    const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - f_i_world_0 * g_i_world_2;
+    const jg_real h_i_world_2 = f_i_world_0 * g_i_world_1 - f_i_world_1 * g_i_world_0;
+    const jg_real t25 = s_j_dot_g_i + r_ij_dot_g_i;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[2] = f_i_dot_h_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = g_i_world_0 * h_j_world_0 + g_i_world_1 * h_j_world_1 + g_i_world_2 * h_j_world_2;
-    phi[3] = g_i_dot_h_j;
-    phi_q[5] = -h_i_world_1;
-    phi[1] = t26 - s_i_dot_g_i;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    phi_q[6] = -f_i_world_2;
-    phi_q[7] = -g_i_world_2;
-    phi_q[8] = -h_i_world_2;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* s_i_dot_h_i = s_i . h_i */
+    const jg_real s_i_dot_h_i = s_i[0] * C_i[6] + s_i[1] * C_i[7] + s_i[2] * C_i[8];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* r_ij_dot_h_i = r_ij . h_i */
     const jg_real r_ij_dot_h_i = r_ij_world_0 * h_i_world_0 + r_ij_world_1 * h_i_world_1 + r_ij_world_2 *
         h_i_world_2;
+    phi_q[29] = h_i_world_1;
+    phi_q[32] = h_i_world_2;
+    phi[2] = f_i_dot_h_j;
+    phi[3] = g_i_dot_h_j;
+    phi[1] = t25 - s_i_dot_g_i;
+    phi_q[0] = -f_i_world_0;
+    phi_q[1] = -g_i_world_0;
+    phi_q[2] = -h_i_world_0;
     /* s_j_dot_h_i = s_j . h_i */
     const jg_real s_j_dot_h_i = s_j_world_0 * h_i_world_0 + s_j_world_1 * h_i_world_1 + s_j_world_2 * h_i_world_2;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     /* v_0_in_joint_i = r_ij x f_i + s_j x f_i, axes of joint i */
     const jg_real v_0_in_joint_i_1 = r_ij_dot_h_i + s_j_dot_h_i;
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_i_cross_h_j_world = f_i x h_j, world axes */
     const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[11] = f_i_cross_h_j_world_0;
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = g_i_world_1 * h_j_world_2 - g_i_world_2 * h_j_world_1;
+    phi_q[3] = -f_i_world_1;
+    phi_q[4] = -g_i_world_1;
+    phi_q[5] = -h_i_world_1;
+    phi_q[6] = -f_i_world_2;
+    phi_q[7] = -g_i_world_2;
+    phi_q[8] = -h_i_world_2;
+    phi_q[11] = f_i_cross_h_j_world_0;
     phi_q[12] = g_i_cross_h_j_world_0;
     /* s_j_cross_h_i_world = s_j x h_i, world axes */
     const jg_real s_j_cross_h_i_world_0 = s_j_world_1 * h_i_world_2 - s_j_world_2 * h_i_world_1;
-    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
-    const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = g_i_world_0 * f_j_world_0 + g_i_world_1 * f_j_world_1 + g_i_world_2 * f_j_world_2;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
+    const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = f_j_world_0 * h_i_world_0 + f_j_world_1 * h_i_world_1 + f_j_world_2 * h_i_world_2;
-    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[16] = f_i_cross_h_j_world_1;
-    const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
-    phi_q[17] = g_i_cross_h_j_world_1;
-    const jg_real s_j_cross_h_i_world_1 = s_j_world_2 * h_i_world_0 - s_j_world_0 * h_i_world_2;
-    phi_q[9] = t26 * h_i_world_0 - g_i_world_0 * v_0_in_joint_i_1;
-    phi_q[10] = f_i_world_0 * v_0_in_joint_i_1 - v_1_in_joint_i_2 * h_i_world_0;
-    phi_q[14] = t26 * h_i_world_1 - g_i_world_1 * v_0_in_joint_i_1;
-    phi_q[15] = f_i_world_1 * v_0_in_joint_i_1 - v_1_in_joint_i_2 * h_i_world_1;
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
+    const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real g_i_cross_h_j_world_1 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    const jg_real s_j_cross_h_i_world_1 = s_j_world_2 * h_i_world_0 - s_j_world_0 * h_i_world_2;
     const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - r_ij_world_0 * h_i_world_2;
-    phi_q[19] = t26 * h_i_world_2 - g_i_world_2 * v_0_in_joint_i_1;
+    phi_q[9] = t25 * h_i_world_0 - g_i_world_0 * v_0_in_joint_i_1;
+    phi_q[10] = f_i_world_0 * v_0_in_joint_i_1 - v_1_in_joint_i_2 * h_i_world_0;
+    phi_q[14] = t25 * h_i_world_1 - g_i_world_1 * v_0_in_joint_i_1;
+    phi_q[15] = f_i_world_1 * v_0_in_joint_i_1 - v_1_in_joint_i_2 * h_i_world_1;
+    phi_q[16] = f_i_cross_h_j_world_1;
+    phi_q[17] = g_i_cross_h_j_world_1;
+    phi_q[19] = t25 * h_i_world_2 - g_i_world_2 * v_0_in_joint_i_1;
     phi_q[20] = f_i_world_2 * v_0_in_joint_i_1 - v_1_in_joint_i_2 * h_i_world_2;
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[21] = f_i_cross_h_j_world_2;
     /* across_world = across, world axes */
     const jg_real across_world_0 = h_i_world_0 - f_j_world_0 * h_i_dot_f_j;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
-    phi_q[35] = -f_i_cross_h_j_world_0;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
     const jg_real g_i_cross_h_j_world_2 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
-    phi_q[22] = g_i_cross_h_j_world_2;
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
-    phi_q[36] = -g_i_cross_h_j_world_0;
+    /* spread =  */
+    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     const jg_real s_j_cross_h_i_world_2 = s_j_world_0 * h_i_world_1 - s_j_world_1 * h_i_world_0;
     const jg_real r_ij_cross_h_i_world_2 = r_ij_world_0 * h_i_world_1 - r_ij_world_1 * h_i_world_0;
     /* s_j_cross_f_i_world = s_j x f_i, world axes */
-    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
-    phi_q[33] = s_j_cross_f_i_world_0;
-    /* spread =  */
-    const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
-    phi_q[40] = -f_i_cross_h_j_world_1;
-    phi_q[41] = -g_i_cross_h_j_world_1;
+    const jg_real s_j_cross_f_i_world_0 = s_j_world_1 * f_i_world_2 - f_i_world_1 * s_j_world_2;
     /* s_j_cross_g_i_world = s_j x g_i, world axes */
     const jg_real s_j_cross_g_i_world_0 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
+    phi_q[21] = f_i_cross_h_j_world_2;
+    phi_q[22] = g_i_cross_h_j_world_2;
+    phi_q[35] = -f_i_cross_h_j_world_0;
+    phi_q[36] = -g_i_cross_h_j_world_0;
+    phi_q[33] = s_j_cross_f_i_world_0;
+    phi_q[40] = -f_i_cross_h_j_world_1;
+    phi_q[41] = -g_i_cross_h_j_world_1;
     phi_q[34] = s_j_cross_g_i_world_0;
-    phi_q[45] = -f_i_cross_h_j_world_2;
-    phi_q[46] = -g_i_cross_h_j_world_2;
-    const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    phi_q[38] = s_j_cross_f_i_world_1;
+    const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - s_j_world_0 * f_i_world_2;
+    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
     /* v_5_world = lambda_1 g_i, world axes */
     const jg_real v_5_world_2 = g_i_world_2 * lambda[1];
-    const jg_real s_j_cross_g_i_world_1 = s_j_world_2 * g_i_world_0 - s_j_world_0 * g_i_world_2;
-    phi_q[39] = s_j_cross_g_i_world_1;
+    const jg_real s_j_cross_f_i_world_2 = s_j_world_0 * f_i_world_1 - f_i_world_0 * s_j_world_1;
     const jg_real v_5_world_1 = g_i_world_1 * lambda[1];
-    const jg_real v_5_world_0 = g_i_world_0 * lambda[1];
-    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    phi_q[43] = s_j_cross_f_i_world_2;
     const jg_real s_j_cross_g_i_world_2 = s_j_world_0 * g_i_world_1 - s_j_world_1 * g_i_world_0;
-    phi_q[44] = s_j_cross_g_i_world_2;
+    const jg_real v_5_world_0 = g_i_world_0 * lambda[1];
     /* v_4_world = lambda_0 f_i + lambda_4 h_i, world axes */
-    const jg_real v_4_world_2 = f_i_world_2 * lambda[0] + h_i_world_2 * lambda[4];
-    const jg_real v_4_world_1 = f_i_world_1 * lambda[0] + h_i_world_1 * lambda[4];
-    const jg_real v_4_world_0 = f_i_world_0 * lambda[0] + h_i_world_0 * lambda[4];
+    const jg_real v_4_world_2 = h_i_world_2 * lambda[4] + f_i_world_2 * lambda[0];
+    const jg_real v_4_world_1 = h_i_world_1 * lambda[4] + f_i_world_1 * lambda[0];
+    const jg_real t66 = pitch * spread;
+    const jg_real t67 = spread * JG_REAL(2.0);
+    const jg_real v_4_world_0 = h_i_world_0 * lambda[4] + f_i_world_0 * lambda[0];
     /* h_i_cross_f_j_world = h_i x f_j, world axes */
     const jg_real h_i_cross_f_j_world_1 = g_i_world_1 * f_i_dot_f_j - f_i_world_1 * g_i_dot_f_j;
-    /* v_13_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_13_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
     /* v_6_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
     const jg_real v_6_world_2 = v_4_world_2 + v_5_world_2;
+    phi_q[45] = -f_i_cross_h_j_world_2;
+    phi_q[38] = s_j_cross_f_i_world_1;
+    phi_q[46] = -g_i_cross_h_j_world_2;
+    phi_q[39] = s_j_cross_g_i_world_1;
+    phi_q[43] = s_j_cross_f_i_world_2;
+    phi_q[44] = s_j_cross_g_i_world_2;
     phi_q_t_lambda_q[2] = v_6_world_2;
     phi_q_t_lambda_q[6] = v_6_world_2;
     phi_q_t_lambda_q[21] = v_6_world_2;
     phi_q_t_lambda_q[36] = v_6_world_2;
-    const jg_real h_i_cross_f_j_world_2 = g_i_world_2 * f_i_dot_f_j - f_i_world_2 * g_i_dot_f_j;
-    const jg_real v_13_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
+    /* v_13_world = lambda_2 f_i + lambda_3 g_i, world axes */
+    const jg_real v_13_world_1 = f_i_world_1 * lambda[2] + g_i_world_1 * lambda[3];
     const jg_real v_6_world_1 = v_4_world_1 + v_5_world_1;
+    /* v_8_in_joint_i = pitch spread lambda_4 h_i, axes of joint i */
+    const jg_real v_8_in_joint_i_2 = t66 * lambda[4];
+    const jg_real v_6_world_0 = v_4_world_0 + v_5_world_0;
     phi_q_t_lambda_q[1] = v_6_world_1;
     phi_q_t_lambda_q[12] = v_6_world_1;
     phi_q_t_lambda_q[26] = v_6_world_1;
     phi_q_t_lambda_q[40] = v_6_world_1;
-    const jg_real h_i_cross_f_j_world_0 = g_i_world_0 * f_i_dot_f_j - f_i_world_0 * g_i_dot_f_j;
-    const jg_real v_6_world_0 = v_4_world_0 + v_5_world_0;
     phi_q_t_lambda_q[5] = v_6_world_0;
     phi_q_t_lambda_q[17] = v_6_world_0;
     phi_q_t_lambda_q[32] = v_6_world_0;
     phi_q_t_lambda_q[39] = v_6_world_0;
-    const jg_real t75 = pitch * spread;
-    const jg_real v_13_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    const jg_real h_i_cross_f_j_world_2 = g_i_world_2 * f_i_dot_f_j - f_i_world_2 * g_i_dot_f_j;
+    const jg_real v_13_world_2 = f_i_world_2 * lambda[2] + g_i_world_2 * lambda[3];
     const jg_real t77 = -v_6_world_2;
+    const jg_real t78 = -v_6_world_1;
     phi_q_t_lambda_q[0] = t77;
     phi_q_t_lambda_q[11] = t77;
     phi_q_t_lambda_q[16] = t77;
     phi_q_t_lambda_q[38] = t77;
-    const jg_real t78 = -v_6_world_1;
     phi_q_t_lambda_q[4] = t78;
     phi_q_t_lambda_q[7] = t78;
     phi_q_t_lambda_q[31] = t78;
     phi_q_t_lambda_q[37] = t78;
-    const jg_real t79 = -v_6_world_0;
-    phi_q_t_lambda_q[3] = t79;
-    phi_q_t_lambda_q[22] = t79;
-    phi_q_t_lambda_q[27] = t79;
-    phi_q_t_lambda_q[41] = t79;
-    /* v_8_in_joint_i = pitch spread lambda_4 h_i, axes of joint i */
-    const jg_real v_8_in_joint_i_2 = t75 * lambda[4];
     /* v_2_world = pitch spread across - s_j x h_i, world axes */
-    const jg_real v_2_world_0 = t75 * across_world_0 - s_j_cross_h_i_world_0;
-    const jg_real v_2_world_1 = t75 * across_world_1 - s_j_cross_h_i_world_1;
-    const jg_real v_2_world_2 = t75 * across_world_2 - s_j_cross_h_i_world_2;
-    /* v_9_in_joint_i = pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_9_in_joint_i_2 = spread * v_8_in_joint_i_2;
+    const jg_real v_2_world_0 = t66 * across_world_0 - s_j_cross_h_i_world_0;
+    const jg_real v_2_world_1 = t66 * across_world_1 - s_j_cross_h_i_world_1;
+    const jg_real v_2_world_2 = t66 * across_world_2 - s_j_cross_h_i_world_2;
+    /* v_11_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
+    const jg_real v_11_in_joint_i_2 = v_8_in_joint_i_2 * t67;
+    const jg_real t83 = -v_6_world_0;
     /* v_7_world = pitch spread lambda_4 f_j, world axes */
     const jg_real v_7_world_1 = f_j_world_1 * v_8_in_joint_i_2;
     const jg_real v_7_world_2 = f_j_world_2 * v_8_in_joint_i_2;
     const jg_real v_7_world_0 = f_j_world_0 * v_8_in_joint_i_2;
-    /* v_j_in_joint_i = v_j, axes of joint i */
-    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
     /* v_3_world = pitch spread across - r_ij x h_i - s_j x h_i, world axes */
     const jg_real v_3_world_0 = v_2_world_0 - r_ij_cross_h_i_world_0;
-    phi_q[13] = v_3_world_0;
     const jg_real v_3_world_1 = v_2_world_1 - r_ij_cross_h_i_world_1;
-    phi_q[18] = v_3_world_1;
     const jg_real v_3_world_2 = v_2_world_2 - r_ij_cross_h_i_world_2;
+    phi_q_t_lambda_q[3] = t83;
+    phi_q_t_lambda_q[22] = t83;
+    phi_q_t_lambda_q[27] = t83;
+    phi_q_t_lambda_q[41] = t83;
+    phi_q[13] = v_3_world_0;
+    phi_q[18] = v_3_world_1;
     phi_q[23] = v_3_world_2;
     phi_q[37] = -v_2_world_0;
-    phi_q[42] = -v_2_world_1;
-    phi_q[47] = -v_2_world_2;
-    /* v_11_in_joint_i = 2 pitch spread spread lambda_4 h_i, axes of joint i */
-    const jg_real v_11_in_joint_i_2 = JG_REAL(2.0) * v_9_in_joint_i_2;
+    const jg_real t90 = h_i_dot_f_j * v_11_in_joint_i_2;
+    const jg_real h_i_cross_f_j_world_0 = g_i_world_0 * f_i_dot_f_j - f_i_world_0 * g_i_dot_f_j;
+    const jg_real v_13_world_0 = f_i_world_0 * lambda[2] + g_i_world_0 * lambda[3];
+    /* v_12_world = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, world axes */
+    const jg_real v_12_world_1 = v_7_world_1 - across_world_1 * t90;
+    const jg_real v_12_world_2 = v_7_world_2 - across_world_2 * t90;
+    const jg_real v_12_world_0 = v_7_world_0 - across_world_0 * t90;
     /* v_15_world = pitch (h_i . f_j) spread lambda_4 f_j, world axes */
     const jg_real v_15_world_2 = h_i_dot_f_j * v_7_world_2;
     const jg_real v_15_world_1 = h_i_dot_f_j * v_7_world_1;
     const jg_real v_15_world_0 = h_i_dot_f_j * v_7_world_0;
-    const jg_real t96 = h_i_dot_f_j * v_11_in_joint_i_2;
-    /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
-    /* h_i_dot_omega_i = h_i . omega_i */
-    const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 * omega_i[2];
-    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
-    /* v_12_world = pitch spread lambda_4 f_j - 2 pitch (h_i . f_j) spread spread lambda_4 across, world axes */
-    const jg_real v_12_world_1 = v_7_world_1 - across_world_1 * t96;
-    const jg_real v_12_world_2 = v_7_world_2 - across_world_2 * t96;
-    const jg_real v_12_world_0 = v_7_world_0 - across_world_0 * t96;
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
-    /* s_j_dot_omega_i = s_j . omega_i */
-    const jg_real s_j_dot_omega_i = s_j_world_0 * omega_i[0] + s_j_world_1 * omega_i[1] + s_j_world_2 * omega_i[2];
-    /* r_ij_dot_omega_i = r_ij . omega_i */
-    const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i[0] + r_ij_world_1 * omega_i[1] + r_ij_world_2 *
-        omega_i[2];
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
-    const jg_real t110 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
     /* M_0_world_world = (lambda_0 s_j + lambda_2 h_j) f_i^T + (lambda_1 s_j + lambda_3 h_j) g_i^T + (lambda_4 s_j)
         ... */
     const jg_real M_0_world_world_4 = s_j_world_1 * v_6_world_1 - v_12_world_1 * h_i_cross_f_j_world_1 + h_j_world_1
         * v_13_world_1;
     const jg_real M_0_world_world_8 = s_j_world_2 * v_6_world_2 - v_12_world_2 * h_i_cross_f_j_world_2 + h_j_world_2
         * v_13_world_2;
-    const jg_real t113 = h_i_world_0 * v_12_world_0 + h_i_world_1 * v_12_world_1 + h_i_world_2 * v_12_world_2;
-    /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    const jg_real M_0_world_world_1 = s_j_world_0 * v_6_world_1 - v_12_world_0 * h_i_cross_f_j_world_1 + h_j_world_0
+    const jg_real t101 = h_i_world_0 * v_12_world_0 + h_i_world_1 * v_12_world_1 + h_i_world_2 * v_12_world_2;
+    const jg_real M_0_world_world_1 = s_j_world_0 * v_6_world_1 - h_i_cross_f_j_world_1 * v_12_world_0 + h_j_world_0
         * v_13_world_1;
-    const jg_real M_0_world_world_2 = s_j_world_0 * v_6_world_2 - v_12_world_0 * h_i_cross_f_j_world_2 + h_j_world_0
+    const jg_real M_0_world_world_2 = s_j_world_0 * v_6_world_2 - h_i_cross_f_j_world_2 * v_12_world_0 + h_j_world_0
         * v_13_world_2;
     const jg_real M_0_world_world_3 = s_j_world_1 * v_6_world_0 - v_12_world_1 * h_i_cross_f_j_world_0 + h_j_world_1
         * v_13_world_0;
@@ -1054,68 +1015,90 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
         * v_13_world_2;
     const jg_real M_0_world_world_6 = s_j_world_2 * v_6_world_0 - v_12_world_2 * h_i_cross_f_j_world_0 + h_j_world_2
         * v_13_world_0;
-    const jg_real M_0_world_world_7 = s_j_world_2 * v_6_world_1 - v_12_world_2 * h_i_cross_f_j_world_1 + h_j_world_2
+    /* v_j_in_joint_i = v_j, axes of joint i */
+    const jg_real v_j_in_joint_i_2 = h_i_world_0 * v_j[0] + h_i_world_1 * v_j[1] + h_i_world_2 * v_j[2];
+    const jg_real t109 = M_0_world_world_4 + r_ij_world_1 * v_6_world_1;
+    const jg_real t110 = M_0_world_world_8 + r_ij_world_2 * v_6_world_2;
+    const jg_real t111 = M_0_world_world_4 + M_0_world_world_8;
+    /* v_14_world = (2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread lambda_4 - 2 pitch (h_i . f_j) ... */
+    const jg_real v_14_world_2 = f_j_world_2 * t101;
+    const jg_real v_14_world_1 = f_j_world_1 * t101;
+    const jg_real v_14_world_0 = f_j_world_0 * t101;
+    const jg_real M_0_world_world_7 = s_j_world_2 * v_6_world_1 - h_i_cross_f_j_world_1 * v_12_world_2 + h_j_world_2
         * v_13_world_1;
+    const jg_real t116 = M_0_world_world_3 - v_15_world_2;
+    const jg_real t117 = M_0_world_world_0 + r_ij_world_0 * v_6_world_0;
+    const jg_real t118 = M_0_world_world_8 + M_0_world_world_0;
+    const jg_real t119 = M_0_world_world_4 + M_0_world_world_0;
+    phi_q[42] = -v_2_world_1;
+    phi_q[47] = -v_2_world_2;
+    phi_q_t_lambda_q[13] = t111;
+    phi_q_t_lambda_q[42] = t111;
+    phi_q_t_lambda_q[46] = t116;
+    phi_q_t_lambda_q[24] = t118;
+    phi_q_t_lambda_q[49] = t118;
+    phi_q_t_lambda_q[35] = t119;
+    phi_q_t_lambda_q[56] = t119;
+    const jg_real t120 = M_0_world_world_6 + v_15_world_1;
+    const jg_real t121 = M_0_world_world_1 + v_15_world_2;
+    const jg_real t122 = M_0_world_world_1 - v_14_world_2;
+    const jg_real t123 = v_14_world_1 + M_0_world_world_2;
+    const jg_real t124 = v_14_world_2 + M_0_world_world_3;
+    const jg_real t125 = M_0_world_world_5 - v_14_world_0;
+    const jg_real t126 = M_0_world_world_6 - v_14_world_1;
+    const jg_real t127 = v_14_world_0 + M_0_world_world_7;
+    phi_q_t_lambda_q[47] = t120;
+    phi_q_t_lambda_q[51] = t121;
+    phi_q_t_lambda_q[45] = -t111;
+    phi_q_t_lambda_q[43] = -t116;
+    phi_q_t_lambda_q[44] = -t120;
+    phi_q_t_lambda_q[8] = -(t109 + t110);
+    phi_q_t_lambda_q[48] = -t121;
+    phi_q_t_lambda_q[9] = t122 + r_ij_world_0 * v_6_world_1;
+    phi_q_t_lambda_q[10] = t123 + r_ij_world_0 * v_6_world_2;
+    phi_q_t_lambda_q[14] = -t122;
+    phi_q_t_lambda_q[15] = -t123;
+    phi_q_t_lambda_q[18] = t124 + r_ij_world_1 * v_6_world_0;
+    phi_q_t_lambda_q[19] = -(t110 + t117);
+    phi_q_t_lambda_q[20] = t125 + r_ij_world_1 * v_6_world_2;
+    phi_q_t_lambda_q[23] = -t124;
+    phi_q_t_lambda_q[25] = -t125;
+    const jg_real t128 = M_0_world_world_7 - v_15_world_0;
+    const jg_real t129 = M_0_world_world_2 - v_15_world_1;
+    phi_q_t_lambda_q[28] = t126 + r_ij_world_2 * v_6_world_0;
+    phi_q_t_lambda_q[29] = t127 + r_ij_world_2 * v_6_world_1;
+    phi_q_t_lambda_q[30] = -(t109 + t117);
+    phi_q_t_lambda_q[33] = -t126;
+    phi_q_t_lambda_q[34] = -t127;
+    phi_q_t_lambda_q[53] = t128;
+    phi_q_t_lambda_q[52] = -t118;
+    phi_q_t_lambda_q[57] = t129;
+    const jg_real t130 = M_0_world_world_5 + v_15_world_0;
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = h_i_world_0 * omega_i[0] + h_i_world_1 * omega_i[1] + h_i_world_2 * omega_i[2];
+    const jg_real v_j_in_joint_i_1 = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
+    /* s_j_dot_omega_i = s_j . omega_i */
+    const jg_real s_j_dot_omega_i = s_j_world_0 * omega_i[0] + s_j_world_1 * omega_i[1] + s_j_world_2 * omega_i[2];
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = r_ij_world_0 * omega_i[0] + r_ij_world_1 * omega_i[1] + r_ij_world_2 *
+        omega_i[2];
+    const jg_real t140 = omega_i_dot_omega_i + omega_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_omega_j;
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
+    /* f_i_dot_omega_j = f_i . omega_j */
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* v_i_in_joint_i = v_i, axes of joint i */
     const jg_real v_i_in_joint_i_2 = h_i_world_0 * v_i[0] + h_i_world_1 * v_i[1] + h_i_world_2 * v_i[2];
-    const jg_real t123 = M_0_world_world_4 + r_ij_world_1 * v_6_world_1;
-    const jg_real t124 = M_0_world_world_8 + r_ij_world_2 * v_6_world_2;
-    const jg_real t125 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t125;
-    phi_q_t_lambda_q[42] = t125;
-    /* v_14_world = (2 pitch (h_i . f_j) (h_i . f_j) (h_i . f_j) spread spread lambda_4 - 2 pitch (h_i . f_j) ... */
-    const jg_real v_14_world_2 = f_j_world_2 * t113;
-    const jg_real v_14_world_1 = f_j_world_1 * t113;
-    const jg_real v_14_world_0 = f_j_world_0 * t113;
-    const jg_real t129 = M_0_world_world_1 + v_15_world_2;
-    phi_q_t_lambda_q[51] = t129;
-    const jg_real t130 = M_0_world_world_3 - v_15_world_2;
-    phi_q_t_lambda_q[46] = t130;
-    const jg_real t131 = M_0_world_world_0 + r_ij_world_0 * v_6_world_0;
-    const jg_real t132 = M_0_world_world_0 + M_0_world_world_8;
-    phi_q_t_lambda_q[24] = t132;
-    phi_q_t_lambda_q[49] = t132;
-    const jg_real t133 = M_0_world_world_0 + M_0_world_world_4;
-    phi_q_t_lambda_q[35] = t133;
-    phi_q_t_lambda_q[56] = t133;
-    const jg_real t134 = M_0_world_world_6 + v_15_world_1;
-    phi_q_t_lambda_q[47] = t134;
-    const jg_real t135 = M_0_world_world_7 - v_15_world_0;
-    phi_q_t_lambda_q[53] = t135;
-    const jg_real t136 = M_0_world_world_2 - v_15_world_1;
-    phi_q_t_lambda_q[57] = t136;
-    const jg_real t137 = M_0_world_world_5 + v_15_world_0;
-    phi_q_t_lambda_q[58] = t137;
-    phi_q_t_lambda_q[45] = -t125;
-    const jg_real t138 = M_0_world_world_1 - v_14_world_2;
-    const jg_real t139 = M_0_world_world_2 + v_14_world_1;
-    const jg_real t140 = M_0_world_world_3 + v_14_world_2;
-    const jg_real t141 = M_0_world_world_5 - v_14_world_0;
-    const jg_real t142 = M_0_world_world_6 - v_14_world_1;
-    const jg_real t143 = M_0_world_world_7 + v_14_world_0;
-    phi_q_t_lambda_q[43] = -t130;
-    phi_q_t_lambda_q[44] = -t134;
-    phi_q_t_lambda_q[48] = -t129;
-    phi_q_t_lambda_q[50] = -t135;
-    phi_q_t_lambda_q[52] = -t132;
-    phi_q_t_lambda_q[54] = -t136;
-    phi_q_t_lambda_q[8] = -(t123 + t124);
-    phi_q_t_lambda_q[55] = -t137;
-    phi_q_t_lambda_q[9] = t138 + r_ij_world_0 * v_6_world_1;
-    phi_q_t_lambda_q[10] = t139 + r_ij_world_0 * v_6_world_2;
-    phi_q_t_lambda_q[14] = -t138;
-    phi_q_t_lambda_q[15] = -t139;
-    phi_q_t_lambda_q[18] = t140 + r_ij_world_1 * v_6_world_0;
-    phi_q_t_lambda_q[19] = -(t131 + t124);
-    phi_q_t_lambda_q[20] = t141 + r_ij_world_1 * v_6_world_2;
-    phi_q_t_lambda_q[23] = -t140;
-    phi_q_t_lambda_q[25] = -t141;
-    phi_q_t_lambda_q[28] = t142 + r_ij_world_2 * v_6_world_0;
-    phi_q_t_lambda_q[29] = t143 + r_ij_world_2 * v_6_world_1;
-    phi_q_t_lambda_q[30] = -(t131 + t123);
-    phi_q_t_lambda_q[33] = -t142;
-    phi_q_t_lambda_q[34] = -t143;
-    phi_q_t_lambda_q[59] = -t133;
     const jg_real v_i_in_joint_i_1 = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     const jg_real v_j_in_joint_i_0 = f_i_world_0 * v_j[0] + f_i_world_1 * v_j[1] + f_i_world_2 * v_j[2];
     /* g_i_dot_omega_j = g_i . omega_j */
@@ -1127,38 +1110,42 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
     /* f_j_cross_omega_i_in_joint_i = f_j x omega_i, axes of joint i */
     const jg_real f_j_cross_omega_i_in_joint_i_2 = f_i_dot_f_j * g_i_dot_omega_i - g_i_dot_f_j * f_i_dot_omega_i;
+    const jg_real t151 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = h_i_world_0 * omega_j[0] + h_i_world_1 * omega_j[1] + h_i_world_2 * omega_j[2];
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = f_j_world_0 * omega_i[0] + f_j_world_1 * omega_i[1] + f_j_world_2 * omega_i[2];
-    gamma[0] = s_j_dot_f_i * t110 - f_i_dot_omega_i * (r_ij_dot_omega_i + s_j_dot_omega_i) + f_i_dot_omega_j *
-        (JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j) + r_ij_dot_f_i * omega_i_dot_omega_i + JG_REAL(2.0) *
-        (g_i_dot_omega_i * v_j_in_joint_i_2 - h_i_dot_omega_i * v_j_in_joint_i_1) - JG_REAL(2.0) * (g_i_dot_omega_i
-        * v_i_in_joint_i_2 - h_i_dot_omega_i * v_i_in_joint_i_1);
-    const jg_real t153 = f_i_dot_f_j * g_i_dot_omega_j - g_i_dot_f_j * f_i_dot_omega_j;
-    const jg_real t154 = JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j;
+    const jg_real t154 = f_i_dot_f_j * g_i_dot_omega_j - g_i_dot_f_j * f_i_dot_omega_j;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_j_world_0 * omega_j[0] + f_j_world_1 * omega_j[1] + f_j_world_2 * omega_j[2];
-    const jg_real t156 = t153 - f_j_cross_omega_i_in_joint_i_2;
+    const jg_real t156 = t154 - f_j_cross_omega_i_in_joint_i_2;
+    phi_q_t_lambda_q[58] = t130;
+    phi_q_t_lambda_q[59] = -t119;
+    phi_q_t_lambda_q[50] = -t128;
+    phi_q_t_lambda_q[54] = -t129;
+    phi_q_t_lambda_q[55] = -t130;
+    phi[4] = v_0_in_joint_i_1 - s_i_dot_h_i - (theta + theta_0 + revolutions * JG_REAL(6.283185307179586)) * pitch;
+    gamma[0] = s_j_dot_f_i * t140 - f_i_dot_omega_i * (s_j_dot_omega_i + r_ij_dot_omega_i) + (JG_REAL(2.0) *
+        s_j_dot_omega_i - s_j_dot_omega_j) * f_i_dot_omega_j + r_ij_dot_f_i * omega_i_dot_omega_i + JG_REAL(2.0) *
+        (v_j_in_joint_i_2 * g_i_dot_omega_i - h_i_dot_omega_i * v_j_in_joint_i_1) - JG_REAL(2.0) * (g_i_dot_omega_i
+        * v_i_in_joint_i_2 - h_i_dot_omega_i * v_i_in_joint_i_1);
+    gamma[2] = f_i_dot_h_j * t140 + f_i_dot_omega_j * t151 - f_i_dot_omega_i * h_j_dot_omega_i;
     const jg_real t157 = f_j_dot_omega_i - f_j_dot_omega_j;
     const jg_real t158 = f_j_cross_omega_i_in_joint_i_2 * t157;
-    const jg_real t159 = t153 * t157;
-    gamma[2] = f_i_dot_h_j * t110 + f_i_dot_omega_j * t154 - f_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[3] = g_i_dot_h_j * t110 + g_i_dot_omega_j * t154 - g_i_dot_omega_i * h_j_dot_omega_i;
-    phi[4] = v_0_in_joint_i_1 - s_i_dot_h_i - pitch * (theta + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    gamma[1] = s_j_dot_g_i * t110 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
-        r_ij_dot_g_i * omega_i_dot_omega_i - r_ij_dot_omega_i * g_i_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
-        + JG_REAL(2.0) * (h_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i * v_j_in_joint_i_2) - JG_REAL(2.0) *
+    const jg_real t159 = t157 * t154;
+    gamma[3] = g_i_dot_h_j * t140 + g_i_dot_omega_j * t151 - g_i_dot_omega_i * h_j_dot_omega_i;
+    gamma[1] = s_j_dot_g_i * t140 + s_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) +
+        r_ij_dot_g_i * omega_i_dot_omega_i - g_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j * g_i_dot_omega_j
+        + JG_REAL(2.0) * (h_i_dot_omega_i * v_j_in_joint_i_0 - v_j_in_joint_i_2 * f_i_dot_omega_i) - JG_REAL(2.0) *
         (h_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_2);
-    gamma[4] = t75 * (t158 + h_i_dot_f_j * (h_i_dot_omega_j * f_j_cross_omega_i_in_joint_i_2 - (f_i_dot_omega_j *
+    gamma[4] = t66 * (t158 + h_i_dot_f_j * (h_i_dot_omega_j * f_j_cross_omega_i_in_joint_i_2 - (f_i_dot_omega_j *
         (h_i_dot_f_j * g_i_dot_omega_i - g_i_dot_f_j * h_i_dot_omega_i) + g_i_dot_omega_j * (f_i_dot_f_j *
-        h_i_dot_omega_i - h_i_dot_f_j * f_i_dot_omega_i)) + (h_i_dot_f_j * (t158 - t159) + h_i_dot_omega_i * t156 -
-        h_i_dot_omega_j * t156) * (JG_REAL(2.0) * spread)) - t159 - (f_i_dot_omega_i * g_i_dot_omega_j -
-        f_i_dot_omega_j * g_i_dot_omega_i)) + s_j_dot_h_i * t110 + s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j
-        - h_i_dot_omega_i) + r_ij_dot_h_i * omega_i_dot_omega_i - r_ij_dot_omega_i * h_i_dot_omega_i -
-        s_j_dot_omega_j * h_i_dot_omega_j - JG_REAL(2.0) * (g_i_dot_omega_i * v_j_in_joint_i_0 - f_i_dot_omega_i *
-        v_j_in_joint_i_1) + JG_REAL(2.0) * (g_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i *
-        v_i_in_joint_i_1);
+        h_i_dot_omega_i - h_i_dot_f_j * f_i_dot_omega_i)) + t67 * (h_i_dot_f_j * (t158 - t159) + h_i_dot_omega_i *
+        t156 - h_i_dot_omega_j * t156)) - t159 - (f_i_dot_omega_i * g_i_dot_omega_j - g_i_dot_omega_i *
+        f_i_dot_omega_j)) + s_j_dot_h_i * t140 + s_j_dot_omega_i * (JG_REAL(2.0) * h_i_dot_omega_j -
+        h_i_dot_omega_i) + r_ij_dot_h_i * omega_i_dot_omega_i - h_i_dot_omega_i * r_ij_dot_omega_i - s_j_dot_omega_j
+        * h_i_dot_omega_j - JG_REAL(2.0) * (g_i_dot_omega_i * v_j_in_joint_i_0 - v_j_in_joint_i_1 * f_i_dot_omega_i)
+        + JG_REAL(2.0) * (g_i_dot_omega_i * v_i_in_joint_i_0 - f_i_dot_omega_i * v_i_in_joint_i_1);
 }
 
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

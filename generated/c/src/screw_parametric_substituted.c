@@ -4,10 +4,6 @@
  * joint screw, form parametric, rows regular, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/screw.h"
 
 const int *jg_screw_parametric_substituted_phi_q_sparsity(void)
@@ -27,9 +23,8 @@ const int *jg_screw_parametric_substituted_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_screw_parametric_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -46,40 +41,37 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t8 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real t7 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* v_1_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
+    const jg_real v_1_in_i_0 = s_i[0] + t7 * C_i[6];
+    const jg_real v_1_in_i_1 = s_i[1] + t7 * C_i[7];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    /* v_1_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + t8 * C_i[6];
-    const jg_real v_1_in_i_1 = s_i[1] + t8 * C_i[7];
-    const jg_real v_1_in_i_2 = s_i[2] + t8 * C_i[8];
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real v_1_in_i_2 = s_i[2] + t7 * C_i[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
     const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
@@ -91,7 +83,6 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    phi[4] = h_star_dot_f_j;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
@@ -103,10 +94,14 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
         h_j_in_i_2;
-    phi[3] = g_star_dot_h_j;
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
         f_star_in_i_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi[4] = h_star_dot_f_j;
+    phi[3] = g_star_dot_h_j;
     phi[5] = f_star_dot_g_j;
 }
 
@@ -120,14 +115,19 @@ void jg_screw_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, 
     const jg_real pitch = geometry[24];
     const jg_real theta_0 = geometry[25];
     const jg_real revolutions = geometry[26];
+    /* v_1_in_i = pitch h_i, axes of body i */
+    const jg_real v_1_in_i_2 = pitch * C_i[8];
+    const jg_real v_1_in_i_1 = pitch * C_i[7];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real v_1_in_i_0 = pitch * C_i[6];
+    const jg_real t5 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[17] = C_i[8];
     phi_q[12] = C_i[7];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
     phi_q[7] = C_i[6];
     phi_q[30] = -C_j[0];
     phi_q[31] = -C_j[3];
@@ -138,57 +138,52 @@ void jg_screw_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, 
     phi_q[42] = -C_j[2];
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
-    /* v_1_in_i = pitch h_i, axes of body i */
-    const jg_real v_1_in_i_0 = pitch * C_i[6];
-    const jg_real v_1_in_i_1 = pitch * C_i[7];
-    const jg_real v_1_in_i_2 = pitch * C_i[8];
-    phi_q[48] = JG_REAL(1.0);
-    const jg_real t5 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
     phi_q[45] = -v_1_in_i_0;
+    /* v_0_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
+    const jg_real v_0_in_i_2 = t5 * v_1_in_i_2 + s_i[2];
+    const jg_real v_0_in_i_1 = t5 * v_1_in_i_1 + s_i[1];
+    const jg_real v_0_in_i_0 = t5 * v_1_in_i_0 + s_i[0];
     phi_q[46] = -v_1_in_i_1;
     phi_q[47] = -v_1_in_i_2;
-    /* v_0_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_0_in_i_2 = s_i[2] + t5 * C_i[8];
+    phi_q[48] = JG_REAL(1.0);
     phi_q[3] = v_0_in_i_2;
-    const jg_real v_0_in_i_1 = s_i[1] + t5 * C_i[7];
     phi_q[13] = v_0_in_i_1;
-    const jg_real v_0_in_i_0 = s_i[0] + t5 * C_i[6];
     phi_q[9] = v_0_in_i_0;
     phi_q[8] = -v_0_in_i_2;
     phi_q[4] = -v_0_in_i_1;
-    phi_q[14] = -v_0_in_i_0;
     /* A_joint_j_i = turns i axes to joint j axes */
     const jg_real A_joint_j_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    phi_q[5] = A_joint_j_i_0;
-    const jg_real A_joint_j_i_1 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    phi_q[6] = A_joint_j_i_1;
-    const jg_real A_joint_j_i_3 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    phi_q[10] = A_joint_j_i_3;
-    const jg_real A_joint_j_i_4 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    phi_q[11] = A_joint_j_i_4;
+    const jg_real A_joint_j_i_1 = cosine_0 * C_i[3] - C_i[0] * sine_0;
+    const jg_real A_joint_j_i_3 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real A_joint_j_i_4 = cosine_0 * C_i[4] - sine_0 * C_i[1];
     const jg_real A_joint_j_i_6 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    phi_q[15] = A_joint_j_i_6;
     const jg_real A_joint_j_i_7 = cosine_0 * C_i[5] - sine_0 * C_i[2];
-    phi_q[16] = A_joint_j_i_7;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = A_joint_j_i_3 * C_j[1] + A_joint_j_i_4 * C_j[4] + C_i[7] * C_j[7];
+    phi_q[14] = -v_0_in_i_0;
+    phi_q[5] = A_joint_j_i_0;
+    phi_q[6] = A_joint_j_i_1;
+    phi_q[10] = A_joint_j_i_3;
+    phi_q[11] = A_joint_j_i_4;
+    phi_q[15] = A_joint_j_i_6;
+    phi_q[16] = A_joint_j_i_7;
     phi_q[22] = A_ji_4;
     const jg_real A_ji_5 = A_joint_j_i_3 * C_j[2] + A_joint_j_i_4 * C_j[5] + C_i[7] * C_j[8];
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_8 = C_j[2] * A_joint_j_i_6 + C_j[5] * A_joint_j_i_7 + C_i[8] * C_j[8];
-    phi_q[26] = A_ji_8;
-    const jg_real A_ji_7 = C_j[1] * A_joint_j_i_6 + C_j[4] * A_joint_j_i_7 + C_i[8] * C_j[7];
-    phi_q[23] = A_ji_7;
+    const jg_real A_ji_8 = A_joint_j_i_6 * C_j[2] + A_joint_j_i_7 * C_j[5] + C_i[8] * C_j[8];
+    const jg_real A_ji_7 = A_joint_j_i_6 * C_j[1] + A_joint_j_i_7 * C_j[4] + C_i[8] * C_j[7];
     const jg_real A_ji_3 = A_joint_j_i_3 * C_j[0] + A_joint_j_i_4 * C_j[3] + C_i[7] * C_j[6];
+    const jg_real A_ji_6 = A_joint_j_i_6 * C_j[0] + A_joint_j_i_7 * C_j[3] + C_i[8] * C_j[6];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    phi_q[25] = A_ji_5;
+    phi_q[26] = A_ji_8;
+    phi_q[23] = A_ji_7;
     phi_q[19] = A_ji_3;
-    const jg_real A_ji_6 = C_j[0] * A_joint_j_i_6 + C_j[3] * A_joint_j_i_7 + C_i[8] * C_j[6];
     phi_q[20] = A_ji_6;
     phi_q[28] = A_ji_5 * s_j[1] - A_ji_4 * s_j[2];
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     phi_q[18] = A_ji_0;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
     phi_q[24] = A_ji_2;
     phi_q[29] = A_ji_8 * s_j[1] - A_ji_7 * s_j[2];
     phi_q[34] = A_ji_3 * s_j[2] - A_ji_5 * s_j[0];
@@ -208,8 +203,8 @@ void jg_screw_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alph
     jg_scatter(jg_screw_parametric_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -272,8 +267,8 @@ void jg_screw_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RE
     jg_scatter(jg_screw_parametric_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_screw_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_screw_parametric_substituted_gamma(const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -290,7 +285,6 @@ void jg_screw_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, con
     const jg_real t2 = alphadot * pitch;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
-    gamma[5] = JG_REAL(0.0);
     const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
     /* v_0_in_j = alphadot_0 h_j - omega_j, axes of body j */
@@ -301,9 +295,6 @@ void jg_screw_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, con
     const jg_real v_2_in_i_1 = C_i[7] * t2 - v_i[1];
     const jg_real v_2_in_i_2 = C_i[8] * t2 - v_i[2];
     const jg_real v_2_in_i_0 = C_i[6] * t2 - v_i[0];
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* v_1_in_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of body j */
     const jg_real v_1_in_j_0 = v_j[2] * v_0_in_j_1 - v_j[1] * v_0_in_j_2;
     const jg_real v_1_in_j_1 = v_j[0] * v_0_in_j_2 - v_j[2] * v_0_in_j_0;
@@ -313,20 +304,23 @@ void jg_screw_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, con
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    /* v_5_in_joint_j = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint j */
+    const jg_real v_5_in_joint_j_1 = alphadot * s_j_cross_omega_j_in_joint_j_0;
+    const jg_real t18 = alphadot * s_j_cross_omega_j_in_joint_j_1;
     /* v_3_in_i = alphadot_0 pitch h_i x omega_i + omega_i x v_i, axes of body i */
     const jg_real v_3_in_i_0 = omega_i[2] * v_2_in_i_1 - omega_i[1] * v_2_in_i_2;
     const jg_real v_3_in_i_1 = omega_i[0] * v_2_in_i_2 - omega_i[2] * v_2_in_i_0;
-    /* v_5_in_joint_j = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint j */
-    const jg_real v_5_in_joint_j_1 = alphadot * s_j_cross_omega_j_in_joint_j_0;
-    const jg_real t22 = alphadot * s_j_cross_omega_j_in_joint_j_1;
+    /* omega_i_in_joint_i = omega_i, axes of joint i */
+    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     const jg_real v_3_in_i_2 = omega_i[1] * v_2_in_i_0 - omega_i[0] * v_2_in_i_1;
     /* v_1_in_joint_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint j */
     const jg_real v_1_in_joint_j_0 = v_1_in_j_0 * C_j[0] + v_1_in_j_1 * C_j[1] + v_1_in_j_2 * C_j[2];
     const jg_real v_1_in_joint_j_1 = v_1_in_j_0 * C_j[3] + v_1_in_j_1 * C_j[4] + v_1_in_j_2 * C_j[5];
     const jg_real v_1_in_joint_j_2 = C_j[6] * v_1_in_j_0 + C_j[7] * v_1_in_j_1 + C_j[8] * v_1_in_j_2;
     /* v_5_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
-    const jg_real v_5_in_joint_i_1 = cosine_0 * v_5_in_joint_j_1 - sine_0 * t22;
-    const jg_real t28 = cosine_0 * t22 + sine_0 * v_5_in_joint_j_1;
+    const jg_real v_5_in_joint_i_1 = cosine_0 * v_5_in_joint_j_1 - sine_0 * t18;
+    const jg_real t28 = cosine_0 * t18 + sine_0 * v_5_in_joint_j_1;
     /* v_1_in_joint_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint i */
     const jg_real v_1_in_joint_i_0 = v_1_in_joint_j_0 * cosine_0 - v_1_in_joint_j_1 * sine_0;
     const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_0 * sine_0 + v_1_in_joint_j_1 * cosine_0;
@@ -334,27 +328,28 @@ void jg_screw_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha, con
     const jg_real g_j_dot_omega_i = cosine_0 * omega_i_in_joint_i_1 - sine_0 * omega_i_in_joint_i_0;
     /* f_j_dot_omega_i = f_j . omega_i */
     const jg_real f_j_dot_omega_i = cosine_0 * omega_i_in_joint_i_0 + sine_0 * omega_i_in_joint_i_1;
-    gamma[4] = alphadot * f_j_dot_omega_i;
     /* v_5_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of body i */
     const jg_real v_5_in_i_0 = C_i[3] * v_5_in_joint_i_1 - C_i[0] * t28;
     const jg_real v_5_in_i_1 = C_i[4] * v_5_in_joint_i_1 - C_i[1] * t28;
     const jg_real v_5_in_i_2 = C_i[5] * v_5_in_joint_i_1 - C_i[2] * t28;
-    gamma[3] = -(alphadot * g_j_dot_omega_i);
     /* v_1_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + v_1_in_joint_i_1 * C_i[3] + v_1_in_joint_j_2 * C_i[6];
     const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + v_1_in_joint_i_1 * C_i[4] + v_1_in_joint_j_2 * C_i[7];
     const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_j_2 * C_i[8];
     /* v_6_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - alphadot_0 pitch h_i x omega_i - ... */
     const jg_real v_6_in_i_0 = v_5_in_i_0 - (v_1_in_i_0 + v_3_in_i_0);
-    gamma[0] = v_6_in_i_0;
     const jg_real v_6_in_i_1 = v_5_in_i_1 - (v_1_in_i_1 + v_3_in_i_1);
-    gamma[1] = v_6_in_i_1;
     const jg_real v_6_in_i_2 = v_5_in_i_2 - (v_1_in_i_2 + v_3_in_i_2);
+    gamma[5] = JG_REAL(0.0);
+    gamma[4] = alphadot * f_j_dot_omega_i;
+    gamma[3] = -(alphadot * g_j_dot_omega_i);
+    gamma[0] = v_6_in_i_0;
+    gamma[1] = v_6_in_i_1;
     gamma[2] = v_6_in_i_2;
 }
 
-void jg_screw_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_screw_parametric_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -374,21 +369,15 @@ void jg_screw_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, c
     const jg_real t2 = pitch * alphadot;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     const jg_real t9 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    /* omega_j_dot_g_j = omega_j . g_j */
-    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = s_j_cross_omega_j_in_j_0 * C_j[0] + s_j_cross_omega_j_in_j_1 *
         C_j[1] + s_j_cross_omega_j_in_j_2 * C_j[2];
@@ -400,7 +389,12 @@ void jg_screw_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, c
     const jg_real v_0_in_i_1 = s_i[1] + t9 * C_i[7];
     const jg_real v_0_in_i_2 = s_i[2] + t9 * C_i[8];
     const jg_real v_0_in_i_0 = s_i[0] + t9 * C_i[6];
-    phi_q_v[5] = alphadot - omega_j_dot_h_j + omega_i_dot_h_j;
+    /* omega_j_dot_g_j = omega_j . g_j */
+    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    /* omega_i_dot_h_j = omega_i . h_j */
+    const jg_real omega_i_dot_h_j = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_1_in_i = s_i x omega_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i x omega_i, ... */
     const jg_real v_1_in_i_0 = omega_i[2] * v_0_in_i_1 - omega_i[1] * v_0_in_i_2;
     const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
@@ -431,8 +425,6 @@ void jg_screw_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, c
     const jg_real omega_i_dot_f_j = omega_i[0] * f_j_in_i_0 + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i[0] * g_j_in_i_0 + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
-    phi_q_v[3] = omega_i_dot_f_j - omega_j_dot_f_j;
-    phi_q_v[4] = omega_i_dot_g_j - omega_j_dot_g_j;
     /* v_2_in_i = v_i - v_j + alphadot_0 pitch h_i, axes of body i */
     const jg_real v_2_in_i_0 = v_i[0] - v_j_in_i_0 + C_i[6] * t2;
     const jg_real v_2_in_i_1 = v_i[1] - v_j_in_i_1 + C_i[7] * t2;
@@ -441,13 +433,16 @@ void jg_screw_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha, c
     const jg_real v_3_in_i_0 = s_j_cross_omega_j_in_i_0 - v_1_in_i_0 + v_2_in_i_0;
     const jg_real v_3_in_i_1 = s_j_cross_omega_j_in_i_1 - v_1_in_i_1 + v_2_in_i_1;
     const jg_real v_3_in_i_2 = s_j_cross_omega_j_in_i_2 - v_1_in_i_2 + v_2_in_i_2;
+    phi_q_v[5] = alphadot - omega_j_dot_h_j + omega_i_dot_h_j;
+    phi_q_v[3] = omega_i_dot_f_j - omega_j_dot_f_j;
+    phi_q_v[4] = omega_i_dot_g_j - omega_j_dot_g_j;
     phi_q_v[0] = -v_3_in_i_0;
     phi_q_v[1] = -v_3_in_i_1;
     phi_q_v[2] = -v_3_in_i_2;
 }
 
-void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -456,9 +451,6 @@ void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT a
     const jg_real pitch = geometry[24];
     const jg_real theta_0 = geometry[25];
     const jg_real revolutions = geometry[26];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -472,12 +464,11 @@ void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT a
     /* v_2_in_j = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of body j */
     const jg_real v_2_in_j_0 = lambda[3] * C_j[0] + lambda[4] * C_j[3] + lambda[5] * C_j[6];
     const jg_real v_2_in_j_1 = lambda[3] * C_j[1] + lambda[4] * C_j[4] + lambda[5] * C_j[7];
-    const jg_real v_2_in_j_2 = lambda[3] * C_j[2] + lambda[4] * C_j[5] + lambda[5] * C_j[8];
     /* v_0_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
     const jg_real v_0_in_i_1 = s_i[1] + t2 * C_i[7];
     const jg_real v_0_in_i_2 = s_i[2] + t2 * C_i[8];
     const jg_real v_0_in_i_0 = s_i[0] + t2 * C_i[6];
-    phi_q_t_lambda[12] = lambda[5] - pitch * lambda_0_1_2_dot_h_i;
+    const jg_real v_2_in_j_2 = lambda[3] * C_j[2] + lambda[4] * C_j[5] + lambda[5] * C_j[8];
     /* v_1_in_i = s_i x lambda_0_1_2 + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) lambda_0_1_2 ... */
     const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
     const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
@@ -495,34 +486,36 @@ void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT a
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_dot_h_i * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
         lambda_0_1_2_dot_h_i * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_dot_h_i * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* v_3_in_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j - s_i x lambda_0_1_2 + (alpha_0 pitch + pitch ... */
     const jg_real v_3_in_i_0 = v_2_in_i_0 - v_1_in_i_0;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[12] = lambda[5] - pitch * lambda_0_1_2_dot_h_i;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda[3] = v_3_in_i_0;
     const jg_real v_3_in_i_1 = v_2_in_i_1 - v_1_in_i_1;
-    phi_q_t_lambda[4] = v_3_in_i_1;
     const jg_real v_3_in_i_2 = v_2_in_i_2 - v_1_in_i_2;
-    phi_q_t_lambda[5] = v_3_in_i_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
+    phi_q_t_lambda[4] = v_3_in_i_1;
+    phi_q_t_lambda[5] = v_3_in_i_2;
     phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_in_j_2 - v_2_in_j_2;
     phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_in_j_0 - v_2_in_j_0;
     phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_in_j_1 - v_2_in_j_1;
 }
 
-void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_screw_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -540,210 +533,208 @@ void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    phi_q[7] = C_i[6];
-    phi_q[12] = C_i[7];
-    phi_q[17] = C_i[8];
+    const jg_real t3 = pitch * C_i[6];
+    const jg_real t4 = pitch * C_i[7];
+    const jg_real t5 = pitch * C_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real t7 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    const jg_real t8 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* v_1_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
+    const jg_real v_1_in_i_0 = t7 * t3 + s_i[0];
+    const jg_real v_1_in_i_1 = t7 * t4 + s_i[1];
+    const jg_real v_1_in_i_2 = t7 * t5 + s_i[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    phi_q[30] = -C_j[0];
-    /* v_1_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + t8 * C_i[6];
-    phi_q[9] = v_1_in_i_0;
-    const jg_real v_1_in_i_1 = s_i[1] + t8 * C_i[7];
-    phi_q[13] = v_1_in_i_1;
-    const jg_real v_1_in_i_2 = s_i[2] + t8 * C_i[8];
-    phi_q[3] = v_1_in_i_2;
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    phi_q[4] = -v_1_in_i_1;
-    phi_q[8] = -v_1_in_i_2;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
+    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
+    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
+    phi_q[7] = C_i[6];
+    phi_q[12] = C_i[7];
+    phi_q[17] = C_i[8];
+    phi_q[9] = v_1_in_i_0;
+    phi_q[13] = v_1_in_i_1;
+    phi_q[3] = v_1_in_i_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    phi[2] = v_2_in_i_2;
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[4] = -v_1_in_i_1;
+    phi_q[8] = -v_1_in_i_2;
     phi_q[14] = -v_1_in_i_0;
+    phi_q[30] = -C_j[0];
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
+    const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
+    const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     phi_q[31] = -C_j[3];
     phi_q[32] = -C_j[6];
     phi_q[36] = -C_j[1];
     phi_q[37] = -C_j[4];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
-    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
     phi_q[38] = -C_j[7];
     phi_q[42] = -C_j[2];
     phi_q[43] = -C_j[5];
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     phi_q[44] = -C_j[8];
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
-    const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    phi_q[48] = JG_REAL(1.0);
-    /* vector_8_in_i = vector_8, axes of body i */
-    const jg_real vector_8_in_i_2 = pitch * lambda[2];
-    const jg_real vector_8_in_i_1 = pitch * lambda[1];
-    const jg_real vector_8_in_i_0 = pitch * lambda[0];
-    const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
-    phi_q[45] = -(pitch * C_i[6]);
-    phi_q[46] = -(pitch * C_i[7]);
-    phi_q[47] = -(pitch * C_i[8]);
+    /* h_i_cross_vector_8_in_i = h_i x vector_8, axes of body i */
+    const jg_real h_i_cross_vector_8_in_i_0 = t4 * lambda[2] - t5 * lambda[1];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
+    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
+    const jg_real h_i_cross_vector_8_in_i_1 = t5 * lambda[0] - t3 * lambda[2];
+    /* h_star_dot_f_j = h_star . f_j */
+    const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
+    const jg_real h_i_cross_vector_8_in_i_2 = t3 * lambda[1] - t4 * lambda[0];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real t39 = pitch * alphadot;
-    /* h_i_cross_vector_8_in_i = h_i x vector_8, axes of body i */
-    const jg_real h_i_cross_vector_8_in_i_0 = C_i[7] * vector_8_in_i_2 - C_i[8] * vector_8_in_i_1;
-    gamma[5] = JG_REAL(0.0);
-    const jg_real h_i_cross_vector_8_in_i_1 = C_i[8] * vector_8_in_i_0 - C_i[6] * vector_8_in_i_2;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
-    /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    phi[4] = h_star_dot_f_j;
-    const jg_real h_i_cross_vector_8_in_i_2 = C_i[6] * vector_8_in_i_1 - C_i[7] * vector_8_in_i_0;
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_4_in_j = alphadot_0 h_j - omega_j, axes of body j */
     const jg_real v_4_in_j_1 = C_j[7] * alphadot - omega_j[1];
     const jg_real v_4_in_j_2 = C_j[8] * alphadot - omega_j[2];
     const jg_real v_4_in_j_0 = C_j[6] * alphadot - omega_j[0];
+    /* v_6_in_i = pitch alphadot_0 h_i - v_i, axes of body i */
+    const jg_real v_6_in_i_1 = t4 * alphadot - v_i[1];
+    const jg_real v_6_in_i_2 = t5 * alphadot - v_i[2];
+    const jg_real v_6_in_i_0 = t3 * alphadot - v_i[0];
     /* v_8_in_j = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of body j */
     const jg_real v_8_in_j_0 = C_j[7] * s_j_cross_omega_j_in_j_2 - C_j[8] * s_j_cross_omega_j_in_j_1;
-    /* v_6_in_i = pitch alphadot_0 h_i - v_i, axes of body i */
-    const jg_real v_6_in_i_1 = C_i[7] * t39 - v_i[1];
-    const jg_real v_6_in_i_2 = C_i[8] * t39 - v_i[2];
-    const jg_real v_6_in_i_0 = C_i[6] * t39 - v_i[0];
     const jg_real v_8_in_j_1 = C_j[8] * s_j_cross_omega_j_in_j_0 - C_j[6] * s_j_cross_omega_j_in_j_2;
     const jg_real v_8_in_j_2 = C_j[6] * s_j_cross_omega_j_in_j_1 - C_j[7] * s_j_cross_omega_j_in_j_0;
     /* v_5_in_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of body j */
-    const jg_real v_5_in_j_0 = v_j[2] * v_4_in_j_1 - v_j[1] * v_4_in_j_2;
-    const jg_real v_5_in_j_1 = v_j[0] * v_4_in_j_2 - v_j[2] * v_4_in_j_0;
-    const jg_real v_5_in_j_2 = v_j[1] * v_4_in_j_0 - v_j[0] * v_4_in_j_1;
+    const jg_real v_5_in_j_0 = v_4_in_j_1 * v_j[2] - v_4_in_j_2 * v_j[1];
+    const jg_real v_5_in_j_1 = v_4_in_j_2 * v_j[0] - v_j[2] * v_4_in_j_0;
+    const jg_real v_5_in_j_2 = v_j[1] * v_4_in_j_0 - v_4_in_j_1 * v_j[0];
     /* v_7_in_i = pitch alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
-    const jg_real v_7_in_i_0 = omega_i[2] * v_6_in_i_1 - omega_i[1] * v_6_in_i_2;
-    const jg_real v_7_in_i_1 = omega_i[0] * v_6_in_i_2 - omega_i[2] * v_6_in_i_0;
-    const jg_real v_7_in_i_2 = omega_i[1] * v_6_in_i_0 - omega_i[0] * v_6_in_i_1;
+    const jg_real v_7_in_i_0 = v_6_in_i_1 * omega_i[2] - v_6_in_i_2 * omega_i[1];
+    const jg_real v_7_in_i_1 = v_6_in_i_2 * omega_i[0] - omega_i[2] * v_6_in_i_0;
+    const jg_real v_7_in_i_2 = omega_i[1] * v_6_in_i_0 - v_6_in_i_1 * omega_i[0];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    phi_q[6] = g_star_in_i_0;
     const jg_real g_star_in_i_1 = cosine_0 * C_i[4] - sine_0 * C_i[1];
+    phi_q[45] = -t3;
+    phi_q[46] = -t4;
+    phi_q[47] = -t5;
+    phi_q[48] = JG_REAL(1.0);
+    phi[4] = h_star_dot_f_j;
+    gamma[5] = JG_REAL(0.0);
+    phi_q[6] = g_star_in_i_0;
     phi_q[11] = g_star_in_i_1;
     const jg_real g_star_in_i_2 = cosine_0 * C_i[5] - sine_0 * C_i[2];
-    phi_q[16] = g_star_in_i_2;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    phi_q[5] = f_star_in_i_0;
+    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + C_i[3] * sine_0;
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    phi_q[10] = f_star_in_i_1;
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    phi_q[15] = f_star_in_i_2;
     /* g_star_dot_h_j = g_star . h_j */
-    const jg_real g_star_dot_h_j = g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
-        h_j_in_i_2;
-    phi[3] = g_star_dot_h_j;
+    const jg_real g_star_dot_h_j = h_j_in_i_0 * g_star_in_i_0 + h_j_in_i_1 * g_star_in_i_1 + h_j_in_i_2 *
+        g_star_in_i_2;
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
         f_star_in_i_2;
-    phi[5] = f_star_dot_g_j;
     /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = C_j[1] * f_star_in_i_1 + g_star_in_i_1 * C_j[4] + C_i[7] * C_j[7];
+    const jg_real A_ji_4 = C_j[1] * f_star_in_i_1 + C_j[4] * g_star_in_i_1 + C_i[7] * C_j[7];
+    const jg_real A_ji_8 = C_j[2] * f_star_in_i_2 + C_j[5] * g_star_in_i_2 + C_i[8] * C_j[8];
+    phi_q[16] = g_star_in_i_2;
+    phi_q[5] = f_star_in_i_0;
+    phi_q[10] = f_star_in_i_1;
+    phi_q[15] = f_star_in_i_2;
+    phi[3] = g_star_dot_h_j;
+    phi[5] = f_star_dot_g_j;
     phi_q[22] = A_ji_4;
-    const jg_real A_ji_8 = C_j[2] * f_star_in_i_2 + g_star_in_i_2 * C_j[5] + C_i[8] * C_j[8];
     phi_q[26] = A_ji_8;
-    const jg_real A_ji_5 = C_j[2] * f_star_in_i_1 + g_star_in_i_1 * C_j[5] + C_i[7] * C_j[8];
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_7 = C_j[1] * f_star_in_i_2 + g_star_in_i_2 * C_j[4] + C_i[8] * C_j[7];
-    phi_q[23] = A_ji_7;
-    const jg_real A_ji_3 = C_j[0] * f_star_in_i_1 + g_star_in_i_1 * C_j[3] + C_i[7] * C_j[6];
-    phi_q[19] = A_ji_3;
-    const jg_real A_ji_6 = C_j[0] * f_star_in_i_2 + g_star_in_i_2 * C_j[3] + C_i[8] * C_j[6];
-    phi_q[20] = A_ji_6;
-    phi_q_t_lambda_q[0] = -(f_star_in_i_0 * lambda[4] - g_star_in_i_0 * lambda[3] + h_i_cross_vector_8_in_i_0);
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    phi_q_t_lambda_q[1] = -(f_star_in_i_1 * lambda[4] - g_star_in_i_1 * lambda[3] + h_i_cross_vector_8_in_i_1);
+    const jg_real A_ji_5 = C_j[2] * f_star_in_i_1 + C_j[5] * g_star_in_i_1 + C_i[7] * C_j[8];
+    const jg_real A_ji_7 = C_j[1] * f_star_in_i_2 + C_j[4] * g_star_in_i_2 + C_i[8] * C_j[7];
+    const jg_real A_ji_3 = C_j[0] * f_star_in_i_1 + C_j[3] * g_star_in_i_1 + C_i[7] * C_j[6];
+    const jg_real A_ji_6 = C_j[0] * f_star_in_i_2 + C_j[3] * g_star_in_i_2 + C_i[8] * C_j[6];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    phi_q[25] = A_ji_5;
+    phi_q[23] = A_ji_7;
+    phi_q[19] = A_ji_3;
+    phi_q[20] = A_ji_6;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     phi_q[18] = A_ji_0;
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    phi_q[21] = A_ji_1;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
     /* f_j_dot_lambda_0_1_2 = f_j . lambda_0_1_2 */
     const jg_real f_j_dot_lambda_0_1_2 = f_star_in_i_0 * lambda[0] + f_star_in_i_1 * lambda[1] + f_star_in_i_2 *
         lambda[2];
-    /* g_j_dot_lambda_0_1_2 = g_j . lambda_0_1_2 */
-    const jg_real g_j_dot_lambda_0_1_2 = g_star_in_i_0 * lambda[0] + g_star_in_i_1 * lambda[1] + g_star_in_i_2 *
-        lambda[2];
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[24] = A_ji_2;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    phi_q_t_lambda_q[2] = -(f_star_in_i_2 * lambda[4] - g_star_in_i_2 * lambda[3] + h_i_cross_vector_8_in_i_2);
-    /* h_j_cross_lambda_0_1_2_in_j = h_j x lambda_0_1_2, axes of body j */
-    const jg_real h_j_cross_lambda_0_1_2_in_j_0 = C_j[3] * f_j_dot_lambda_0_1_2 - C_j[0] * g_j_dot_lambda_0_1_2;
+    phi_q_t_lambda_q[0] = -(f_star_in_i_0 * lambda[4] - g_star_in_i_0 * lambda[3] + h_i_cross_vector_8_in_i_0);
+    phi_q_t_lambda_q[1] = -(f_star_in_i_1 * lambda[4] - g_star_in_i_1 * lambda[3] + h_i_cross_vector_8_in_i_1);
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    const jg_real h_j_cross_lambda_0_1_2_in_j_1 = C_j[4] * f_j_dot_lambda_0_1_2 - C_j[1] * g_j_dot_lambda_0_1_2;
-    const jg_real h_j_cross_lambda_0_1_2_in_j_2 = C_j[5] * f_j_dot_lambda_0_1_2 - C_j[2] * g_j_dot_lambda_0_1_2;
+    /* g_j_dot_lambda_0_1_2 = g_j . lambda_0_1_2 */
+    const jg_real g_j_dot_lambda_0_1_2 = g_star_in_i_0 * lambda[0] + g_star_in_i_1 * lambda[1] + g_star_in_i_2 *
+        lambda[2];
     /* v_8_in_i = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_8_in_i_1 = A_ji_3 * v_8_in_j_0 + A_ji_4 * v_8_in_j_1 + A_ji_5 * v_8_in_j_2;
-    phi_q_t_lambda_q[3] = -h_j_cross_lambda_0_1_2_in_j_0;
-    /* v_5_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
-    const jg_real v_5_in_i_1 = A_ji_3 * v_5_in_j_0 + A_ji_4 * v_5_in_j_1 + A_ji_5 * v_5_in_j_2;
-    phi_q_t_lambda_q[4] = -h_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[5] = -h_j_cross_lambda_0_1_2_in_j_2;
     const jg_real v_8_in_i_0 = A_ji_0 * v_8_in_j_0 + A_ji_1 * v_8_in_j_1 + A_ji_2 * v_8_in_j_2;
+    /* v_5_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_5_in_i_0 = A_ji_0 * v_5_in_j_0 + A_ji_1 * v_5_in_j_1 + A_ji_2 * v_5_in_j_2;
     /* v_9_in_i = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body i */
+    const jg_real v_9_in_i_0 = v_8_in_i_0 * alphadot;
+    const jg_real v_8_in_i_1 = A_ji_3 * v_8_in_j_0 + A_ji_4 * v_8_in_j_1 + A_ji_5 * v_8_in_j_2;
+    const jg_real v_5_in_i_1 = A_ji_3 * v_5_in_j_0 + A_ji_4 * v_5_in_j_1 + A_ji_5 * v_5_in_j_2;
+    /* h_j_cross_lambda_0_1_2_in_j = h_j x lambda_0_1_2, axes of body j */
+    const jg_real h_j_cross_lambda_0_1_2_in_j_0 = C_j[3] * f_j_dot_lambda_0_1_2 - C_j[0] * g_j_dot_lambda_0_1_2;
+    const jg_real h_j_cross_lambda_0_1_2_in_j_1 = C_j[4] * f_j_dot_lambda_0_1_2 - C_j[1] * g_j_dot_lambda_0_1_2;
+    const jg_real h_j_cross_lambda_0_1_2_in_j_2 = C_j[5] * f_j_dot_lambda_0_1_2 - C_j[2] * g_j_dot_lambda_0_1_2;
+    const jg_real v_8_in_i_2 = A_ji_6 * v_8_in_j_0 + A_ji_7 * v_8_in_j_1 + A_ji_8 * v_8_in_j_2;
     const jg_real v_9_in_i_1 = alphadot * v_8_in_i_1;
+    const jg_real v_5_in_i_2 = A_ji_6 * v_5_in_j_0 + A_ji_7 * v_5_in_j_1 + A_ji_8 * v_5_in_j_2;
+    /* v_10_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - pitch alphadot_0 h_i x omega_i - ... */
+    const jg_real v_10_in_i_0 = v_9_in_i_0 - (v_5_in_i_0 + v_7_in_i_0);
+    const jg_real v_10_in_i_1 = v_9_in_i_1 - (v_5_in_i_1 + v_7_in_i_1);
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q_t_lambda_q[2] = -(f_star_in_i_2 * lambda[4] - g_star_in_i_2 * lambda[3] + h_i_cross_vector_8_in_i_2);
+    gamma[0] = v_10_in_i_0;
+    phi_q_t_lambda_q[3] = -h_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[4] = -h_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[5] = -h_j_cross_lambda_0_1_2_in_j_2;
+    gamma[1] = v_10_in_i_1;
+    const jg_real v_9_in_i_2 = alphadot * v_8_in_i_2;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+        omega_i[2];
+    const jg_real v_10_in_i_2 = v_9_in_i_2 - (v_5_in_i_2 + v_7_in_i_2);
+    /* f_j_dot_omega_i = f_j . omega_i */
+    const jg_real f_j_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
     phi_q_t_lambda_q[6] = s_j[2] * h_j_cross_lambda_0_1_2_in_j_1 - s_j[1] * h_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[7] = s_j[0] * h_j_cross_lambda_0_1_2_in_j_2 - s_j[2] * h_j_cross_lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[8] = s_j[1] * h_j_cross_lambda_0_1_2_in_j_0 - s_j[0] * h_j_cross_lambda_0_1_2_in_j_1;
-    const jg_real v_9_in_i_0 = alphadot * v_8_in_i_0;
-    const jg_real v_8_in_i_2 = A_ji_6 * v_8_in_j_0 + A_ji_7 * v_8_in_j_1 + A_ji_8 * v_8_in_j_2;
-    const jg_real v_5_in_i_2 = A_ji_6 * v_5_in_j_0 + A_ji_7 * v_5_in_j_1 + A_ji_8 * v_5_in_j_2;
-    /* v_10_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - pitch alphadot_0 h_i x omega_i - ... */
-    const jg_real v_10_in_i_1 = v_9_in_i_1 - (v_5_in_i_1 + v_7_in_i_1);
-    gamma[1] = v_10_in_i_1;
-    const jg_real v_10_in_i_0 = v_9_in_i_0 - (v_5_in_i_0 + v_7_in_i_0);
-    gamma[0] = v_10_in_i_0;
-    const jg_real v_9_in_i_2 = alphadot * v_8_in_i_2;
-    /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
-        omega_i[2];
-    gamma[3] = -(alphadot * g_j_dot_omega_i);
-    const jg_real v_10_in_i_2 = v_9_in_i_2 - (v_5_in_i_2 + v_7_in_i_2);
     gamma[2] = v_10_in_i_2;
+    gamma[3] = -(alphadot * g_j_dot_omega_i);
     gamma[4] = alphadot * f_j_dot_omega_i;
 }
 

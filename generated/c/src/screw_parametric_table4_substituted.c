@@ -4,10 +4,6 @@
  * joint screw, form parametric, rows table4, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/screw.h"
 
 const int *jg_screw_parametric_table4_substituted_phi_q_sparsity(void)
@@ -27,9 +23,8 @@ const int *jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void
     return pattern;
 }
 
-void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_screw_parametric_table4_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -46,59 +41,58 @@ void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, 
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t6 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real t7 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     /* v_1_in_i = (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_1_in_i_0 = t6 * C_i[6];
-    const jg_real v_1_in_i_1 = t6 * C_i[7];
-    const jg_real v_1_in_i_2 = t6 * C_i[8];
+    const jg_real v_1_in_i_0 = t7 * C_i[6];
+    const jg_real v_1_in_i_1 = t7 * C_i[7];
+    const jg_real v_1_in_i_2 = t7 * C_i[8];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
     const jg_real v_2_in_i_0 = d_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = d_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     const jg_real v_2_in_i_2 = d_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[3] = f_i_dot_h_j;
+    phi[2] = v_2_in_i_2;
+    phi[4] = g_i_dot_h_j;
     phi[5] = f_i_dot_f_j - jg_cos(alpha[0]);
 }
 
-void jg_screw_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_screw_parametric_table4_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -107,82 +101,82 @@ void jg_screw_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT 
     const jg_real pitch = geometry[24];
     const jg_real theta_0 = geometry[25];
     const jg_real revolutions = geometry[26];
+    /* v_1_in_i = pitch h_i, axes of body i */
+    const jg_real v_1_in_i_2 = pitch * C_i[8];
+    const jg_real v_1_in_i_1 = pitch * C_i[7];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real v_1_in_i_0 = pitch * C_i[6];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[5] = -C_i[3];
     phi_q[6] = C_i[0];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
     phi_q[10] = -C_i[4];
     phi_q[11] = C_i[1];
     phi_q[15] = -C_i[5];
+    const jg_real t5 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
+    /* v_0_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
+    const jg_real v_0_in_i_2 = t5 * v_1_in_i_2 + s_i[2];
+    const jg_real v_0_in_i_1 = t5 * v_1_in_i_1 + s_i[1];
+    const jg_real v_0_in_i_0 = t5 * v_1_in_i_0 + s_i[0];
     phi_q[16] = C_i[2];
-    /* v_1_in_i = pitch h_i, axes of body i */
-    const jg_real v_1_in_i_0 = pitch * C_i[6];
-    const jg_real v_1_in_i_1 = pitch * C_i[7];
-    const jg_real v_1_in_i_2 = pitch * C_i[8];
-    phi_q[45] = -v_1_in_i_0;
     phi_q[46] = -v_1_in_i_1;
     phi_q[47] = -v_1_in_i_2;
-    const jg_real t5 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
-    /* v_0_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_0_in_i_2 = s_i[2] + t5 * C_i[8];
+    phi_q[45] = -v_1_in_i_0;
     phi_q[3] = v_0_in_i_2;
-    const jg_real v_0_in_i_1 = s_i[1] + t5 * C_i[7];
     phi_q[13] = v_0_in_i_1;
-    const jg_real v_0_in_i_0 = s_i[0] + t5 * C_i[6];
     phi_q[9] = v_0_in_i_0;
     phi_q[8] = -v_0_in_i_2;
+    /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
+    const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
+    const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
+    const jg_real f_i_cross_f_j_in_i_2 = C_i[8] * sine_0;
+    /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
+    const jg_real f_i_cross_f_j_in_j_0 = sine_0 * C_j[6];
+    /* A_joint_i_j = turns j axes to joint i axes */
+    const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - sine_0 * C_j[4];
+    const jg_real f_i_cross_f_j_in_j_1 = sine_0 * C_j[7];
+    const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * C_j[4];
+    const jg_real f_i_cross_f_j_in_j_2 = sine_0 * C_j[8];
+    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
+    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     phi_q[4] = -v_0_in_i_1;
     phi_q[14] = -v_0_in_i_0;
     phi_q[48] = sine_0;
-    /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
-    const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
     phi_q[7] = f_i_cross_f_j_in_i_0;
-    const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
     phi_q[12] = f_i_cross_f_j_in_i_1;
-    const jg_real f_i_cross_f_j_in_i_2 = C_i[8] * sine_0;
     phi_q[17] = f_i_cross_f_j_in_i_2;
-    /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
-    const jg_real f_i_cross_f_j_in_j_0 = sine_0 * C_j[6];
-    const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
-    const jg_real f_i_cross_f_j_in_j_2 = sine_0 * C_j[8];
-    /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - C_j[4] * sine_0;
-    const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + C_j[4] * cosine_0;
     phi_q[36] = A_joint_i_j_4;
-    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     phi_q[42] = A_joint_i_j_7;
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + cosine_0 * C_j[3];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * C_j[7];
     phi_q[30] = A_joint_i_j_1;
     phi_q[31] = sine_0 * C_j[3] - cosine_0 * C_j[0];
     phi_q[32] = -f_i_cross_f_j_in_j_0;
-    phi_q[38] = -f_i_cross_f_j_in_j_1;
-    phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q[37] = -A_joint_i_j_3;
+    phi_q[38] = -f_i_cross_f_j_in_j_1;
     phi_q[43] = -A_joint_i_j_6;
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_joint_i_j_3 * C_i[1] + A_joint_i_j_4 * C_i[4] + C_i[7] * C_j[7];
+    phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q[22] = A_ij_4;
-    const jg_real A_ij_5 = A_joint_i_j_3 * C_i[2] + A_joint_i_j_4 * C_i[5] + C_i[8] * C_j[7];
-    phi_q[23] = A_ij_5;
+    const jg_real A_ij_5 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * C_j[7];
     const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
-    phi_q[25] = A_ij_7;
     const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * C_j[8];
-    phi_q[24] = A_ij_6;
-    const jg_real A_ij_3 = A_joint_i_j_3 * C_i[0] + A_joint_i_j_4 * C_i[3] + C_i[6] * C_j[7];
-    phi_q[21] = A_ij_3;
+    const jg_real A_ij_3 = C_i[0] * A_joint_i_j_3 + C_i[3] * A_joint_i_j_4 + C_i[6] * C_j[7];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
+    phi_q[25] = A_ij_7;
+    phi_q[24] = A_ij_6;
+    phi_q[21] = A_ij_3;
     phi_q[18] = A_ij_0;
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
     phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
@@ -202,8 +196,8 @@ void jg_screw_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRI
     jg_scatter(jg_screw_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -233,7 +227,6 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *J
     const jg_real t14 = lambda_0_1_2_in_joint_i_2 * s_j_dot_h_j;
     /* v_0_in_joint_i = lambda_5 f_i x g_j, axes of joint i */
     const jg_real v_0_in_joint_i_2 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[9] = v_0_in_joint_i_2;
     /* v_0_in_i = lambda_5 f_i x g_j, axes of body i */
     const jg_real v_0_in_i_0 = v_0_in_joint_i_2 * C_i[6];
     const jg_real v_0_in_i_1 = v_0_in_joint_i_2 * C_i[7];
@@ -243,12 +236,6 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *J
         sine_0;
     const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_in_joint_i_0 + lambda_0_1_2_in_joint_i_1 *
         sine_0;
-    phi_q_t_lambda_q[0] = v_0_in_i_0 - h_i_cross_vector_8_in_i_0;
-    phi_q_t_lambda_q[1] = v_0_in_i_1 - h_i_cross_vector_8_in_i_1;
-    phi_q_t_lambda_q[2] = v_0_in_i_2 - h_i_cross_vector_8_in_i_2;
-    phi_q_t_lambda_q[3] = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 * C_j[3];
-    phi_q_t_lambda_q[4] = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 * C_j[4];
-    phi_q_t_lambda_q[5] = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 * C_j[5];
     /* v_2_in_joint_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0)
         ... */
     const jg_real v_2_in_joint_j_0 = cosine_0 * lambda[3] + sine_0 * lambda[4] + lambda_0_1_2_in_joint_j_0 *
@@ -261,10 +248,17 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *J
     const jg_real v_2_in_joint_j_2 = t14 - (v_0_in_joint_i_2 + s_j_dot_lambda_0_1_2);
     /* v_2_in_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0) ... */
     const jg_real v_2_in_j_0 = C_j[0] * v_2_in_joint_j_0 + C_j[3] * v_2_in_joint_j_1 + C_j[6] * v_2_in_joint_j_2;
+    phi_q_t_lambda_q[9] = v_0_in_joint_i_2;
+    phi_q_t_lambda_q[0] = v_0_in_i_0 - h_i_cross_vector_8_in_i_0;
+    phi_q_t_lambda_q[1] = v_0_in_i_1 - h_i_cross_vector_8_in_i_1;
+    phi_q_t_lambda_q[2] = v_0_in_i_2 - h_i_cross_vector_8_in_i_2;
+    phi_q_t_lambda_q[3] = lambda_0_1_2_in_joint_j_1 * C_j[0] - lambda_0_1_2_in_joint_j_0 * C_j[3];
+    phi_q_t_lambda_q[4] = lambda_0_1_2_in_joint_j_1 * C_j[1] - lambda_0_1_2_in_joint_j_0 * C_j[4];
+    phi_q_t_lambda_q[5] = lambda_0_1_2_in_joint_j_1 * C_j[2] - lambda_0_1_2_in_joint_j_0 * C_j[5];
     phi_q_t_lambda_q[6] = v_2_in_j_0;
     const jg_real v_2_in_j_1 = C_j[1] * v_2_in_joint_j_0 + C_j[4] * v_2_in_joint_j_1 + C_j[7] * v_2_in_joint_j_2;
-    phi_q_t_lambda_q[7] = v_2_in_j_1;
     const jg_real v_2_in_j_2 = C_j[2] * v_2_in_joint_j_0 + C_j[5] * v_2_in_joint_j_1 + C_j[8] * v_2_in_joint_j_2;
+    phi_q_t_lambda_q[7] = v_2_in_j_1;
     phi_q_t_lambda_q[8] = v_2_in_j_2;
 }
 
@@ -276,8 +270,8 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real
     jg_scatter(jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_screw_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_screw_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -297,40 +291,40 @@ void jg_screw_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alp
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
-    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    /* v_1_in_joint_j = alphadot_0 h_j - omega_j, axes of joint j */
+    const jg_real v_1_in_joint_j_2 = alphadot - h_j_dot_omega_j;
     /* v_3_in_i = alphadot_0 pitch h_i - v_i, axes of body i */
     const jg_real v_3_in_i_1 = C_i[7] * t2 - v_i[1];
     const jg_real v_3_in_i_2 = C_i[8] * t2 - v_i[2];
-    /* v_1_in_joint_j = alphadot_0 h_j - omega_j, axes of joint j */
-    const jg_real v_1_in_joint_j_2 = alphadot - h_j_dot_omega_j;
+    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
     const jg_real v_3_in_i_0 = C_i[6] * t2 - v_i[0];
     /* v_2_in_joint_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint j */
     const jg_real v_2_in_joint_j_2 = v_j_in_joint_j_0 * g_j_dot_omega_j - v_j_in_joint_j_1 * f_j_dot_omega_j;
+    const jg_real v_2_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_1_in_joint_j_2;
+    const jg_real t18 = v_j_in_joint_j_1 * v_1_in_joint_j_2 + v_j_in_joint_j_2 * g_j_dot_omega_j;
     /* v_4_in_i = alphadot_0 pitch h_i x omega_i + omega_i x v_i, axes of body i */
     const jg_real v_4_in_i_0 = omega_i[2] * v_3_in_i_1 - omega_i[1] * v_3_in_i_2;
-    const jg_real v_2_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_1_in_joint_j_2;
-    const jg_real t19 = v_j_in_joint_j_1 * v_1_in_joint_j_2 + v_j_in_joint_j_2 * g_j_dot_omega_j;
+    const jg_real v_4_in_i_1 = omega_i[0] * v_3_in_i_2 - omega_i[2] * v_3_in_i_0;
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
-    const jg_real v_4_in_i_1 = omega_i[0] * v_3_in_i_2 - omega_i[2] * v_3_in_i_0;
     const jg_real v_4_in_i_2 = omega_i[1] * v_3_in_i_0 - omega_i[0] * v_3_in_i_1;
     /* v_6_in_joint_j = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint j */
     const jg_real v_6_in_joint_j_1 = alphadot * s_j_cross_omega_j_in_joint_j_0;
     const jg_real t25 = alphadot * s_j_cross_omega_j_in_joint_j_1;
     /* v_2_in_joint_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint i */
-    const jg_real v_2_in_joint_i_1 = v_2_in_joint_j_1 * cosine_0 - t19 * sine_0;
-    const jg_real t27 = t19 * cosine_0 + v_2_in_joint_j_1 * sine_0;
+    const jg_real v_2_in_joint_i_1 = v_2_in_joint_j_1 * cosine_0 - t18 * sine_0;
+    const jg_real t27 = t18 * cosine_0 + v_2_in_joint_j_1 * sine_0;
     /* v_6_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
     const jg_real v_6_in_joint_i_1 = cosine_0 * v_6_in_joint_j_1 - sine_0 * t25;
     const jg_real t29 = cosine_0 * t25 + sine_0 * v_6_in_joint_j_1;
@@ -338,25 +332,25 @@ void jg_screw_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alp
     const jg_real v_6_in_i_0 = C_i[3] * v_6_in_joint_i_1 - C_i[0] * t29;
     const jg_real v_6_in_i_1 = C_i[4] * v_6_in_joint_i_1 - C_i[1] * t29;
     const jg_real v_6_in_i_2 = C_i[5] * v_6_in_joint_i_1 - C_i[2] * t29;
-    gamma[3] = -(alphadot * (f_j_dot_omega_j * cosine_0 - g_j_dot_omega_j * sine_0));
-    gamma[4] = -(alphadot * (g_j_dot_omega_j * cosine_0 + f_j_dot_omega_j * sine_0));
     /* v_2_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_2_in_i_0 = v_2_in_joint_i_1 * C_i[3] - t27 * C_i[0] + v_2_in_joint_j_2 * C_i[6];
     const jg_real v_2_in_i_1 = v_2_in_joint_i_1 * C_i[4] - t27 * C_i[1] + v_2_in_joint_j_2 * C_i[7];
     const jg_real v_2_in_i_2 = v_2_in_joint_i_1 * C_i[5] - t27 * C_i[2] + v_2_in_joint_j_2 * C_i[8];
     /* v_7_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - alphadot_0 pitch h_i x omega_i - ... */
     const jg_real v_7_in_i_0 = v_6_in_i_0 - (v_2_in_i_0 + v_4_in_i_0);
-    gamma[0] = v_7_in_i_0;
     const jg_real v_7_in_i_1 = v_6_in_i_1 - (v_2_in_i_1 + v_4_in_i_1);
-    gamma[1] = v_7_in_i_1;
     const jg_real v_7_in_i_2 = v_6_in_i_2 - (v_2_in_i_2 + v_4_in_i_2);
+    gamma[3] = -(alphadot * (f_j_dot_omega_j * cosine_0 - g_j_dot_omega_j * sine_0));
+    gamma[4] = -(alphadot * (g_j_dot_omega_j * cosine_0 + f_j_dot_omega_j * sine_0));
+    gamma[0] = v_7_in_i_0;
+    gamma[1] = v_7_in_i_1;
     gamma[2] = v_7_in_i_2;
     gamma[5] = -(alphadot * (cosine_0 * C_i[6] * omega_i[0] + cosine_0 * C_i[7] * omega_i[1] + cosine_0 * C_i[8] *
         omega_i[2] + v_1_in_joint_j_2 * cosine_0));
 }
 
-void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -384,9 +378,6 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
-    const jg_real omega_i_in_joint_i_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    /* omega_j_in_joint_i = omega_j, axes of joint i */
-    const jg_real omega_j_in_joint_i_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
     const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
         C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
@@ -394,6 +385,9 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
     const jg_real v_0_in_i_1 = s_i[1] + t6 * C_i[7];
     const jg_real v_0_in_i_2 = s_i[2] + t6 * C_i[8];
     const jg_real v_0_in_i_0 = s_i[0] + t6 * C_i[6];
+    const jg_real omega_i_in_joint_i_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
+    /* omega_j_in_joint_i = omega_j, axes of joint i */
+    const jg_real omega_j_in_joint_i_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_1_in_i = s_i x omega_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i x omega_i, ... */
     const jg_real v_1_in_i_0 = omega_i[2] * v_0_in_i_1 - omega_i[1] * v_0_in_i_2;
     const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
@@ -406,7 +400,6 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
     const jg_real g_i_in_j_0 = sine_0 * C_j[0] + cosine_0 * C_j[3];
     const jg_real g_i_in_j_1 = sine_0 * C_j[1] + cosine_0 * C_j[4];
     const jg_real g_i_in_j_2 = sine_0 * C_j[2] + cosine_0 * C_j[5];
-    phi_q_v[5] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot - sine_0 * omega_j_in_joint_i_2;
     const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_j_0 * f_i_in_j_0 + s_j_cross_omega_j_in_j_1
         * f_i_in_j_1 + s_j_cross_omega_j_in_j_2 * f_i_in_j_2;
     const jg_real v_j_in_joint_i_0 = f_i_in_j_0 * v_j[0] + f_i_in_j_1 * v_j[1] + f_i_in_j_2 * v_j[2];
@@ -417,8 +410,6 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
         g_i_in_j_2;
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
         f_i_in_j_2;
-    phi_q_v[3] = omega_j_in_joint_i_1 - omega_i_in_joint_i_1;
-    phi_q_v[4] = omega_i_in_joint_i_0 - omega_j_in_joint_i_0;
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = s_j_cross_omega_j_in_joint_i_0 * C_i[0] +
         s_j_cross_omega_j_in_joint_i_1 * C_i[3] + C_i[6] * s_j_cross_omega_j_in_joint_i_2;
@@ -438,13 +429,16 @@ void jg_screw_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT a
     const jg_real v_3_in_i_0 = s_j_cross_omega_j_in_i_0 - v_1_in_i_0 + v_2_in_i_0;
     const jg_real v_3_in_i_1 = s_j_cross_omega_j_in_i_1 - v_1_in_i_1 + v_2_in_i_1;
     const jg_real v_3_in_i_2 = s_j_cross_omega_j_in_i_2 - v_1_in_i_2 + v_2_in_i_2;
+    phi_q_v[5] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot - sine_0 * omega_j_in_joint_i_2;
+    phi_q_v[3] = omega_j_in_joint_i_1 - omega_i_in_joint_i_1;
+    phi_q_v[4] = omega_i_in_joint_i_0 - omega_j_in_joint_i_0;
     phi_q_v[0] = -v_3_in_i_0;
     phi_q_v[1] = -v_3_in_i_1;
     phi_q_v[2] = -v_3_in_i_2;
 }
 
-void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -453,9 +447,6 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
     const jg_real pitch = geometry[24];
     const jg_real theta_0 = geometry[25];
     const jg_real revolutions = geometry[26];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -485,34 +476,35 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
     const jg_real A_joint_i_j_1 = sine_0 * C_j[0] + C_j[3] * cosine_0;
     const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
     const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * C_j[4];
-    phi_q_t_lambda[12] = v_2_in_joint_i_2 - pitch * lambda_0_1_2_dot_h_i;
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     /* v_2_in_i = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of body i */
     const jg_real v_2_in_i_0 = C_i[6] * v_2_in_joint_i_2 - lambda[3] * C_i[3];
     const jg_real v_2_in_i_1 = C_i[7] * v_2_in_joint_i_2 - lambda[3] * C_i[4];
     const jg_real v_2_in_i_2 = C_i[8] * v_2_in_joint_i_2 - lambda[3] * C_i[5];
     /* v_3_in_j = lambda_4 g_i x h_j, axes of body j */
     const jg_real v_3_in_j_0 = lambda[4] * A_joint_i_j_0;
+    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * C_j[5];
     const jg_real v_3_in_j_1 = lambda[4] * A_joint_i_j_3;
-    const jg_real v_3_in_j_2 = lambda[4] * A_joint_i_j_6;
     /* v_2_in_j = lambda_5 f_i x f_j + lambda_3 f_i x h_j, axes of body j */
     const jg_real v_2_in_j_0 = v_2_in_joint_i_2 * C_j[6] - lambda[3] * A_joint_i_j_1;
     const jg_real v_2_in_j_1 = v_2_in_joint_i_2 * C_j[7] - lambda[3] * A_joint_i_j_4;
-    const jg_real v_2_in_j_2 = v_2_in_joint_i_2 * C_j[8] - lambda[3] * A_joint_i_j_7;
-    phi_q_t_lambda[3] = v_3_in_i_0 - (v_1_in_i_0 - v_2_in_i_0);
-    phi_q_t_lambda[4] = v_3_in_i_1 - (v_1_in_i_1 - v_2_in_i_1);
-    phi_q_t_lambda[5] = v_3_in_i_2 - (v_1_in_i_2 - v_2_in_i_2);
+    const jg_real v_3_in_j_2 = lambda[4] * A_joint_i_j_6;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_dot_f_i * A_joint_i_j_0 + lambda_0_1_2_dot_g_i * A_joint_i_j_1
         + lambda_0_1_2_dot_h_i * C_j[6];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[3] = v_3_in_i_0 - (v_1_in_i_0 - v_2_in_i_0);
+    phi_q_t_lambda[4] = v_3_in_i_1 - (v_1_in_i_1 - v_2_in_i_1);
+    phi_q_t_lambda[5] = v_3_in_i_2 - (v_1_in_i_2 - v_2_in_i_2);
+    phi_q_t_lambda[12] = v_2_in_joint_i_2 - pitch * lambda_0_1_2_dot_h_i;
     phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    const jg_real v_2_in_j_2 = v_2_in_joint_i_2 * C_j[8] - lambda[3] * A_joint_i_j_7;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_dot_f_i * A_joint_i_j_3 + lambda_0_1_2_dot_g_i * A_joint_i_j_4
         + lambda_0_1_2_dot_h_i * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_dot_f_i * A_joint_i_j_6 + lambda_0_1_2_dot_g_i * A_joint_i_j_7
         + lambda_0_1_2_dot_h_i * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
@@ -521,16 +513,16 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
     const jg_real v_5_in_j_2 = v_2_in_j_2 - s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2;
     const jg_real v_5_in_j_0 = v_2_in_j_0 - s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0;
     const jg_real v_5_in_j_1 = v_2_in_j_1 - s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda[11] = -v_5_in_j_2;
     phi_q_t_lambda[9] = -v_5_in_j_0;
     phi_q_t_lambda[10] = -v_5_in_j_1;
 }
 
-void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_screw_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -548,231 +540,229 @@ void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, 
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    phi_q[6] = C_i[0];
-    phi_q[11] = C_i[1];
-    phi_q[16] = C_i[2];
+    const jg_real t3 = pitch * C_i[6];
+    const jg_real t4 = pitch * C_i[7];
+    const jg_real t5 = pitch * C_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real t7 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real t6 = pitch * (alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586));
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = s_j_world_0 + v_0_world_0;
+    /* v_1_in_i = (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
+    const jg_real v_1_in_i_0 = t7 * t3;
+    const jg_real v_1_in_i_1 = t7 * t4;
+    const jg_real v_1_in_i_2 = t7 * t5;
+    const jg_real e_ij_world_1 = s_j_world_1 + v_0_world_1;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_2 = s_j_world_2 + v_0_world_2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* v_1_in_i = (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
-    const jg_real v_1_in_i_0 = t6 * C_i[6];
-    const jg_real v_1_in_i_1 = t6 * C_i[7];
-    const jg_real v_1_in_i_2 = t6 * C_i[8];
     const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
+    const jg_real v_2_in_i_0 = d_ij_in_i_0 - v_1_in_i_0;
+    const jg_real v_2_in_i_1 = d_ij_in_i_1 - v_1_in_i_1;
+    const jg_real v_2_in_i_2 = d_ij_in_i_2 - v_1_in_i_2;
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    phi_q[6] = C_i[0];
+    phi_q[11] = C_i[1];
+    phi_q[16] = C_i[2];
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     /* v_0_in_i = s_i + (alpha_0 pitch + pitch theta_0 + 2 pitch pi revolutions) h_i, axes of body i */
     const jg_real v_0_in_i_2 = s_i[2] + v_1_in_i_2;
-    phi_q[3] = v_0_in_i_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     const jg_real v_0_in_i_1 = s_i[1] + v_1_in_i_1;
-    phi_q[13] = v_0_in_i_1;
-    phi_q[5] = -C_i[3];
-    const jg_real v_0_in_i_0 = s_i[0] + v_1_in_i_0;
-    phi_q[9] = v_0_in_i_0;
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[3] = f_i_dot_h_j;
-    phi_q[10] = -C_i[4];
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[15] = -C_i[5];
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    phi_q[8] = -v_0_in_i_2;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi_q[4] = -v_0_in_i_1;
+    const jg_real v_0_in_i_0 = s_i[0] + v_1_in_i_0;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    phi_q[14] = -v_0_in_i_0;
+    phi_q[3] = v_0_in_i_2;
+    phi_q[13] = v_0_in_i_1;
+    phi[3] = f_i_dot_h_j;
+    phi_q[5] = -C_i[3];
+    phi_q[9] = v_0_in_i_0;
+    phi_q[10] = -C_i[4];
+    phi_q[15] = -C_i[5];
+    phi_q[8] = -v_0_in_i_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    /* v_2_in_i = r_j + s_j - r_i - s_i + (-alpha_0 pitch - pitch theta_0 - 2 pitch pi revolutions) h_i, axes ... */
-    const jg_real v_2_in_i_0 = d_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = d_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = d_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    /* vector_8_in_i = vector_8, axes of body i */
-    const jg_real vector_8_in_i_2 = pitch * lambda[2];
-    const jg_real vector_8_in_i_1 = pitch * lambda[1];
-    const jg_real vector_8_in_i_0 = pitch * lambda[0];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
-    phi[4] = g_i_dot_h_j;
-    phi_q[45] = -(pitch * C_i[6]);
-    phi_q[46] = -(pitch * C_i[7]);
-    phi_q[47] = -(pitch * C_i[8]);
-    const jg_real t44 = pitch * alphadot;
-    /* v_5_in_j = alphadot_0 h_j - omega_j, axes of body j */
-    const jg_real v_5_in_j_1 = C_j[7] * alphadot - omega_j[1];
+    /* h_i_cross_vector_8_in_i = h_i x vector_8, axes of body i */
+    const jg_real h_i_cross_vector_8_in_i_0 = t4 * lambda[2] - t5 * lambda[1];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_i_world_0 * f_j_world_0 + f_i_world_1 * f_j_world_1 + f_i_world_2 * f_j_world_2;
-    /* h_i_cross_vector_8_in_i = h_i x vector_8, axes of body i */
-    const jg_real h_i_cross_vector_8_in_i_0 = C_i[7] * vector_8_in_i_2 - C_i[8] * vector_8_in_i_1;
-    const jg_real h_i_cross_vector_8_in_i_1 = C_i[8] * vector_8_in_i_0 - C_i[6] * vector_8_in_i_2;
-    const jg_real h_i_cross_vector_8_in_i_2 = C_i[6] * vector_8_in_i_1 - C_i[7] * vector_8_in_i_0;
-    /* s_j_dot_h_j = s_j . h_j */
-    const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
+    const jg_real h_i_cross_vector_8_in_i_1 = t5 * lambda[0] - t3 * lambda[2];
+    const jg_real h_i_cross_vector_8_in_i_2 = t3 * lambda[1] - t4 * lambda[0];
+    /* v_5_in_j = alphadot_0 h_j - omega_j, axes of body j */
+    const jg_real v_5_in_j_1 = C_j[7] * alphadot - omega_j[1];
     const jg_real v_5_in_j_2 = C_j[8] * alphadot - omega_j[2];
     const jg_real v_5_in_j_0 = C_j[6] * alphadot - omega_j[0];
+    /* s_j_dot_h_j = s_j . h_j */
+    const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
+    /* v_7_in_i = pitch alphadot_0 h_i - v_i, axes of body i */
+    const jg_real v_7_in_i_1 = t4 * alphadot - v_i[1];
+    const jg_real v_7_in_i_2 = t5 * alphadot - v_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    const jg_real t54 = s_j_dot_h_j * alphadot;
-    const jg_real t55 = alphadot * h_j_dot_omega_j;
-    /* v_7_in_i = pitch alphadot_0 h_i - v_i, axes of body i */
-    const jg_real v_7_in_i_1 = C_i[7] * t44 - v_i[1];
-    const jg_real v_7_in_i_2 = C_i[8] * t44 - v_i[2];
-    const jg_real v_7_in_i_0 = C_i[6] * t44 - v_i[0];
+    const jg_real v_7_in_i_0 = t3 * alphadot - v_i[0];
+    const jg_real t56 = s_j_dot_h_j * alphadot;
+    const jg_real t57 = h_j_dot_omega_j * alphadot;
+    /* v_6_in_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of body j */
+    const jg_real v_6_in_j_0 = v_5_in_j_1 * v_j[2] - v_5_in_j_2 * v_j[1];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    const jg_real v_6_in_j_1 = v_5_in_j_2 * v_j[0] - v_j[2] * v_5_in_j_0;
+    const jg_real v_6_in_j_2 = v_j[1] * v_5_in_j_0 - v_5_in_j_1 * v_j[0];
+    /* v_8_in_i = pitch alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
+    const jg_real v_8_in_i_0 = v_7_in_i_1 * omega_i[2] - v_7_in_i_2 * omega_i[1];
+    const jg_real v_8_in_i_1 = v_7_in_i_2 * omega_i[0] - omega_i[2] * v_7_in_i_0;
+    const jg_real v_8_in_i_2 = omega_i[1] * v_7_in_i_0 - v_7_in_i_1 * omega_i[0];
+    /* v_9_in_j = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body j */
+    const jg_real v_9_in_j_0 = s_j[0] * t57 - omega_j[0] * t56;
+    const jg_real v_9_in_j_1 = s_j[1] * t57 - omega_j[1] * t56;
+    const jg_real v_9_in_j_2 = s_j[2] * t57 - omega_j[2] * t56;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    /* v_6_in_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of body j */
-    const jg_real v_6_in_j_0 = v_j[2] * v_5_in_j_1 - v_j[1] * v_5_in_j_2;
-    const jg_real v_6_in_j_1 = v_j[0] * v_5_in_j_2 - v_j[2] * v_5_in_j_0;
-    const jg_real v_6_in_j_2 = v_j[1] * v_5_in_j_0 - v_j[0] * v_5_in_j_1;
-    /* v_9_in_j = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body j */
-    const jg_real v_9_in_j_0 = s_j[0] * t55 - omega_j[0] * t54;
-    const jg_real v_9_in_j_1 = s_j[1] * t55 - omega_j[1] * t54;
-    const jg_real v_9_in_j_2 = s_j[2] * t55 - omega_j[2] * t54;
-    /* v_8_in_i = pitch alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
-    const jg_real v_8_in_i_0 = omega_i[2] * v_7_in_i_1 - omega_i[1] * v_7_in_i_2;
-    const jg_real v_8_in_i_1 = omega_i[0] * v_7_in_i_2 - omega_i[2] * v_7_in_i_0;
-    const jg_real v_8_in_i_2 = omega_i[1] * v_7_in_i_0 - omega_i[0] * v_7_in_i_1;
+    phi_q[4] = -v_0_in_i_1;
+    phi_q[14] = -v_0_in_i_0;
+    phi[4] = g_i_dot_h_j;
+    phi_q[45] = -t3;
+    phi_q[46] = -t4;
+    phi_q[47] = -t5;
     phi[5] = f_i_dot_f_j - cosine_0;
     phi_q[48] = sine_0;
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
-    phi_q[7] = f_i_cross_f_j_in_i_0;
     const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
-    phi_q[12] = f_i_cross_f_j_in_i_1;
     const jg_real f_i_cross_f_j_in_i_2 = C_i[8] * sine_0;
-    phi_q[17] = f_i_cross_f_j_in_i_2;
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = C_j[6] * sine_0;
+    /* A_joint_i_j = turns j axes to joint i axes */
+    const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - sine_0 * C_j[4];
     const jg_real f_i_cross_f_j_in_j_1 = C_j[7] * sine_0;
+    const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + cosine_0 * C_j[4];
     const jg_real f_i_cross_f_j_in_j_2 = C_j[8] * sine_0;
+    const jg_real A_joint_i_j_6 = C_j[2] * cosine_0 - sine_0 * C_j[5];
     /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
     const jg_real f_i_cross_g_j_in_i_0 = C_i[6] * cosine_0;
-    const jg_real f_i_cross_g_j_in_i_1 = C_i[7] * cosine_0;
-    /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - sine_0 * C_j[4];
-    const jg_real f_i_cross_g_j_in_i_2 = C_i[8] * cosine_0;
-    const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + cosine_0 * C_j[4];
-    phi_q[36] = A_joint_i_j_4;
-    const jg_real t81 = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[9] = t81;
-    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
     const jg_real A_joint_i_j_7 = C_j[2] * sine_0 + cosine_0 * C_j[5];
-    phi_q[42] = A_joint_i_j_7;
-    const jg_real A_joint_i_j_0 = cosine_0 * C_j[0] - C_j[3] * sine_0;
+    const jg_real f_i_cross_g_j_in_i_1 = C_i[7] * cosine_0;
+    const jg_real A_joint_i_j_0 = C_j[0] * cosine_0 - sine_0 * C_j[3];
+    const jg_real f_i_cross_g_j_in_i_2 = C_i[8] * cosine_0;
     const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + cosine_0 * C_j[3];
+    phi_q[7] = f_i_cross_f_j_in_i_0;
+    phi_q[12] = f_i_cross_f_j_in_i_1;
+    phi_q[17] = f_i_cross_f_j_in_i_2;
+    phi_q[36] = A_joint_i_j_4;
+    phi_q[42] = A_joint_i_j_7;
     phi_q[30] = A_joint_i_j_1;
     phi_q[32] = -f_i_cross_f_j_in_j_0;
-    phi_q[38] = -f_i_cross_f_j_in_j_1;
-    phi_q[44] = -f_i_cross_f_j_in_j_2;
     phi_q[31] = -A_joint_i_j_0;
-    phi_q[37] = -A_joint_i_j_3;
-    phi_q[43] = -A_joint_i_j_6;
-    phi_q_t_lambda_q[0] = lambda[5] * f_i_cross_g_j_in_i_0 - h_i_cross_vector_8_in_i_0;
-    phi_q_t_lambda_q[1] = lambda[5] * f_i_cross_g_j_in_i_1 - h_i_cross_vector_8_in_i_1;
-    const jg_real t86 = cosine_0 * lambda[3] + sine_0 * lambda[4];
-    /* v_12_in_joint_j = sin(alpha_0) alphadot_0 f_j + cos(alpha_0) alphadot_0 g_j, axes of joint j */
-    const jg_real v_12_in_joint_j = sine_0 * alphadot;
-    /* v_11_in_joint_j = cos(alpha_0) alphadot_0 f_j - sin(alpha_0) alphadot_0 g_j, axes of joint j */
-    const jg_real v_11_in_joint_j = cosine_0 * alphadot;
-    phi_q_t_lambda_q[2] = lambda[5] * f_i_cross_g_j_in_i_2 - h_i_cross_vector_8_in_i_2;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * C_j[7];
-    phi_q[22] = A_ji_4;
     const jg_real A_ji_7 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * C_j[7];
-    phi_q[23] = A_ji_7;
-    const jg_real t91 = cosine_0 * lambda[4] - sine_0 * lambda[3];
+    const jg_real t86 = cosine_0 * lambda[5];
     const jg_real A_ji_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
+    phi_q[37] = -A_joint_i_j_3;
+    phi_q[38] = -f_i_cross_f_j_in_j_1;
+    phi_q[43] = -A_joint_i_j_6;
+    phi_q[44] = -f_i_cross_f_j_in_j_2;
+    phi_q[22] = A_ji_4;
+    phi_q[23] = A_ji_7;
+    phi_q_t_lambda_q[9] = t86;
     phi_q[26] = A_ji_8;
     const jg_real A_ji_5 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
-    phi_q[25] = A_ji_5;
     const jg_real A_ji_3 = C_i[1] * A_joint_i_j_0 + C_i[4] * A_joint_i_j_1 + C_i[7] * C_j[6];
-    phi_q[19] = A_ji_3;
     const jg_real A_ji_6 = C_i[2] * A_joint_i_j_0 + C_i[5] * A_joint_i_j_1 + C_i[8] * C_j[6];
-    phi_q[20] = A_ji_6;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    phi_q[25] = A_ji_5;
+    phi_q_t_lambda_q[0] = f_i_cross_g_j_in_i_0 * lambda[5] - h_i_cross_vector_8_in_i_0;
+    phi_q[19] = A_ji_3;
+    phi_q[20] = A_ji_6;
+    phi_q_t_lambda_q[1] = lambda[5] * f_i_cross_g_j_in_i_1 - h_i_cross_vector_8_in_i_1;
+    phi_q_t_lambda_q[2] = lambda[5] * f_i_cross_g_j_in_i_2 - h_i_cross_vector_8_in_i_2;
     phi_q[18] = A_ji_0;
     phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    const jg_real t94 = cosine_0 * lambda[3] + sine_0 * lambda[4];
     phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     phi_q[24] = A_ji_2;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real t95 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    gamma[3] = g_j_dot_omega_j * v_12_in_joint_j - f_j_dot_omega_j * v_11_in_joint_j;
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* v_9_in_i = alphadot_0 (h_j . omega_j) s_j - (s_j . h_j) alphadot_0 omega_j, axes of body i */
     const jg_real v_9_in_i_0 = A_ji_0 * v_9_in_j_0 + A_ji_1 * v_9_in_j_1 + A_ji_2 * v_9_in_j_2;
     /* v_6_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
     const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
-    const jg_real v_9_in_i_1 = A_ji_3 * v_9_in_j_0 + A_ji_4 * v_9_in_j_1 + A_ji_5 * v_9_in_j_2;
-    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
-    const jg_real v_9_in_i_2 = A_ji_6 * v_9_in_j_0 + A_ji_7 * v_9_in_j_1 + A_ji_8 * v_9_in_j_2;
-    gamma[4] = -(f_j_dot_omega_j * v_12_in_joint_j + g_j_dot_omega_j * v_11_in_joint_j);
-    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
-    phi_q_t_lambda_q[3] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[4] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[5] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
-    /* v_10_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - pitch alphadot_0 h_i x omega_i - ... */
-    const jg_real v_10_in_i_0 = v_9_in_i_0 - (v_6_in_i_0 + v_8_in_i_0);
-    gamma[0] = v_10_in_i_0;
+    /* v_12_in_joint_j = sin(alpha_0) alphadot_0 f_j + cos(alpha_0) alphadot_0 g_j, axes of joint j */
+    const jg_real v_12_in_joint_j = sine_0 * alphadot;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
+    const jg_real v_9_in_i_1 = A_ji_3 * v_9_in_j_0 + A_ji_4 * v_9_in_j_1 + A_ji_5 * v_9_in_j_2;
+    /* v_11_in_joint_j = cos(alpha_0) alphadot_0 f_j - sin(alpha_0) alphadot_0 g_j, axes of joint j */
+    const jg_real v_11_in_joint_j = cosine_0 * alphadot;
+    const jg_real t105 = s_j_dot_lambda_0_1_2 + t86;
+    /* v_10_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - pitch alphadot_0 h_i x omega_i - ... */
+    const jg_real v_10_in_i_0 = v_9_in_i_0 - (v_6_in_i_0 + v_8_in_i_0);
+    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
+    const jg_real v_9_in_i_2 = A_ji_6 * v_9_in_j_0 + A_ji_7 * v_9_in_j_1 + A_ji_8 * v_9_in_j_2;
+    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
     const jg_real v_10_in_i_1 = v_9_in_i_1 - (v_6_in_i_1 + v_8_in_i_1);
+    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    phi_q_t_lambda_q[3] = C_j[8] * lambda_0_1_2_in_j_1 - C_j[7] * lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[4] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[5] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
+    gamma[0] = v_10_in_i_0;
+    gamma[3] = g_j_dot_omega_j * v_12_in_joint_j - f_j_dot_omega_j * v_11_in_joint_j;
     gamma[1] = v_10_in_i_1;
+    const jg_real v_10_in_i_2 = v_9_in_i_2 - (v_6_in_i_2 + v_8_in_i_2);
+    /* v_4_in_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0) ... */
+    const jg_real v_4_in_j_0 = C_j[0] * t94 + C_j[3] * t95 - C_j[6] * t105 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
+    const jg_real v_4_in_j_1 = C_j[1] * t94 + C_j[4] * t95 - C_j[7] * t105 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
+    const jg_real v_4_in_j_2 = C_j[2] * t94 + C_j[5] * t95 - C_j[8] * t105 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
+    gamma[4] = -(v_12_in_joint_j * f_j_dot_omega_j + g_j_dot_omega_j * v_11_in_joint_j);
+    gamma[2] = v_10_in_i_2;
+    phi_q_t_lambda_q[6] = v_4_in_j_0;
+    phi_q_t_lambda_q[7] = v_4_in_j_1;
+    phi_q_t_lambda_q[8] = v_4_in_j_2;
     gamma[5] = -(alphadot * (f_i_cross_g_j_in_i_0 * omega_i[0] + f_i_cross_g_j_in_i_1 * omega_i[1] +
         f_i_cross_g_j_in_i_2 * omega_i[2] + cosine_0 * (alphadot - h_j_dot_omega_j)));
-    const jg_real v_10_in_i_2 = v_9_in_i_2 - (v_6_in_i_2 + v_8_in_i_2);
-    gamma[2] = v_10_in_i_2;
-    const jg_real t112 = s_j_dot_lambda_0_1_2 + t81;
-    /* v_4_in_j = (cos(alpha_0) lambda_3 + sin(alpha_0) lambda_4) f_j + (cos(alpha_0) lambda_4 - sin(alpha_0) ... */
-    const jg_real v_4_in_j_0 = C_j[0] * t86 + C_j[3] * t91 - C_j[6] * t112 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
-    phi_q_t_lambda_q[6] = v_4_in_j_0;
-    const jg_real v_4_in_j_1 = C_j[1] * t86 + C_j[4] * t91 - C_j[7] * t112 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
-    phi_q_t_lambda_q[7] = v_4_in_j_1;
-    const jg_real v_4_in_j_2 = C_j[2] * t86 + C_j[5] * t91 - C_j[8] * t112 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
-    phi_q_t_lambda_q[8] = v_4_in_j_2;
 }
 
 void jg_screw_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

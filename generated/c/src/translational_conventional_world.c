@@ -4,10 +4,6 @@
  * joint translational, form conventional, derivative exact, variation world, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/translational.h"
 
 const int *jg_translational_conventional_world_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_translational_conventional_world_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_translational_conventional_world_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -49,14 +44,12 @@ void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    /* s_i_dot_f_i = s_i . f_i */
-    const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
-    /* s_i_dot_g_i = s_i . g_i */
-    const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = f_i_world_0 * A_j[0] + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
     const jg_real f_i_in_j_1 = f_i_world_0 * A_j[3] + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
     const jg_real f_i_in_j_2 = f_i_world_0 * A_j[6] + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    /* s_i_dot_f_i = s_i . f_i */
+    const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_0 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
     const jg_real g_i_in_j_1 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
@@ -64,123 +57,124 @@ void jg_translational_conventional_world_phi(const jg_real *JG_RESTRICT r_i, con
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
         r_ij_world_2;
+    /* s_i_dot_g_i = s_i . g_i */
+    const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
+    /* f_i_dot_h_j = f_i . h_j */
+    const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
         r_ij_world_2;
-    /* f_i_dot_h_j = f_i . h_j */
-    const jg_real f_i_dot_h_j = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
-    phi[0] = f_i_dot_h_j;
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_in_j_0 * C_j[3] + f_i_in_j_1 * C_j[4] + f_i_in_j_2 * C_j[5];
-    phi[2] = f_i_dot_g_j;
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_in_j_0 * s_j[0] + f_i_in_j_1 * s_j[1] + f_i_in_j_2 * s_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
-    phi[1] = g_i_dot_h_j;
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = g_i_in_j_0 * s_j[0] + g_i_in_j_1 * s_j[1] + g_i_in_j_2 * s_j[2];
+    phi[0] = f_i_dot_h_j;
+    phi[2] = f_i_dot_g_j;
+    phi[1] = g_i_dot_h_j;
     phi[3] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
     phi[4] = r_ij_dot_g_i + s_j_dot_g_i - s_i_dot_g_i;
 }
 
-void jg_translational_conventional_world_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_translational_conventional_world_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[21] = f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[22] = g_i_world_0;
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[23] = f_i_world_1;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    phi_q[24] = g_i_world_1;
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[25] = f_i_world_2;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[26] = g_i_world_2;
+    phi_q[21] = f_i_world_0;
+    phi_q[22] = g_i_world_0;
+    phi_q[23] = f_i_world_1;
+    phi_q[24] = g_i_world_1;
     phi_q[0] = -f_i_world_0;
+    phi_q[25] = f_i_world_2;
     phi_q[1] = -g_i_world_0;
+    phi_q[26] = g_i_world_2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
-    phi_q[2] = -f_i_world_1;
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    phi_q[3] = -g_i_world_1;
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    phi_q[4] = -f_i_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    phi_q[5] = -g_i_world_2;
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* f_i_cross_h_j_world = f_i x h_j, world axes */
     const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[6] = f_i_cross_h_j_world_0;
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    phi_q[7] = g_i_cross_h_j_world_0;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* f_i_cross_g_j_world = f_i x g_j, world axes */
     const jg_real f_i_cross_g_j_world_0 = f_i_world_1 * g_j_world_2 - f_i_world_2 * g_j_world_1;
+    const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    phi_q[2] = -f_i_world_1;
+    phi_q[3] = -g_i_world_1;
+    phi_q[4] = -f_i_world_2;
+    phi_q[5] = -g_i_world_2;
+    phi_q[6] = f_i_cross_h_j_world_0;
+    phi_q[7] = g_i_cross_h_j_world_0;
     phi_q[8] = f_i_cross_g_j_world_0;
-    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     phi_q[27] = -f_i_cross_h_j_world_0;
-    phi_q[28] = -g_i_cross_h_j_world_0;
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    phi_q[29] = -f_i_cross_g_j_world_0;
-    /* s_j_cross_f_i_world = s_j x f_i, world axes */
-    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
-    phi_q[30] = s_j_cross_f_i_world_0;
-    /* s_j_cross_g_i_world = s_j x g_i, world axes */
-    const jg_real s_j_cross_g_i_world_0 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
-    phi_q[31] = s_j_cross_g_i_world_0;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[11] = f_i_cross_h_j_world_1;
     const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
-    phi_q[12] = g_i_cross_h_j_world_1;
     const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[16] = f_i_cross_h_j_world_2;
-    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
+    phi_q[28] = -g_i_cross_h_j_world_0;
+    phi_q[29] = -f_i_cross_g_j_world_0;
+    phi_q[11] = f_i_cross_h_j_world_1;
+    phi_q[12] = g_i_cross_h_j_world_1;
+    phi_q[16] = f_i_cross_h_j_world_2;
     phi_q[17] = g_i_cross_h_j_world_2;
     phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
     phi_q[10] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
-    phi_q[13] = f_i_cross_g_j_world_1;
     const jg_real f_i_cross_g_j_world_2 = f_i_world_0 * g_j_world_1 - f_i_world_1 * g_j_world_0;
+    /* s_j_cross_f_i_world = s_j x f_i, world axes */
+    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
+    /* s_j_cross_g_i_world = s_j x g_i, world axes */
+    const jg_real s_j_cross_g_i_world_0 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
+    phi_q[13] = f_i_cross_g_j_world_1;
     phi_q[18] = f_i_cross_g_j_world_2;
     phi_q[32] = -f_i_cross_h_j_world_1;
     phi_q[33] = -g_i_cross_h_j_world_1;
+    phi_q[30] = s_j_cross_f_i_world_0;
+    phi_q[34] = -f_i_cross_g_j_world_1;
+    phi_q[31] = s_j_cross_g_i_world_0;
     phi_q[37] = -f_i_cross_h_j_world_2;
     const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    phi_q[35] = s_j_cross_f_i_world_1;
     const jg_real s_j_cross_g_i_world_1 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
-    phi_q[36] = s_j_cross_g_i_world_1;
     phi_q[38] = -g_i_cross_h_j_world_2;
-    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    phi_q[40] = s_j_cross_f_i_world_2;
-    const jg_real s_j_cross_g_i_world_2 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
-    phi_q[41] = s_j_cross_g_i_world_2;
-    phi_q[34] = -f_i_cross_g_j_world_1;
+    phi_q[35] = s_j_cross_f_i_world_1;
     phi_q[39] = -f_i_cross_g_j_world_2;
     phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[15] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
     phi_q[19] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
     phi_q[20] = g_i_world_0 * e_ij_world_1 - g_i_world_1 * e_ij_world_0;
+    phi_q[36] = s_j_cross_g_i_world_1;
+    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
+    const jg_real s_j_cross_g_i_world_2 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
+    phi_q[40] = s_j_cross_f_i_world_2;
+    phi_q[41] = s_j_cross_g_i_world_2;
 }
 
 void jg_translational_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -206,120 +200,120 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_R
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    /* v_2_in_j = lambda_4 s_j + lambda_1 h_j, axes of body j */
-    const jg_real v_2_in_j_0 = lambda[4] * s_j[0] + C_j[6] * lambda[1];
     /* v_1_in_j = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, axes of body j */
     const jg_real v_1_in_j_0 = lambda[3] * s_j[0] + lambda[2] * C_j[3] + lambda[0] * C_j[6];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real v_2_in_j_1 = lambda[4] * s_j[1] + C_j[7] * lambda[1];
-    const jg_real v_1_in_j_1 = lambda[3] * s_j[1] + lambda[2] * C_j[4] + lambda[0] * C_j[7];
-    const jg_real v_2_in_j_2 = lambda[4] * s_j[2] + C_j[8] * lambda[1];
-    const jg_real v_1_in_j_2 = lambda[3] * s_j[2] + lambda[2] * C_j[5] + lambda[0] * C_j[8];
     /* v_0_world = lambda_3 f_i + lambda_4 g_i, world axes */
     const jg_real v_0_world_2 = lambda[3] * f_i_world_2 + lambda[4] * g_i_world_2;
+    const jg_real v_1_in_j_1 = lambda[3] * s_j[1] + lambda[2] * C_j[4] + lambda[0] * C_j[7];
+    /* v_2_in_j = lambda_4 s_j + lambda_1 h_j, axes of body j */
+    const jg_real v_2_in_j_0 = lambda[4] * s_j[0] + C_j[6] * lambda[1];
+    const jg_real v_0_world_1 = lambda[3] * f_i_world_1 + lambda[4] * g_i_world_1;
     phi_q_t_lambda_q[2] = v_0_world_2;
     phi_q_t_lambda_q[6] = v_0_world_2;
     phi_q_t_lambda_q[21] = v_0_world_2;
     phi_q_t_lambda_q[36] = v_0_world_2;
-    const jg_real v_0_world_1 = lambda[3] * f_i_world_1 + lambda[4] * g_i_world_1;
     phi_q_t_lambda_q[1] = v_0_world_1;
     phi_q_t_lambda_q[12] = v_0_world_1;
     phi_q_t_lambda_q[26] = v_0_world_1;
     phi_q_t_lambda_q[40] = v_0_world_1;
+    const jg_real v_1_in_j_2 = lambda[3] * s_j[2] + lambda[2] * C_j[5] + lambda[0] * C_j[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real v_2_in_j_1 = lambda[4] * s_j[1] + C_j[7] * lambda[1];
+    const jg_real t14 = -v_0_world_2;
     const jg_real v_0_world_0 = lambda[3] * f_i_world_0 + lambda[4] * g_i_world_0;
+    phi_q_t_lambda_q[0] = t14;
+    phi_q_t_lambda_q[11] = t14;
+    phi_q_t_lambda_q[16] = t14;
+    phi_q_t_lambda_q[38] = t14;
     phi_q_t_lambda_q[5] = v_0_world_0;
     phi_q_t_lambda_q[17] = v_0_world_0;
     phi_q_t_lambda_q[32] = v_0_world_0;
     phi_q_t_lambda_q[39] = v_0_world_0;
-    const jg_real t18 = -v_0_world_2;
-    phi_q_t_lambda_q[0] = t18;
-    phi_q_t_lambda_q[11] = t18;
-    phi_q_t_lambda_q[16] = t18;
-    phi_q_t_lambda_q[38] = t18;
-    const jg_real t19 = -v_0_world_1;
-    phi_q_t_lambda_q[4] = t19;
-    phi_q_t_lambda_q[7] = t19;
-    phi_q_t_lambda_q[31] = t19;
-    phi_q_t_lambda_q[37] = t19;
-    const jg_real t20 = -v_0_world_0;
-    phi_q_t_lambda_q[3] = t20;
-    phi_q_t_lambda_q[22] = t20;
-    phi_q_t_lambda_q[27] = t20;
-    phi_q_t_lambda_q[41] = t20;
-    /* v_2_world = lambda_4 s_j + lambda_1 h_j, world axes */
-    const jg_real v_2_world_1 = A_j[1] * v_2_in_j_0 + A_j[4] * v_2_in_j_1 + A_j[7] * v_2_in_j_2;
+    const jg_real v_2_in_j_2 = lambda[4] * s_j[2] + C_j[8] * lambda[1];
+    const jg_real t17 = -v_0_world_1;
+    const jg_real t18 = -v_0_world_0;
+    phi_q_t_lambda_q[4] = t17;
+    phi_q_t_lambda_q[7] = t17;
+    phi_q_t_lambda_q[31] = t17;
+    phi_q_t_lambda_q[37] = t17;
+    phi_q_t_lambda_q[3] = t18;
+    phi_q_t_lambda_q[22] = t18;
+    phi_q_t_lambda_q[27] = t18;
+    phi_q_t_lambda_q[41] = t18;
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* v_1_world = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, world axes */
     const jg_real v_1_world_1 = v_1_in_j_0 * A_j[1] + v_1_in_j_1 * A_j[4] + v_1_in_j_2 * A_j[7];
     const jg_real v_1_world_2 = v_1_in_j_0 * A_j[2] + v_1_in_j_1 * A_j[5] + v_1_in_j_2 * A_j[8];
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    /* v_2_world = lambda_4 s_j + lambda_1 h_j, world axes */
+    const jg_real v_2_world_1 = A_j[1] * v_2_in_j_0 + A_j[4] * v_2_in_j_1 + A_j[7] * v_2_in_j_2;
     const jg_real v_2_world_2 = A_j[2] * v_2_in_j_0 + A_j[5] * v_2_in_j_1 + A_j[8] * v_2_in_j_2;
     const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
     const jg_real v_2_world_0 = A_j[0] * v_2_in_j_0 + A_j[3] * v_2_in_j_1 + A_j[6] * v_2_in_j_2;
     /* M_0_world_world = (lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 s_j + lambda_1 h_j) g_i^T;
         ... */
     const jg_real M_0_world_world_4 = f_i_world_1 * v_1_world_1 + g_i_world_1 * v_2_world_1;
-    const jg_real M_0_world_world_3 = f_i_world_0 * v_1_world_1 + g_i_world_0 * v_2_world_1;
-    phi_q_t_lambda_q[46] = M_0_world_world_3;
     const jg_real M_0_world_world_8 = f_i_world_2 * v_1_world_2 + g_i_world_2 * v_2_world_2;
+    const jg_real M_0_world_world_3 = f_i_world_0 * v_1_world_1 + g_i_world_0 * v_2_world_1;
     const jg_real M_0_world_world_5 = f_i_world_2 * v_1_world_1 + g_i_world_2 * v_2_world_1;
-    phi_q_t_lambda_q[58] = M_0_world_world_5;
     const jg_real M_0_world_world_6 = f_i_world_0 * v_1_world_2 + g_i_world_0 * v_2_world_2;
-    phi_q_t_lambda_q[47] = M_0_world_world_6;
     const jg_real M_0_world_world_7 = f_i_world_1 * v_1_world_2 + g_i_world_1 * v_2_world_2;
-    phi_q_t_lambda_q[53] = M_0_world_world_7;
     /* M_1_world_world = (lambda_3 r_ij + lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 r_ij + ...
         */
     const jg_real M_1_world_world_4 = M_0_world_world_4 + v_0_world_1 * r_ij_world_1;
-    const jg_real M_1_world_world_3 = M_0_world_world_3 + v_0_world_0 * r_ij_world_1;
-    phi_q_t_lambda_q[18] = M_1_world_world_3;
-    const jg_real t35 = -M_0_world_world_3;
-    phi_q_t_lambda_q[23] = t35;
-    phi_q_t_lambda_q[43] = t35;
     const jg_real M_1_world_world_8 = M_0_world_world_8 + v_0_world_2 * r_ij_world_2;
+    const jg_real t35 = M_0_world_world_4 + M_0_world_world_8;
     const jg_real M_0_world_world_1 = f_i_world_1 * v_1_world_0 + g_i_world_1 * v_2_world_0;
-    phi_q_t_lambda_q[51] = M_0_world_world_1;
     const jg_real M_0_world_world_2 = f_i_world_2 * v_1_world_0 + g_i_world_2 * v_2_world_0;
+    phi_q_t_lambda_q[46] = M_0_world_world_3;
+    phi_q_t_lambda_q[58] = M_0_world_world_5;
+    phi_q_t_lambda_q[47] = M_0_world_world_6;
+    phi_q_t_lambda_q[53] = M_0_world_world_7;
+    phi_q_t_lambda_q[13] = t35;
+    phi_q_t_lambda_q[42] = t35;
+    phi_q_t_lambda_q[51] = M_0_world_world_1;
     phi_q_t_lambda_q[57] = M_0_world_world_2;
-    const jg_real t39 = M_0_world_world_4 + M_0_world_world_8;
-    phi_q_t_lambda_q[13] = t39;
-    phi_q_t_lambda_q[42] = t39;
+    const jg_real M_1_world_world_3 = M_0_world_world_3 + v_0_world_0 * r_ij_world_1;
     const jg_real M_0_world_world_0 = f_i_world_0 * v_1_world_0 + g_i_world_0 * v_2_world_0;
     const jg_real M_1_world_world_5 = M_0_world_world_5 + v_0_world_2 * r_ij_world_1;
-    phi_q_t_lambda_q[20] = M_1_world_world_5;
+    const jg_real t41 = -M_0_world_world_3;
     const jg_real t42 = -M_0_world_world_5;
+    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
+    const jg_real M_1_world_world_7 = M_0_world_world_7 + v_0_world_1 * r_ij_world_2;
+    phi_q_t_lambda_q[18] = M_1_world_world_3;
+    phi_q_t_lambda_q[20] = M_1_world_world_5;
+    phi_q_t_lambda_q[23] = t41;
+    phi_q_t_lambda_q[43] = t41;
     phi_q_t_lambda_q[25] = t42;
     phi_q_t_lambda_q[55] = t42;
-    const jg_real M_1_world_world_6 = M_0_world_world_6 + v_0_world_0 * r_ij_world_2;
     phi_q_t_lambda_q[28] = M_1_world_world_6;
-    const jg_real t44 = -M_0_world_world_6;
-    phi_q_t_lambda_q[33] = t44;
-    phi_q_t_lambda_q[44] = t44;
-    const jg_real M_1_world_world_7 = M_0_world_world_7 + v_0_world_1 * r_ij_world_2;
     phi_q_t_lambda_q[29] = M_1_world_world_7;
+    const jg_real t45 = -M_0_world_world_6;
     const jg_real t46 = -M_0_world_world_7;
+    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * r_ij_world_0;
+    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * r_ij_world_0;
+    const jg_real t49 = -M_0_world_world_1;
+    phi_q_t_lambda_q[33] = t45;
+    phi_q_t_lambda_q[44] = t45;
     phi_q_t_lambda_q[34] = t46;
     phi_q_t_lambda_q[50] = t46;
-    const jg_real M_1_world_world_1 = M_0_world_world_1 + v_0_world_1 * r_ij_world_0;
     phi_q_t_lambda_q[9] = M_1_world_world_1;
-    const jg_real M_1_world_world_2 = M_0_world_world_2 + v_0_world_2 * r_ij_world_0;
     phi_q_t_lambda_q[10] = M_1_world_world_2;
-    const jg_real t49 = -M_0_world_world_1;
     phi_q_t_lambda_q[14] = t49;
     phi_q_t_lambda_q[48] = t49;
     const jg_real t50 = -M_0_world_world_2;
-    phi_q_t_lambda_q[15] = t50;
-    phi_q_t_lambda_q[54] = t50;
     const jg_real M_1_world_world_0 = M_0_world_world_0 + v_0_world_0 * r_ij_world_0;
     const jg_real t52 = M_0_world_world_0 + M_0_world_world_8;
+    const jg_real t53 = M_0_world_world_0 + M_0_world_world_4;
+    phi_q_t_lambda_q[15] = t50;
+    phi_q_t_lambda_q[54] = t50;
     phi_q_t_lambda_q[24] = t52;
     phi_q_t_lambda_q[49] = t52;
-    const jg_real t53 = M_0_world_world_0 + M_0_world_world_4;
     phi_q_t_lambda_q[35] = t53;
     phi_q_t_lambda_q[56] = t53;
-    phi_q_t_lambda_q[45] = -t39;
+    phi_q_t_lambda_q[45] = -t35;
     phi_q_t_lambda_q[8] = -(M_1_world_world_4 + M_1_world_world_8);
     phi_q_t_lambda_q[52] = -t52;
     phi_q_t_lambda_q[59] = -t53;
@@ -337,9 +331,8 @@ void jg_translational_conventional_world_phi_q_t_lambda_q_dense(const jg_real *J
     jg_scatter(jg_translational_conventional_world_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_translational_conventional_world_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -362,9 +355,6 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     /* omega_i_dot_f_i = omega_i . f_i */
     const jg_real omega_i_dot_f_i = omega_i[0] * f_i_world_0 + omega_i[1] * f_i_world_1 + omega_i[2] * f_i_world_2;
     /* f_i_dot_omega_j = f_i . omega_j */
@@ -373,9 +363,12 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i[0] * h_j_world_0 + omega_i[1] * h_j_world_1 + omega_i[2] * h_j_world_2;
-    const jg_real t15 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
+    const jg_real t13 = omega_i_dot_omega_j * JG_REAL(2.0) - (omega_i_dot_omega_i + omega_j_dot_omega_j);
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
@@ -389,27 +382,22 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_world_0 * g_j_world_0 + f_i_world_1 * g_j_world_1 + f_i_world_2 * g_j_world_2;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = omega_j[0] * g_j_world_0 + omega_j[1] * g_j_world_1 + omega_j[2] * g_j_world_2;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i[0] * g_j_world_0 + omega_i[1] * g_j_world_1 + omega_i[2] * g_j_world_2;
-    gamma[0] = -(f_i_dot_h_j * t15 + omega_i_dot_h_j * (omega_i_dot_f_i - f_i_dot_omega_j * JG_REAL(2.0)) +
-        h_j_dot_omega_j * f_i_dot_omega_j);
-    /* r_ij_dot_omega_i = r_ij . omega_i */
-    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
-        r_ij_world_2;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
     const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
-    /* r_ij_dot_f_i = r_ij . f_i */
-    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+    /* r_ij_dot_omega_i = r_ij . omega_i */
+    const jg_real r_ij_dot_omega_i = omega_i[0] * r_ij_world_0 + omega_i[1] * r_ij_world_1 + omega_i[2] *
         r_ij_world_2;
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
@@ -417,36 +405,40 @@ void jg_translational_conventional_world_gamma(const jg_real *JG_RESTRICT r_i, c
     const jg_real s_j_dot_omega_i = omega_i[0] * s_j_world_0 + omega_i[1] * s_j_world_1 + omega_i[2] * s_j_world_2;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = omega_j[0] * s_j_world_0 + omega_j[1] * s_j_world_1 + omega_j[2] * s_j_world_2;
+    /* r_ij_dot_f_i = r_ij . f_i */
+    const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
     const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
-    gamma[1] = omega_i_dot_h_j * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t15 * g_i_dot_h_j -
-        h_j_dot_omega_j * g_i_dot_omega_j;
     const jg_real t41 = r_ij_dot_omega_i + s_j_dot_omega_i;
+    const jg_real t42 = s_j_dot_omega_j - JG_REAL(2.0) * s_j_dot_omega_i;
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
-    /* omega_i_cross_g_i_world = omega_i x g_i, world axes */
-    const jg_real omega_i_cross_g_i_world_0 = omega_i[1] * g_i_world_2 - omega_i[2] * g_i_world_1;
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
         r_ij_world_2;
-    const jg_real t45 = s_j_dot_omega_j - JG_REAL(2.0) * s_j_dot_omega_i;
+    /* omega_i_cross_g_i_world = omega_i x g_i, world axes */
+    const jg_real omega_i_cross_g_i_world_0 = omega_i[1] * g_i_world_2 - omega_i[2] * g_i_world_1;
     const jg_real omega_i_cross_g_i_world_1 = omega_i[2] * g_i_world_0 - omega_i[0] * g_i_world_2;
     const jg_real omega_i_cross_g_i_world_2 = omega_i[0] * g_i_world_1 - omega_i[1] * g_i_world_0;
-    gamma[2] = -(t15 * f_i_dot_g_j + f_i_dot_omega_j * (g_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_g_j) +
+    gamma[0] = -(f_i_dot_h_j * t13 + omega_i_dot_h_j * (omega_i_dot_f_i - f_i_dot_omega_j * JG_REAL(2.0)) +
+        h_j_dot_omega_j * f_i_dot_omega_j);
+    gamma[1] = omega_i_dot_h_j * (JG_REAL(2.0) * g_i_dot_omega_j - omega_i_dot_g_i) - t13 * g_i_dot_h_j -
+        h_j_dot_omega_j * g_i_dot_omega_j;
+    gamma[2] = -(t13 * f_i_dot_g_j + f_i_dot_omega_j * (g_j_dot_omega_j - JG_REAL(2.0) * omega_i_dot_g_j) +
         omega_i_dot_f_i * omega_i_dot_g_j);
     gamma[3] = JG_REAL(2.0) * (omega_i_cross_f_i_world_0 * v_i[0] + omega_i_cross_f_i_world_1 * v_i[1] +
-        omega_i_cross_f_i_world_2 * v_i[2]) - (t15 * s_j_dot_f_i + omega_i_dot_f_i * t41 + f_i_dot_omega_j * t45 -
+        omega_i_cross_f_i_world_2 * v_i[2]) - (t13 * s_j_dot_f_i + omega_i_dot_f_i * t41 + f_i_dot_omega_j * t42 -
         omega_i_dot_omega_i * r_ij_dot_f_i + JG_REAL(2.0) * (omega_i_cross_f_i_world_0 * v_j[0] +
         omega_i_cross_f_i_world_1 * v_j[1] + omega_i_cross_f_i_world_2 * v_j[2]));
-    gamma[4] = omega_i_dot_omega_i * r_ij_dot_g_i - (t15 * s_j_dot_g_i + omega_i_dot_g_i * t41 + g_i_dot_omega_j *
-        t45) - JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_world_0 + v_j[1] * omega_i_cross_g_i_world_1 + v_j[2] *
+    gamma[4] = omega_i_dot_omega_i * r_ij_dot_g_i - (t13 * s_j_dot_g_i + omega_i_dot_g_i * t41 + g_i_dot_omega_j *
+        t42) - JG_REAL(2.0) * (v_j[0] * omega_i_cross_g_i_world_0 + v_j[1] * omega_i_cross_g_i_world_1 + v_j[2] *
         omega_i_cross_g_i_world_2) + JG_REAL(2.0) * (v_i[0] * omega_i_cross_g_i_world_0 + v_i[1] *
         omega_i_cross_g_i_world_1 + v_i[2] * omega_i_cross_g_i_world_2);
 }
 
-void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_translational_conventional_world_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -465,45 +457,36 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     /* omega_i_cross_f_i_world = omega_i x f_i, world axes */
     const jg_real omega_i_cross_f_i_world_0 = omega_i[1] * f_i_world_2 - omega_i[2] * f_i_world_1;
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* f_i_cross_omega_j_world = f_i x omega_j, world axes */
     const jg_real f_i_cross_omega_j_world_0 = f_i_world_1 * omega_j[2] - f_i_world_2 * omega_j[1];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real omega_i_cross_f_i_world_1 = omega_i[2] * f_i_world_0 - omega_i[0] * f_i_world_2;
     const jg_real omega_i_cross_f_i_world_2 = omega_i[0] * f_i_world_1 - omega_i[1] * f_i_world_0;
     const jg_real f_i_cross_omega_j_world_1 = f_i_world_2 * omega_j[0] - f_i_world_0 * omega_j[2];
     const jg_real f_i_cross_omega_j_world_2 = f_i_world_0 * omega_j[1] - f_i_world_1 * omega_j[0];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    /* g_j_world = g_j, world axes */
+    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     /* omega_i_cross_g_i_world = omega_i x g_i, world axes */
     const jg_real omega_i_cross_g_i_world_0 = omega_i[1] * g_i_world_2 - omega_i[2] * g_i_world_1;
     const jg_real omega_i_cross_g_i_world_1 = omega_i[2] * g_i_world_0 - omega_i[0] * g_i_world_2;
-    /* g_j_world = g_j, world axes */
-    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real omega_i_cross_g_i_world_2 = omega_i[0] * g_i_world_1 - omega_i[1] * g_i_world_0;
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     /* g_i_cross_omega_j_world = g_i x omega_j, world axes */
     const jg_real g_i_cross_omega_j_world_0 = omega_j[2] * g_i_world_1 - omega_j[1] * g_i_world_2;
     const jg_real g_i_cross_omega_j_world_1 = omega_j[0] * g_i_world_2 - omega_j[2] * g_i_world_0;
     const jg_real g_i_cross_omega_j_world_2 = omega_j[1] * g_i_world_0 - omega_j[0] * g_i_world_1;
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    phi_q_v[0] = omega_i_cross_f_i_world_0 * h_j_world_0 + omega_i_cross_f_i_world_1 * h_j_world_1 +
-        omega_i_cross_f_i_world_2 * h_j_world_2 + (h_j_world_0 * f_i_cross_omega_j_world_0 + h_j_world_1 *
-        f_i_cross_omega_j_world_1 + h_j_world_2 * f_i_cross_omega_j_world_2);
     /* f_i_dot_v_i = f_i . v_i */
     const jg_real f_i_dot_v_i = f_i_world_0 * v_i[0] + f_i_world_1 * v_i[1] + f_i_world_2 * v_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
-    phi_q_v[2] = omega_i_cross_f_i_world_0 * g_j_world_0 + omega_i_cross_f_i_world_1 * g_j_world_1 +
-        omega_i_cross_f_i_world_2 * g_j_world_2 + (f_i_cross_omega_j_world_0 * g_j_world_0 +
-        f_i_cross_omega_j_world_1 * g_j_world_1 + f_i_cross_omega_j_world_2 * g_j_world_2);
-    phi_q_v[1] = h_j_world_0 * omega_i_cross_g_i_world_0 + h_j_world_1 * omega_i_cross_g_i_world_1 + h_j_world_2 *
-        omega_i_cross_g_i_world_2 + (h_j_world_0 * g_i_cross_omega_j_world_0 + h_j_world_1 *
-        g_i_cross_omega_j_world_1 + h_j_world_2 * g_i_cross_omega_j_world_2);
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* f_i_dot_v_j = f_i . v_j */
@@ -512,6 +495,15 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
     const jg_real g_i_dot_v_i = g_i_world_0 * v_i[0] + g_i_world_1 * v_i[1] + g_i_world_2 * v_i[2];
     /* g_i_dot_v_j = g_i . v_j */
     const jg_real g_i_dot_v_j = g_i_world_0 * v_j[0] + g_i_world_1 * v_j[1] + g_i_world_2 * v_j[2];
+    phi_q_v[0] = omega_i_cross_f_i_world_0 * h_j_world_0 + omega_i_cross_f_i_world_1 * h_j_world_1 +
+        omega_i_cross_f_i_world_2 * h_j_world_2 + (h_j_world_0 * f_i_cross_omega_j_world_0 + h_j_world_1 *
+        f_i_cross_omega_j_world_1 + h_j_world_2 * f_i_cross_omega_j_world_2);
+    phi_q_v[1] = h_j_world_0 * omega_i_cross_g_i_world_0 + h_j_world_1 * omega_i_cross_g_i_world_1 + h_j_world_2 *
+        omega_i_cross_g_i_world_2 + (h_j_world_0 * g_i_cross_omega_j_world_0 + h_j_world_1 *
+        g_i_cross_omega_j_world_1 + h_j_world_2 * g_i_cross_omega_j_world_2);
+    phi_q_v[2] = omega_i_cross_f_i_world_0 * g_j_world_0 + omega_i_cross_f_i_world_1 * g_j_world_1 +
+        omega_i_cross_f_i_world_2 * g_j_world_2 + (f_i_cross_omega_j_world_0 * g_j_world_0 +
+        f_i_cross_omega_j_world_1 * g_j_world_1 + f_i_cross_omega_j_world_2 * g_j_world_2);
     phi_q_v[3] = f_i_dot_v_j - (f_i_dot_v_i - (omega_i_cross_f_i_world_0 * r_ij_world_0 + omega_i_cross_f_i_world_1
         * r_ij_world_1 + omega_i_cross_f_i_world_2 * r_ij_world_2) - (omega_i_cross_f_i_world_0 * s_j_world_0 +
         omega_i_cross_f_i_world_1 * s_j_world_1 + omega_i_cross_f_i_world_2 * s_j_world_2) -
@@ -524,9 +516,8 @@ void jg_translational_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i,
         g_i_cross_omega_j_world_2 * s_j_world_2));
 }
 
-void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -538,69 +529,68 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    /* v_3_in_j = lambda_4 s_j + lambda_1 h_j, axes of body j */
-    const jg_real v_3_in_j_0 = lambda[4] * s_j[0] + C_j[6] * lambda[1];
     /* v_1_in_j = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, axes of body j */
     const jg_real v_1_in_j_0 = lambda[3] * s_j[0] + lambda[2] * C_j[3] + lambda[0] * C_j[6];
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real v_3_in_j_1 = lambda[4] * s_j[1] + C_j[7] * lambda[1];
-    const jg_real v_1_in_j_1 = lambda[3] * s_j[1] + lambda[2] * C_j[4] + lambda[0] * C_j[7];
-    const jg_real v_3_in_j_2 = lambda[4] * s_j[2] + C_j[8] * lambda[1];
-    const jg_real v_1_in_j_2 = lambda[3] * s_j[2] + lambda[2] * C_j[5] + lambda[0] * C_j[8];
     /* v_0_world = lambda_3 f_i + lambda_4 g_i, world axes */
     const jg_real v_0_world_0 = lambda[3] * f_i_world_0 + lambda[4] * g_i_world_0;
-    phi_q_t_lambda[6] = v_0_world_0;
+    const jg_real v_1_in_j_1 = lambda[3] * s_j[1] + lambda[2] * C_j[4] + lambda[0] * C_j[7];
+    /* v_3_in_j = lambda_4 s_j + lambda_1 h_j, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[4] * s_j[0] + C_j[6] * lambda[1];
     const jg_real v_0_world_1 = lambda[3] * f_i_world_1 + lambda[4] * g_i_world_1;
-    phi_q_t_lambda[7] = v_0_world_1;
+    const jg_real v_1_in_j_2 = lambda[3] * s_j[2] + lambda[2] * C_j[5] + lambda[0] * C_j[8];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real v_3_in_j_1 = lambda[4] * s_j[1] + C_j[7] * lambda[1];
     const jg_real v_0_world_2 = lambda[3] * f_i_world_2 + lambda[4] * g_i_world_2;
-    phi_q_t_lambda[8] = v_0_world_2;
-    phi_q_t_lambda[0] = -v_0_world_0;
-    phi_q_t_lambda[1] = -v_0_world_1;
-    phi_q_t_lambda[2] = -v_0_world_2;
-    /* v_3_world = lambda_4 s_j + lambda_1 h_j, world axes */
-    const jg_real v_3_world_2 = A_j[2] * v_3_in_j_0 + A_j[5] * v_3_in_j_1 + A_j[8] * v_3_in_j_2;
+    const jg_real v_3_in_j_2 = lambda[4] * s_j[2] + C_j[8] * lambda[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* v_1_world = lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, world axes */
     const jg_real v_1_world_2 = v_1_in_j_0 * A_j[2] + v_1_in_j_1 * A_j[5] + v_1_in_j_2 * A_j[8];
     const jg_real v_1_world_1 = v_1_in_j_0 * A_j[1] + v_1_in_j_1 * A_j[4] + v_1_in_j_2 * A_j[7];
-    const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* v_6_world = lambda_3 r_ij x f_i + lambda_4 r_ij x g_i, world axes */
     const jg_real v_6_world_0 = v_0_world_2 * r_ij_world_1 - v_0_world_1 * r_ij_world_2;
-    const jg_real v_6_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    /* v_3_world = lambda_4 s_j + lambda_1 h_j, world axes */
+    const jg_real v_3_world_2 = A_j[2] * v_3_in_j_0 + A_j[5] * v_3_in_j_1 + A_j[8] * v_3_in_j_2;
+    const jg_real v_3_world_1 = A_j[1] * v_3_in_j_0 + A_j[4] * v_3_in_j_1 + A_j[7] * v_3_in_j_2;
     const jg_real v_1_world_0 = v_1_in_j_0 * A_j[0] + v_1_in_j_1 * A_j[3] + v_1_in_j_2 * A_j[6];
-    const jg_real v_6_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
-    const jg_real v_3_world_0 = A_j[0] * v_3_in_j_0 + A_j[3] * v_3_in_j_1 + A_j[6] * v_3_in_j_2;
     /* v_2_world = lambda_0 f_i x h_j + lambda_2 f_i x g_j - lambda_3 s_j x f_i, world axes */
     const jg_real v_2_world_0 = f_i_world_1 * v_1_world_2 - f_i_world_2 * v_1_world_1;
+    const jg_real v_3_world_0 = A_j[0] * v_3_in_j_0 + A_j[3] * v_3_in_j_1 + A_j[6] * v_3_in_j_2;
+    const jg_real v_6_world_1 = v_0_world_0 * r_ij_world_2 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_6_world_2 = v_0_world_1 * r_ij_world_0 - v_0_world_0 * r_ij_world_1;
     /* v_4_world = lambda_1 g_i x h_j - lambda_4 s_j x g_i, world axes */
     const jg_real v_4_world_0 = g_i_world_1 * v_3_world_2 - g_i_world_2 * v_3_world_1;
     const jg_real v_2_world_1 = f_i_world_2 * v_1_world_0 - f_i_world_0 * v_1_world_2;
     const jg_real v_2_world_2 = f_i_world_0 * v_1_world_1 - f_i_world_1 * v_1_world_0;
-    const jg_real v_4_world_1 = g_i_world_2 * v_3_world_0 - g_i_world_0 * v_3_world_2;
-    const jg_real v_4_world_2 = g_i_world_0 * v_3_world_1 - g_i_world_1 * v_3_world_0;
     /* v_5_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j + lambda_2 f_i x g_j - lambda_3 s_j x f_i - ... */
     const jg_real v_5_world_0 = v_2_world_0 + v_4_world_0;
-    const jg_real v_5_world_1 = v_2_world_1 + v_4_world_1;
-    const jg_real v_5_world_2 = v_2_world_2 + v_4_world_2;
+    const jg_real v_4_world_1 = g_i_world_2 * v_3_world_0 - g_i_world_0 * v_3_world_2;
+    const jg_real v_4_world_2 = g_i_world_0 * v_3_world_1 - g_i_world_1 * v_3_world_0;
     /* v_7_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j + lambda_2 f_i x g_j - lambda_3 r_ij x f_i - ... */
     const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
+    phi_q_t_lambda[6] = v_0_world_0;
+    phi_q_t_lambda[7] = v_0_world_1;
+    phi_q_t_lambda[0] = -v_0_world_0;
+    phi_q_t_lambda[8] = v_0_world_2;
+    phi_q_t_lambda[1] = -v_0_world_1;
+    phi_q_t_lambda[2] = -v_0_world_2;
     phi_q_t_lambda[3] = v_7_world_0;
     phi_q_t_lambda[9] = -v_5_world_0;
+    const jg_real v_5_world_1 = v_2_world_1 + v_4_world_1;
+    const jg_real v_5_world_2 = v_2_world_2 + v_4_world_2;
     const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
-    phi_q_t_lambda[4] = v_7_world_1;
     const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
+    phi_q_t_lambda[4] = v_7_world_1;
     phi_q_t_lambda[5] = v_7_world_2;
     phi_q_t_lambda[10] = -v_5_world_1;
     phi_q_t_lambda[11] = -v_5_world_2;
 }
 
-void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_translational_conventional_world_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -612,96 +602,98 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    phi_q[21] = f_i_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    phi_q[23] = f_i_world_1;
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    phi_q[25] = f_i_world_2;
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    phi_q[22] = g_i_world_0;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    phi_q[24] = g_i_world_1;
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    phi_q[26] = g_i_world_2;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    /* r_ij_world = r_ij, world axes */
-    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* f_i_dot_h_j = f_i . h_j */
     const jg_real f_i_dot_h_j = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 * h_j_world_2;
-    phi[0] = f_i_dot_h_j;
-    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
-    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    /* r_ij_world = r_ij, world axes */
+    const jg_real r_ij_world_0 = r_j[0] - r_i[0];
+    const jg_real r_ij_world_1 = r_j[1] - r_i[1];
+    const jg_real r_ij_world_2 = r_j[2] - r_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + A_j[3] * s_j[1] + A_j[6] * s_j[2];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = h_j_world_0 * g_i_world_0 + h_j_world_1 * g_i_world_1 + h_j_world_2 * g_i_world_2;
+    phi_q[21] = f_i_world_0;
+    phi_q[23] = f_i_world_1;
+    phi_q[25] = f_i_world_2;
+    phi_q[22] = g_i_world_0;
+    phi_q[24] = g_i_world_1;
+    phi_q[26] = g_i_world_2;
+    phi[0] = f_i_dot_h_j;
     phi[1] = g_i_dot_h_j;
-    phi_q[0] = -f_i_world_0;
-    phi_q[1] = -g_i_world_0;
-    phi_q[2] = -f_i_world_1;
-    /* s_i_dot_f_i = s_i . f_i */
-    const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
-    phi_q[3] = -g_i_world_1;
-    phi_q[4] = -f_i_world_2;
-    phi_q[5] = -g_i_world_2;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = f_i_world_0 * g_j_world_0 + f_i_world_1 * g_j_world_1 + f_i_world_2 * g_j_world_2;
-    phi[2] = f_i_dot_g_j;
+    /* s_i_dot_f_i = s_i . f_i */
+    const jg_real s_i_dot_f_i = C_i[0] * s_i[0] + C_i[1] * s_i[1] + C_i[2] * s_i[2];
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = f_i_world_0 * r_ij_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
         r_ij_world_2;
     /* r_ij_dot_g_i = r_ij . g_i */
     const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
         r_ij_world_2;
-    /* e_ij_world = r_ij + s_j, world axes */
-    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
-    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    /* s_i_dot_g_i = s_i . g_i */
-    const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
-    /* f_i_cross_h_j_world = f_i x h_j, world axes */
-    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    phi_q[6] = f_i_cross_h_j_world_0;
     /* s_j_dot_f_i = s_j . f_i */
     const jg_real s_j_dot_f_i = f_i_world_0 * s_j_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 * s_j_world_2;
     /* s_j_dot_g_i = s_j . g_i */
     const jg_real s_j_dot_g_i = g_i_world_0 * s_j_world_0 + g_i_world_1 * s_j_world_1 + g_i_world_2 * s_j_world_2;
-    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
+    /* s_i_dot_g_i = s_i . g_i */
+    const jg_real s_i_dot_g_i = C_i[3] * s_i[0] + C_i[4] * s_i[1] + C_i[5] * s_i[2];
+    /* e_ij_world = r_ij + s_j, world axes */
+    const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    /* f_i_cross_h_j_world = f_i x h_j, world axes */
+    const jg_real f_i_cross_h_j_world_0 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    phi[2] = f_i_dot_g_j;
+    phi_q[0] = -f_i_world_0;
+    phi_q[1] = -g_i_world_0;
+    phi_q[2] = -f_i_world_1;
+    phi_q[3] = -g_i_world_1;
+    phi_q[4] = -f_i_world_2;
+    phi_q[5] = -g_i_world_2;
+    phi_q[6] = f_i_cross_h_j_world_0;
     /* g_i_cross_h_j_world = g_i x h_j, world axes */
     const jg_real g_i_cross_h_j_world_0 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    phi_q[7] = g_i_cross_h_j_world_0;
     /* f_i_cross_g_j_world = f_i x g_j, world axes */
     const jg_real f_i_cross_g_j_world_0 = f_i_world_1 * g_j_world_2 - f_i_world_2 * g_j_world_1;
-    phi_q[8] = f_i_cross_g_j_world_0;
     const jg_real f_i_cross_h_j_world_1 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    phi_q[11] = f_i_cross_h_j_world_1;
+    const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
     const jg_real g_i_cross_h_j_world_1 = h_j_world_0 * g_i_world_2 - h_j_world_2 * g_i_world_0;
-    phi_q[12] = g_i_cross_h_j_world_1;
-    const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
-    phi_q[13] = f_i_cross_g_j_world_1;
-    phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
-    phi_q[10] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
-    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
-    phi_q[16] = f_i_cross_h_j_world_2;
+    phi_q[7] = g_i_cross_h_j_world_0;
+    phi_q[8] = f_i_cross_g_j_world_0;
+    phi_q[11] = f_i_cross_h_j_world_1;
     phi[3] = r_ij_dot_f_i + s_j_dot_f_i - s_i_dot_f_i;
     phi[4] = r_ij_dot_g_i + s_j_dot_g_i - s_i_dot_g_i;
+    phi_q[12] = g_i_cross_h_j_world_1;
+    phi_q[9] = f_i_world_1 * e_ij_world_2 - f_i_world_2 * e_ij_world_1;
+    phi_q[10] = g_i_world_1 * e_ij_world_2 - g_i_world_2 * e_ij_world_1;
+    const jg_real f_i_cross_g_j_world_1 = f_i_world_2 * g_j_world_0 - f_i_world_0 * g_j_world_2;
+    const jg_real f_i_cross_h_j_world_2 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
+    phi_q[13] = f_i_cross_g_j_world_1;
+    phi_q[16] = f_i_cross_h_j_world_2;
     phi_q[27] = -f_i_cross_h_j_world_0;
+    phi_q[17] = g_i_cross_h_j_world_2;
+    phi_q[28] = -g_i_cross_h_j_world_0;
+    phi_q[29] = -f_i_cross_g_j_world_0;
     phi_q[14] = f_i_world_2 * e_ij_world_0 - f_i_world_0 * e_ij_world_2;
     phi_q[15] = g_i_world_2 * e_ij_world_0 - g_i_world_0 * e_ij_world_2;
-    phi_q[28] = -g_i_cross_h_j_world_0;
-    const jg_real g_i_cross_h_j_world_2 = h_j_world_1 * g_i_world_0 - h_j_world_0 * g_i_world_1;
-    phi_q[17] = g_i_cross_h_j_world_2;
-    phi_q[29] = -f_i_cross_g_j_world_0;
     const jg_real f_i_cross_g_j_world_2 = f_i_world_0 * g_j_world_1 - f_i_world_1 * g_j_world_0;
+    /* s_j_cross_f_i_world = s_j x f_i, world axes */
+    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
     phi_q[18] = f_i_cross_g_j_world_2;
     phi_q[19] = f_i_world_0 * e_ij_world_1 - f_i_world_1 * e_ij_world_0;
     phi_q[20] = g_i_world_0 * e_ij_world_1 - g_i_world_1 * e_ij_world_0;
@@ -709,153 +701,145 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[33] = -g_i_cross_h_j_world_1;
     phi_q[34] = -f_i_cross_g_j_world_1;
     phi_q[37] = -f_i_cross_h_j_world_2;
-    phi_q[38] = -g_i_cross_h_j_world_2;
-    phi_q[39] = -f_i_cross_g_j_world_2;
-    /* s_j_cross_f_i_world = s_j x f_i, world axes */
-    const jg_real s_j_cross_f_i_world_0 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
     phi_q[30] = s_j_cross_f_i_world_0;
     /* s_j_cross_g_i_world = s_j x g_i, world axes */
     const jg_real s_j_cross_g_i_world_0 = g_i_world_2 * s_j_world_1 - g_i_world_1 * s_j_world_2;
-    phi_q[31] = s_j_cross_g_i_world_0;
     const jg_real s_j_cross_f_i_world_1 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
-    phi_q[35] = s_j_cross_f_i_world_1;
     const jg_real s_j_cross_g_i_world_1 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
-    phi_q[36] = s_j_cross_g_i_world_1;
+    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
+    const jg_real s_j_cross_g_i_world_2 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
     /* v_4_world = lambda_2 g_j, world axes */
     const jg_real v_4_world_1 = g_j_world_1 * lambda[2];
-    const jg_real s_j_cross_f_i_world_2 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
-    phi_q[40] = s_j_cross_f_i_world_2;
-    const jg_real s_j_cross_g_i_world_2 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
-    phi_q[41] = s_j_cross_g_i_world_2;
     /* v_2_world = lambda_3 f_i + lambda_4 g_i, world axes */
     const jg_real v_2_world_2 = f_i_world_2 * lambda[3] + g_i_world_2 * lambda[4];
+    phi_q[38] = -g_i_cross_h_j_world_2;
+    phi_q[39] = -f_i_cross_g_j_world_2;
+    phi_q[31] = s_j_cross_g_i_world_0;
+    phi_q[35] = s_j_cross_f_i_world_1;
+    phi_q[36] = s_j_cross_g_i_world_1;
+    phi_q[40] = s_j_cross_f_i_world_2;
+    phi_q[41] = s_j_cross_g_i_world_2;
     phi_q_t_lambda_q[2] = v_2_world_2;
     phi_q_t_lambda_q[6] = v_2_world_2;
     phi_q_t_lambda_q[21] = v_2_world_2;
     phi_q_t_lambda_q[36] = v_2_world_2;
-    const jg_real v_4_world_2 = g_j_world_2 * lambda[2];
     const jg_real v_2_world_1 = f_i_world_1 * lambda[3] + g_i_world_1 * lambda[4];
+    const jg_real v_2_world_0 = f_i_world_0 * lambda[3] + g_i_world_0 * lambda[4];
     phi_q_t_lambda_q[1] = v_2_world_1;
     phi_q_t_lambda_q[12] = v_2_world_1;
     phi_q_t_lambda_q[26] = v_2_world_1;
     phi_q_t_lambda_q[40] = v_2_world_1;
-    const jg_real v_2_world_0 = f_i_world_0 * lambda[3] + g_i_world_0 * lambda[4];
     phi_q_t_lambda_q[5] = v_2_world_0;
     phi_q_t_lambda_q[17] = v_2_world_0;
     phi_q_t_lambda_q[32] = v_2_world_0;
     phi_q_t_lambda_q[39] = v_2_world_0;
+    const jg_real v_4_world_2 = g_j_world_2 * lambda[2];
     /* v_3_world = lambda_3 r_ij + lambda_3 s_j + lambda_0 h_j, world axes */
     const jg_real v_3_world_1 = e_ij_world_1 * lambda[3] + h_j_world_1 * lambda[0];
-    const jg_real v_4_world_0 = g_j_world_0 * lambda[2];
     /* v_6_world = lambda_4 r_ij + lambda_4 s_j + lambda_1 h_j, world axes */
     const jg_real v_6_world_1 = e_ij_world_1 * lambda[4] + h_j_world_1 * lambda[1];
+    const jg_real t52 = -v_2_world_2;
+    const jg_real v_4_world_0 = g_j_world_0 * lambda[2];
+    const jg_real t54 = -v_2_world_1;
+    phi_q_t_lambda_q[0] = t52;
+    phi_q_t_lambda_q[11] = t52;
+    phi_q_t_lambda_q[16] = t52;
+    phi_q_t_lambda_q[38] = t52;
+    phi_q_t_lambda_q[4] = t54;
+    phi_q_t_lambda_q[7] = t54;
+    phi_q_t_lambda_q[31] = t54;
+    phi_q_t_lambda_q[37] = t54;
     const jg_real v_3_world_2 = e_ij_world_2 * lambda[3] + h_j_world_2 * lambda[0];
-    const jg_real t54 = -v_2_world_2;
-    phi_q_t_lambda_q[0] = t54;
-    phi_q_t_lambda_q[11] = t54;
-    phi_q_t_lambda_q[16] = t54;
-    phi_q_t_lambda_q[38] = t54;
-    const jg_real t55 = -v_2_world_1;
-    phi_q_t_lambda_q[4] = t55;
-    phi_q_t_lambda_q[7] = t55;
-    phi_q_t_lambda_q[31] = t55;
-    phi_q_t_lambda_q[37] = t55;
-    const jg_real v_6_world_2 = e_ij_world_2 * lambda[4] + h_j_world_2 * lambda[1];
-    const jg_real t57 = -v_2_world_0;
-    phi_q_t_lambda_q[3] = t57;
-    phi_q_t_lambda_q[22] = t57;
-    phi_q_t_lambda_q[27] = t57;
-    phi_q_t_lambda_q[41] = t57;
-    const jg_real v_3_world_0 = e_ij_world_0 * lambda[3] + h_j_world_0 * lambda[0];
+    const jg_real t56 = -v_2_world_0;
     /* v_5_world = lambda_3 r_ij + lambda_3 s_j + lambda_2 g_j + lambda_0 h_j, world axes */
     const jg_real v_5_world_1 = v_3_world_1 + v_4_world_1;
-    const jg_real v_6_world_0 = e_ij_world_0 * lambda[4] + h_j_world_0 * lambda[1];
+    const jg_real v_6_world_2 = e_ij_world_2 * lambda[4] + h_j_world_2 * lambda[1];
+    const jg_real v_3_world_0 = e_ij_world_0 * lambda[3] + h_j_world_0 * lambda[0];
     const jg_real v_5_world_2 = v_3_world_2 + v_4_world_2;
+    const jg_real v_6_world_0 = e_ij_world_0 * lambda[4] + h_j_world_0 * lambda[1];
     const jg_real v_5_world_0 = v_3_world_0 + v_4_world_0;
     /* M_0_world_world = (lambda_3 r_ij + lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 r_ij + ...
         */
     const jg_real M_0_world_world_4 = f_i_world_1 * v_5_world_1 + g_i_world_1 * v_6_world_1;
     const jg_real M_0_world_world_3 = f_i_world_0 * v_5_world_1 + g_i_world_0 * v_6_world_1;
-    phi_q_t_lambda_q[18] = M_0_world_world_3;
     const jg_real M_0_world_world_5 = f_i_world_2 * v_5_world_1 + g_i_world_2 * v_6_world_1;
-    phi_q_t_lambda_q[20] = M_0_world_world_5;
     const jg_real M_0_world_world_8 = f_i_world_2 * v_5_world_2 + g_i_world_2 * v_6_world_2;
     const jg_real M_0_world_world_6 = f_i_world_0 * v_5_world_2 + g_i_world_0 * v_6_world_2;
-    phi_q_t_lambda_q[28] = M_0_world_world_6;
-    const jg_real M_0_world_world_7 = f_i_world_1 * v_5_world_2 + g_i_world_1 * v_6_world_2;
-    phi_q_t_lambda_q[29] = M_0_world_world_7;
-    /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real M_0_world_world_1 = f_i_world_1 * v_5_world_0 + g_i_world_1 * v_6_world_0;
-    phi_q_t_lambda_q[9] = M_0_world_world_1;
     /* M_1_world_world = (lambda_3 s_j + lambda_2 g_j + lambda_0 h_j) f_i^T + (lambda_4 s_j + lambda_1 h_j) g_i^T;
         ... */
     const jg_real M_1_world_world_4 = M_0_world_world_4 - r_ij_world_1 * v_2_world_1;
-    const jg_real M_0_world_world_2 = f_i_world_2 * v_5_world_0 + g_i_world_2 * v_6_world_0;
-    phi_q_t_lambda_q[10] = M_0_world_world_2;
     const jg_real M_1_world_world_3 = M_0_world_world_3 - r_ij_world_1 * v_2_world_0;
+    phi_q_t_lambda_q[3] = t56;
+    phi_q_t_lambda_q[22] = t56;
+    phi_q_t_lambda_q[27] = t56;
+    phi_q_t_lambda_q[41] = t56;
+    phi_q_t_lambda_q[18] = M_0_world_world_3;
+    phi_q_t_lambda_q[20] = M_0_world_world_5;
+    phi_q_t_lambda_q[28] = M_0_world_world_6;
     phi_q_t_lambda_q[46] = M_1_world_world_3;
+    const jg_real M_0_world_world_1 = f_i_world_1 * v_5_world_0 + g_i_world_1 * v_6_world_0;
+    const jg_real M_0_world_world_2 = f_i_world_2 * v_5_world_0 + g_i_world_2 * v_6_world_0;
     const jg_real M_0_world_world_0 = f_i_world_0 * v_5_world_0 + g_i_world_0 * v_6_world_0;
     const jg_real M_1_world_world_5 = M_0_world_world_5 - r_ij_world_1 * v_2_world_2;
-    phi_q_t_lambda_q[58] = M_1_world_world_5;
     const jg_real M_1_world_world_8 = M_0_world_world_8 - r_ij_world_2 * v_2_world_2;
+    const jg_real M_0_world_world_7 = f_i_world_1 * v_5_world_2 + g_i_world_1 * v_6_world_2;
     const jg_real M_1_world_world_6 = M_0_world_world_6 - r_ij_world_2 * v_2_world_0;
-    phi_q_t_lambda_q[47] = M_1_world_world_6;
-    const jg_real M_1_world_world_7 = M_0_world_world_7 - r_ij_world_2 * v_2_world_1;
-    phi_q_t_lambda_q[53] = M_1_world_world_7;
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
+    const jg_real t77 = -M_1_world_world_3;
     const jg_real M_1_world_world_1 = M_0_world_world_1 - r_ij_world_0 * v_2_world_1;
+    phi_q_t_lambda_q[9] = M_0_world_world_1;
+    phi_q_t_lambda_q[10] = M_0_world_world_2;
+    phi_q_t_lambda_q[58] = M_1_world_world_5;
+    phi_q_t_lambda_q[29] = M_0_world_world_7;
+    phi_q_t_lambda_q[47] = M_1_world_world_6;
+    phi_q_t_lambda_q[23] = t77;
+    phi_q_t_lambda_q[43] = t77;
     phi_q_t_lambda_q[51] = M_1_world_world_1;
     const jg_real M_1_world_world_2 = M_0_world_world_2 - r_ij_world_0 * v_2_world_2;
-    phi_q_t_lambda_q[57] = M_1_world_world_2;
-    const jg_real t82 = -M_1_world_world_3;
-    phi_q_t_lambda_q[23] = t82;
-    phi_q_t_lambda_q[43] = t82;
     const jg_real M_1_world_world_0 = M_0_world_world_0 - r_ij_world_0 * v_2_world_0;
-    const jg_real t84 = -M_1_world_world_5;
-    phi_q_t_lambda_q[25] = t84;
-    phi_q_t_lambda_q[55] = t84;
+    const jg_real t81 = M_1_world_world_4 + M_1_world_world_8;
+    const jg_real t82 = -M_1_world_world_5;
+    const jg_real M_1_world_world_7 = M_0_world_world_7 - r_ij_world_2 * v_2_world_1;
+    const jg_real t84 = -M_1_world_world_6;
+    phi_q_t_lambda_q[57] = M_1_world_world_2;
     phi_q_t_lambda_q[8] = -(M_0_world_world_4 + M_0_world_world_8);
-    const jg_real t85 = M_1_world_world_4 + M_1_world_world_8;
-    phi_q_t_lambda_q[13] = t85;
-    phi_q_t_lambda_q[42] = t85;
-    const jg_real t86 = -M_1_world_world_6;
-    phi_q_t_lambda_q[33] = t86;
-    phi_q_t_lambda_q[44] = t86;
-    const jg_real t87 = -M_1_world_world_7;
-    phi_q_t_lambda_q[34] = t87;
-    phi_q_t_lambda_q[50] = t87;
+    phi_q_t_lambda_q[13] = t81;
+    phi_q_t_lambda_q[42] = t81;
+    phi_q_t_lambda_q[25] = t82;
+    phi_q_t_lambda_q[55] = t82;
+    phi_q_t_lambda_q[53] = M_1_world_world_7;
+    phi_q_t_lambda_q[33] = t84;
+    phi_q_t_lambda_q[44] = t84;
+    const jg_real t85 = -M_1_world_world_1;
+    const jg_real t86 = -M_1_world_world_2;
+    const jg_real t87 = M_1_world_world_0 + M_1_world_world_8;
+    const jg_real t88 = M_1_world_world_0 + M_1_world_world_4;
+    phi_q_t_lambda_q[14] = t85;
+    phi_q_t_lambda_q[48] = t85;
+    phi_q_t_lambda_q[15] = t86;
+    phi_q_t_lambda_q[54] = t86;
+    phi_q_t_lambda_q[19] = -(M_0_world_world_0 + M_0_world_world_8);
+    phi_q_t_lambda_q[24] = t87;
+    phi_q_t_lambda_q[49] = t87;
+    phi_q_t_lambda_q[35] = t88;
+    phi_q_t_lambda_q[56] = t88;
+    const jg_real t89 = -M_1_world_world_7;
+    /* omega_i_dot_omega_i = omega_i . omega_i */
+    const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j[0] + omega_i[1] * omega_j[1] + omega_i[2] * omega_j[2];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    const jg_real t90 = -M_1_world_world_1;
-    phi_q_t_lambda_q[14] = t90;
-    phi_q_t_lambda_q[48] = t90;
-    const jg_real t91 = -M_1_world_world_2;
-    phi_q_t_lambda_q[15] = t91;
-    phi_q_t_lambda_q[54] = t91;
-    phi_q_t_lambda_q[19] = -(M_0_world_world_0 + M_0_world_world_8);
-    const jg_real t92 = M_1_world_world_0 + M_1_world_world_8;
-    phi_q_t_lambda_q[24] = t92;
-    phi_q_t_lambda_q[49] = t92;
-    const jg_real t93 = M_1_world_world_0 + M_1_world_world_4;
-    phi_q_t_lambda_q[35] = t93;
-    phi_q_t_lambda_q[56] = t93;
-    phi_q_t_lambda_q[30] = -(M_0_world_world_0 + M_0_world_world_4);
-    phi_q_t_lambda_q[45] = -t85;
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = f_i_world_0 * omega_i[0] + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
-    phi_q_t_lambda_q[52] = -t92;
-    phi_q_t_lambda_q[59] = -t93;
-    const jg_real t95 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_world_0 * omega_i[0] + h_j_world_1 * omega_i[1] + h_j_world_2 * omega_i[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = h_j_world_0 * omega_j[0] + h_j_world_1 * omega_j[1] + h_j_world_2 * omega_j[2];
     /* g_i_dot_omega_j = g_i . omega_j */
     const jg_real g_i_dot_omega_j = g_i_world_0 * omega_j[0] + g_i_world_1 * omega_j[1] + g_i_world_2 * omega_j[2];
+    const jg_real t98 = omega_i_dot_omega_i + omega_j_dot_omega_j - omega_i_dot_omega_j * JG_REAL(2.0);
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = g_i_world_0 * omega_i[0] + g_i_world_1 * omega_i[1] + g_i_world_2 * omega_i[2];
     /* g_j_dot_omega_i = g_j . omega_i */
@@ -869,27 +853,33 @@ void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, con
         omega_i[2];
     /* f_i_cross_omega_i_world = f_i x omega_i, world axes */
     const jg_real f_i_cross_omega_i_world_0 = f_i_world_1 * omega_i[2] - f_i_world_2 * omega_i[1];
-    gamma[0] = f_i_dot_h_j * t95 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
-        h_j_dot_omega_j * f_i_dot_omega_j;
-    const jg_real f_i_cross_omega_i_world_1 = f_i_world_2 * omega_i[0] - f_i_world_0 * omega_i[2];
+    const jg_real t105 = r_ij_dot_omega_i + s_j_dot_omega_i;
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j[0] + s_j_world_1 * omega_j[1] + s_j_world_2 * omega_j[2];
+    const jg_real f_i_cross_omega_i_world_1 = f_i_world_2 * omega_i[0] - f_i_world_0 * omega_i[2];
     const jg_real f_i_cross_omega_i_world_2 = f_i_world_0 * omega_i[1] - f_i_world_1 * omega_i[0];
-    const jg_real t108 = r_ij_dot_omega_i + s_j_dot_omega_i;
+    phi_q_t_lambda_q[45] = -t81;
+    phi_q_t_lambda_q[30] = -(M_0_world_world_0 + M_0_world_world_4);
+    phi_q_t_lambda_q[34] = t89;
+    phi_q_t_lambda_q[50] = t89;
+    phi_q_t_lambda_q[52] = -t87;
+    phi_q_t_lambda_q[59] = -t88;
+    gamma[0] = f_i_dot_h_j * t98 + h_j_dot_omega_i * (f_i_dot_omega_j * JG_REAL(2.0) - f_i_dot_omega_i) -
+        h_j_dot_omega_j * f_i_dot_omega_j;
+    gamma[1] = g_i_dot_h_j * t98 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
+        h_j_dot_omega_j * g_i_dot_omega_j;
+    const jg_real t109 = JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j;
     /* g_i_cross_omega_i_world = g_i x omega_i, world axes */
     const jg_real g_i_cross_omega_i_world_0 = g_i_world_1 * omega_i[2] - g_i_world_2 * omega_i[1];
     const jg_real g_i_cross_omega_i_world_1 = g_i_world_2 * omega_i[0] - g_i_world_0 * omega_i[2];
-    const jg_real t111 = JG_REAL(2.0) * s_j_dot_omega_i - s_j_dot_omega_j;
     const jg_real g_i_cross_omega_i_world_2 = g_i_world_0 * omega_i[1] - g_i_world_1 * omega_i[0];
-    gamma[1] = g_i_dot_h_j * t95 + h_j_dot_omega_i * (JG_REAL(2.0) * g_i_dot_omega_j - g_i_dot_omega_i) -
-        h_j_dot_omega_j * g_i_dot_omega_j;
-    gamma[2] = f_i_dot_g_j * t95 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+    gamma[2] = f_i_dot_g_j * t98 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
         f_i_dot_omega_i * g_j_dot_omega_i;
-    gamma[3] = s_j_dot_f_i * t95 - f_i_dot_omega_i * t108 + f_i_dot_omega_j * t111 + r_ij_dot_f_i *
+    gamma[3] = s_j_dot_f_i * t98 - f_i_dot_omega_i * t105 + f_i_dot_omega_j * t109 + r_ij_dot_f_i *
         omega_i_dot_omega_i + JG_REAL(2.0) * (f_i_cross_omega_i_world_0 * v_j[0] + f_i_cross_omega_i_world_1 *
         v_j[1] + f_i_cross_omega_i_world_2 * v_j[2]) - JG_REAL(2.0) * (f_i_cross_omega_i_world_0 * v_i[0] +
         f_i_cross_omega_i_world_1 * v_i[1] + f_i_cross_omega_i_world_2 * v_i[2]);
-    gamma[4] = s_j_dot_g_i * t95 - g_i_dot_omega_i * t108 + g_i_dot_omega_j * t111 + r_ij_dot_g_i *
+    gamma[4] = s_j_dot_g_i * t98 - g_i_dot_omega_i * t105 + g_i_dot_omega_j * t109 + r_ij_dot_g_i *
         omega_i_dot_omega_i + JG_REAL(2.0) * (v_j[0] * g_i_cross_omega_i_world_0 + v_j[1] *
         g_i_cross_omega_i_world_1 + v_j[2] * g_i_cross_omega_i_world_2) - JG_REAL(2.0) * (v_i[0] *
         g_i_cross_omega_i_world_0 + v_i[1] * g_i_cross_omega_i_world_1 + v_i[2] * g_i_cross_omega_i_world_2);

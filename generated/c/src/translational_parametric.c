@@ -4,10 +4,6 @@
  * joint translational, form parametric, rows regular, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/translational.h"
 
 const int *jg_translational_parametric_phi_q_sparsity(void)
@@ -29,9 +25,8 @@ const int *jg_translational_parametric_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_translational_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_translational_parametric_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -43,166 +38,160 @@ void jg_translational_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
+    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
     const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    phi[4] = h_i_dot_f_j;
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
-    phi[5] = f_i_dot_g_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi[4] = h_i_dot_f_j;
+    phi[5] = f_i_dot_g_j;
     phi[3] = g_i_dot_h_j;
 }
 
-void jg_translational_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi_q)
+void jg_translational_parametric_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    phi_q[45] = -C_i[6];
-    phi_q[46] = -C_i[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    phi_q[47] = -C_i[8];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    phi_q[21] = A_ij_3;
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    phi_q[25] = A_ij_7;
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    phi_q[22] = A_ij_4;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    phi_q[24] = A_ij_6;
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[21] = A_ij_3;
+    phi_q[25] = A_ij_7;
+    phi_q[22] = A_ij_4;
+    phi_q[45] = -C_i[6];
+    phi_q[46] = -C_i[7];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    phi_q[23] = A_ij_5;
     const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    phi_q[26] = A_ij_8;
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    phi_q[20] = A_ij_2;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    phi_q[19] = A_ij_1;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[3] = e_ij_in_i_2;
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    phi_q[24] = A_ij_6;
+    phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
+    phi_q[20] = A_ij_2;
+    phi_q[3] = e_ij_in_i_2;
     phi_q[13] = e_ij_in_i_1;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    phi_q[18] = A_ij_0;
-    phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    phi_q[4] = -e_ij_in_i_1;
     phi_q[8] = -e_ij_in_i_2;
+    phi_q[4] = -e_ij_in_i_1;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    phi_q[9] = e_ij_in_i_0;
-    phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    phi_q[19] = A_ij_1;
+    phi_q[18] = A_ij_0;
+    phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     phi_q[14] = -e_ij_in_i_0;
     phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
-    phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
     const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
     const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
     const jg_real g_i_cross_h_j_in_i_0 = h_j_in_i_2 * C_i[4] - h_j_in_i_1 * C_i[5];
-    phi_q[5] = g_i_cross_h_j_in_i_0;
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
     const jg_real h_i_cross_f_j_in_i_0 = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
-    phi_q[6] = h_i_cross_f_j_in_i_0;
-    const jg_real g_i_cross_h_j_in_i_1 = h_j_in_i_0 * C_i[5] - h_j_in_i_2 * C_i[3];
-    phi_q[10] = g_i_cross_h_j_in_i_1;
     const jg_real h_i_cross_f_j_in_i_1 = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
-    phi_q[11] = h_i_cross_f_j_in_i_1;
     const jg_real h_i_cross_f_j_in_i_2 = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
+    const jg_real g_i_cross_h_j_in_i_1 = h_j_in_i_0 * C_i[5] - h_j_in_i_2 * C_i[3];
+    phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    phi_q[5] = g_i_cross_h_j_in_i_0;
+    phi_q[6] = h_i_cross_f_j_in_i_0;
+    phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    phi_q[11] = h_i_cross_f_j_in_i_1;
     phi_q[16] = h_i_cross_f_j_in_i_2;
+    phi_q[10] = g_i_cross_h_j_in_i_1;
     const jg_real g_i_cross_h_j_in_i_2 = h_j_in_i_1 * C_i[3] - h_j_in_i_0 * C_i[4];
-    phi_q[15] = g_i_cross_h_j_in_i_2;
     /* g_i_dot_f_j = g_i . f_j */
     const jg_real g_i_dot_f_j = C_i[3] * f_j_in_i_0 + C_i[4] * f_j_in_i_1 + C_i[5] * f_j_in_i_2;
     /* h_i_dot_h_j = h_i . h_j */
     const jg_real h_i_dot_h_j = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
-    /* g_i_dot_g_j = g_i . g_j */
-    const jg_real g_i_dot_g_j = g_i_cross_h_j_in_i_0 * f_j_in_i_0 + g_i_cross_h_j_in_i_1 * f_j_in_i_1 +
-        g_i_cross_h_j_in_i_2 * f_j_in_i_2;
     /* h_i_cross_f_j_in_joint_j = h_i x f_j, axes of joint j */
     const jg_real h_i_cross_f_j_in_joint_j_2 = h_j_in_i_0 * h_i_cross_f_j_in_i_0 + h_j_in_i_1 * h_i_cross_f_j_in_i_1
         + h_j_in_i_2 * h_i_cross_f_j_in_i_2;
+    /* g_i_dot_g_j = g_i . g_j */
+    const jg_real g_i_dot_g_j = g_i_cross_h_j_in_i_0 * f_j_in_i_0 + g_i_cross_h_j_in_i_1 * f_j_in_i_1 +
+        g_i_cross_h_j_in_i_2 * f_j_in_i_2;
     /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
     const jg_real f_i_cross_g_j_in_i_0 = C_i[3] * h_i_cross_f_j_in_joint_j_2 + C_i[6] * g_i_dot_g_j;
-    phi_q[7] = f_i_cross_g_j_in_i_0;
     const jg_real f_i_cross_g_j_in_i_1 = C_i[4] * h_i_cross_f_j_in_joint_j_2 + C_i[7] * g_i_dot_g_j;
-    phi_q[12] = f_i_cross_g_j_in_i_1;
     const jg_real f_i_cross_g_j_in_i_2 = C_i[5] * h_i_cross_f_j_in_joint_j_2 + C_i[8] * g_i_dot_g_j;
+    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    phi_q[15] = g_i_cross_h_j_in_i_2;
+    phi_q[47] = -C_i[8];
+    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    phi_q[7] = f_i_cross_g_j_in_i_0;
+    phi_q[12] = f_i_cross_g_j_in_i_1;
     phi_q[17] = f_i_cross_g_j_in_i_2;
     phi_q[30] = g_i_dot_f_j * C_j[3] - C_j[0] * g_i_dot_g_j;
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
     const jg_real h_i_cross_f_j_in_j_0 = C_j[3] * h_i_dot_h_j + C_j[6] * h_i_cross_f_j_in_joint_j_2;
-    phi_q[36] = g_i_dot_f_j * C_j[4] - C_j[1] * g_i_dot_g_j;
     const jg_real h_i_cross_f_j_in_j_1 = C_j[4] * h_i_dot_h_j + C_j[7] * h_i_cross_f_j_in_joint_j_2;
-    phi_q[42] = g_i_dot_f_j * C_j[5] - C_j[2] * g_i_dot_g_j;
     const jg_real h_i_cross_f_j_in_j_2 = C_j[5] * h_i_dot_h_j + C_j[8] * h_i_cross_f_j_in_joint_j_2;
-    phi_q[31] = -h_i_cross_f_j_in_j_0;
-    phi_q[37] = -h_i_cross_f_j_in_j_1;
-    phi_q[43] = -h_i_cross_f_j_in_j_2;
     /* f_i_cross_g_j_in_j = f_i x g_j, axes of body j */
     const jg_real f_i_cross_g_j_in_j_0 = A_ij_0 * f_i_cross_g_j_in_i_0 + A_ij_1 * f_i_cross_g_j_in_i_1 + A_ij_2 *
         f_i_cross_g_j_in_i_2;
@@ -210,6 +199,11 @@ void jg_translational_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const 
         f_i_cross_g_j_in_i_2;
     const jg_real f_i_cross_g_j_in_j_2 = A_ij_6 * f_i_cross_g_j_in_i_0 + A_ij_7 * f_i_cross_g_j_in_i_1 + A_ij_8 *
         f_i_cross_g_j_in_i_2;
+    phi_q[36] = g_i_dot_f_j * C_j[4] - C_j[1] * g_i_dot_g_j;
+    phi_q[42] = g_i_dot_f_j * C_j[5] - C_j[2] * g_i_dot_g_j;
+    phi_q[31] = -h_i_cross_f_j_in_j_0;
+    phi_q[37] = -h_i_cross_f_j_in_j_1;
+    phi_q[43] = -h_i_cross_f_j_in_j_2;
     phi_q[32] = -f_i_cross_g_j_in_j_0;
     phi_q[38] = -f_i_cross_g_j_in_j_1;
     phi_q[44] = -f_i_cross_g_j_in_j_2;
@@ -224,58 +218,50 @@ void jg_translational_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
     jg_scatter(jg_translational_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    /* v_1_in_j = lambda_4 f_j, axes of body j */
+    const jg_real v_1_in_j_0 = lambda[4] * C_j[0];
+    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real v_1_in_j_1 = lambda[4] * C_j[1];
+    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    const jg_real v_1_in_j_2 = lambda[4] * C_j[2];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    /* v_2_in_j = lambda_5 g_j, axes of body j */
+    const jg_real v_2_in_j_0 = lambda[5] * C_j[3];
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real v_2_in_j_1 = lambda[5] * C_j[4];
+    const jg_real v_2_in_j_2 = lambda[5] * C_j[5];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    /* v_3_in_j = lambda_3 h_j, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[3] * C_j[6];
+    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
+    const jg_real v_3_in_j_2 = lambda[3] * C_j[8];
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
+    const jg_real t22 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q_t_lambda_q[4] = -lambda[1];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_1_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_1_in_j_0 = lambda[4] * C_j[0];
-    const jg_real v_1_in_j_1 = lambda[4] * C_j[1];
-    const jg_real v_1_in_j_2 = lambda[4] * C_j[2];
-    /* v_2_in_j = lambda_5 g_j, axes of body j */
-    const jg_real v_2_in_j_0 = lambda[5] * C_j[3];
-    const jg_real v_2_in_j_1 = lambda[5] * C_j[4];
-    const jg_real v_2_in_j_2 = lambda[5] * C_j[5];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    /* v_3_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_3_in_j_0 = lambda[3] * C_j[6];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
-    const jg_real v_3_in_j_2 = lambda[3] * C_j[8];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    const jg_real t22 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
     phi_q_t_lambda_q[10] = t22;
     phi_q_t_lambda_q[36] = t22;
     const jg_real t23 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t23;
-    phi_q_t_lambda_q[39] = t23;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
     /* v_1_in_i = lambda_4 f_j, axes of body i */
@@ -284,142 +270,149 @@ void jg_translational_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT 
     const jg_real v_2_in_i_1 = A_ij_1 * v_2_in_j_0 + A_ij_4 * v_2_in_j_1 + A_ij_7 * v_2_in_j_2;
     /* v_3_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_3_in_i_1 = A_ij_1 * v_3_in_j_0 + A_ij_4 * v_3_in_j_1 + A_ij_7 * v_3_in_j_2;
-    const jg_real t31 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t31;
-    phi_q_t_lambda_q[33] = t31;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    const jg_real t28 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
     const jg_real v_1_in_i_2 = A_ij_2 * v_1_in_j_0 + A_ij_5 * v_1_in_j_1 + A_ij_8 * v_1_in_j_2;
     const jg_real v_2_in_i_2 = A_ij_2 * v_2_in_j_0 + A_ij_5 * v_2_in_j_1 + A_ij_8 * v_2_in_j_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     const jg_real v_3_in_i_2 = A_ij_2 * v_3_in_j_0 + A_ij_5 * v_3_in_j_1 + A_ij_8 * v_3_in_j_2;
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
     const jg_real M_0_i_i_4 = lambda[1] * e_ij_in_i_1 + v_1_in_i_1 * C_i[7] + v_2_in_i_1 * C_i[1] + v_3_in_i_1 *
         C_i[4];
     const jg_real M_0_i_i_3 = lambda[0] * e_ij_in_i_1 + v_1_in_i_1 * C_i[6] + v_2_in_i_1 * C_i[0] + v_3_in_i_1 *
         C_i[3];
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
-    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
-    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real M_0_i_i_8 = lambda[2] * e_ij_in_i_2 + v_1_in_i_2 * C_i[8] + v_2_in_i_2 * C_i[2] + v_3_in_i_2 *
         C_i[5];
     const jg_real M_0_i_i_6 = lambda[0] * e_ij_in_i_2 + v_1_in_i_2 * C_i[6] + v_2_in_i_2 * C_i[0] + v_3_in_i_2 *
         C_i[3];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - h_i_in_j_2 * g_i_in_j_0;
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    phi_q_t_lambda_q[11] = t23;
+    phi_q_t_lambda_q[39] = t23;
+    phi_q_t_lambda_q[9] = t28;
+    phi_q_t_lambda_q[33] = t28;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    const jg_real f_i_in_j_2 = h_i_in_j_1 * g_i_in_j_0 - h_i_in_j_0 * g_i_in_j_1;
+    const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - h_i_in_j_1 * g_i_in_j_2;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + v_1_in_j_1 * h_i_in_j_1 + v_2_in_j_1 * f_i_in_j_1 +
         v_3_in_j_1 * g_i_in_j_1;
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
     const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + v_1_in_j_0 * h_i_in_j_1 + v_2_in_j_0 * f_i_in_j_1 +
         v_3_in_j_0 * g_i_in_j_1;
-    phi_q_t_lambda_q[48] = M_1_j_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_1_in_j_2 * h_i_in_j_2 + v_2_in_j_2 * f_i_in_j_2 +
-        v_3_in_j_2 * g_i_in_j_2;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + v_1_in_j_2 * h_i_in_j_1 + v_2_in_j_2 * f_i_in_j_1 +
         v_3_in_j_2 * g_i_in_j_1;
-    phi_q_t_lambda_q[64] = M_1_j_j_7;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_1_in_j_0 * h_i_in_j_2 + v_2_in_j_0 * f_i_in_j_2 +
-        v_3_in_j_0 * g_i_in_j_2;
-    phi_q_t_lambda_q[49] = M_1_j_j_2;
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + v_1_in_j_2 * h_i_in_j_2 + v_2_in_j_2 * f_i_in_j_2 +
+        v_3_in_j_2 * g_i_in_j_2;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + v_1_in_j_1 * h_i_in_j_0 + v_2_in_j_1 * f_i_in_j_0 +
         v_3_in_j_1 * g_i_in_j_0;
-    phi_q_t_lambda_q[55] = M_1_j_j_3;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + v_1_in_j_2 * h_i_in_j_0 + v_2_in_j_2 * f_i_in_j_0 +
         v_3_in_j_2 * g_i_in_j_0;
-    phi_q_t_lambda_q[63] = M_1_j_j_6;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + v_1_in_j_0 * h_i_in_j_0 + v_2_in_j_0 * f_i_in_j_0 +
         v_3_in_j_0 * g_i_in_j_0;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + v_1_in_j_0 * h_i_in_j_2 + v_2_in_j_0 * f_i_in_j_2 +
+        v_3_in_j_0 * g_i_in_j_2;
+    const jg_real t60 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t61 = M_1_j_j_0 + M_1_j_j_8;
+    const jg_real t62 = M_1_j_j_0 + M_1_j_j_4;
     const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    const jg_real t61 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real t63 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t64 = M_1_j_j_0 + M_1_j_j_4;
     const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + v_1_in_j_1 * h_i_in_j_2 + v_2_in_j_1 * f_i_in_j_2 +
         v_3_in_j_1 * g_i_in_j_2;
+    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[48] = M_1_j_j_1;
+    phi_q_t_lambda_q[64] = M_1_j_j_7;
+    phi_q_t_lambda_q[55] = M_1_j_j_3;
+    phi_q_t_lambda_q[63] = M_1_j_j_6;
+    phi_q_t_lambda_q[49] = M_1_j_j_2;
     phi_q_t_lambda_q[57] = M_1_j_j_5;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     const jg_real v_1_in_i_0 = A_ij_0 * v_1_in_j_0 + A_ij_3 * v_1_in_j_1 + A_ij_6 * v_1_in_j_2;
-    const jg_real v_2_in_i_0 = A_ij_0 * v_2_in_j_0 + A_ij_3 * v_2_in_j_1 + A_ij_6 * v_2_in_j_2;
     const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
+    const jg_real v_2_in_i_0 = A_ij_0 * v_2_in_j_0 + A_ij_3 * v_2_in_j_1 + A_ij_6 * v_2_in_j_2;
+    const jg_real t69 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t60 + A_ij_6 * M_1_j_j_6);
     const jg_real v_3_in_i_0 = A_ij_0 * v_3_in_j_0 + A_ij_3 * v_3_in_j_1 + A_ij_6 * v_3_in_j_2;
-    const jg_real t70 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[18] = t70;
-    phi_q_t_lambda_q[34] = t70;
-    const jg_real t71 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[19] = t71;
-    phi_q_t_lambda_q[37] = t71;
-    const jg_real t72 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[20] = t72;
-    phi_q_t_lambda_q[40] = t72;
+    const jg_real t71 = A_ij_6 * t62 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t72 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t61 + A_ij_6 * M_1_j_j_7);
+    const jg_real t73 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[12] = t69;
+    phi_q_t_lambda_q[42] = t69;
+    phi_q_t_lambda_q[14] = t71;
+    phi_q_t_lambda_q[58] = t71;
+    phi_q_t_lambda_q[13] = t72;
+    phi_q_t_lambda_q[50] = t72;
+    phi_q_t_lambda_q[18] = t73;
+    phi_q_t_lambda_q[34] = t73;
+    const jg_real t74 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
     const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + v_1_in_i_2 * C_i[7] + v_2_in_i_2 * C_i[1] + v_3_in_i_2 *
         C_i[4];
-    phi_q_t_lambda_q[17] = M_0_i_i_7;
-    const jg_real t74 = A_ij_6 * t64 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t74;
-    phi_q_t_lambda_q[58] = t74;
-    const jg_real t75 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t61 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t75;
-    phi_q_t_lambda_q[42] = t75;
-    const jg_real t76 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t63 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t76;
-    phi_q_t_lambda_q[50] = t76;
+    const jg_real t76 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
     const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + v_1_in_i_0 * C_i[7] + v_2_in_i_0 * C_i[1] + v_3_in_i_0 *
         C_i[4];
-    phi_q_t_lambda_q[15] = M_0_i_i_1;
     const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + v_1_in_i_0 * C_i[6] + v_2_in_i_0 * C_i[0] + v_3_in_i_0 *
         C_i[3];
-    const jg_real t79 = A_ij_7 * t64 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t79 = A_ij_7 * t62 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    phi_q_t_lambda_q[19] = t74;
+    phi_q_t_lambda_q[37] = t74;
+    phi_q_t_lambda_q[17] = M_0_i_i_7;
+    phi_q_t_lambda_q[20] = t76;
+    phi_q_t_lambda_q[40] = t76;
+    phi_q_t_lambda_q[15] = M_0_i_i_1;
     phi_q_t_lambda_q[23] = t79;
     phi_q_t_lambda_q[59] = t79;
-    const jg_real t80 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t61 + A_ij_7 * M_1_j_j_6);
+    const jg_real t80 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t60 + A_ij_7 * M_1_j_j_6);
+    const jg_real t81 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t61 + A_ij_7 * M_1_j_j_7);
+    const jg_real t82 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    const jg_real t83 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
     phi_q_t_lambda_q[21] = t80;
     phi_q_t_lambda_q[43] = t80;
-    const jg_real t81 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[27] = t81;
-    phi_q_t_lambda_q[35] = t81;
-    const jg_real t82 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[28] = t82;
-    phi_q_t_lambda_q[38] = t82;
-    const jg_real t83 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t63 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[22] = t83;
-    phi_q_t_lambda_q[51] = t83;
-    const jg_real t84 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[29] = t84;
-    phi_q_t_lambda_q[41] = t84;
-    phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[47] = -t61;
-    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[22] = t81;
+    phi_q_t_lambda_q[51] = t81;
+    phi_q_t_lambda_q[27] = t82;
+    phi_q_t_lambda_q[35] = t82;
+    phi_q_t_lambda_q[28] = t83;
+    phi_q_t_lambda_q[38] = t83;
     const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + v_1_in_i_0 * C_i[8] + v_2_in_i_0 * C_i[2] + v_3_in_i_0 *
         C_i[5];
-    phi_q_t_lambda_q[24] = M_0_i_i_2;
-    phi_q_t_lambda_q[56] = -t63;
-    phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[65] = -t64;
-    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
-    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
+    const jg_real t85 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
     const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + v_1_in_i_1 * C_i[8] + v_2_in_i_1 * C_i[2] + v_3_in_i_1 *
         C_i[5];
+    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
+    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
+    phi_q_t_lambda_q[24] = M_0_i_i_2;
+    phi_q_t_lambda_q[29] = t85;
+    phi_q_t_lambda_q[41] = t85;
     phi_q_t_lambda_q[25] = M_0_i_i_5;
-    const jg_real t87 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t61 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t87;
-    phi_q_t_lambda_q[44] = t87;
-    const jg_real t88 = A_ij_8 * t64 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t88;
-    phi_q_t_lambda_q[60] = t88;
-    const jg_real t89 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t63 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[47] = -t60;
+    const jg_real t87 = A_ij_8 * t62 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t88 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t60 + A_ij_8 * M_1_j_j_6);
+    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[56] = -t61;
+    phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[65] = -t62;
+    phi_q_t_lambda_q[32] = t87;
+    phi_q_t_lambda_q[60] = t87;
+    phi_q_t_lambda_q[30] = t88;
+    phi_q_t_lambda_q[44] = t88;
+    const jg_real t89 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t61 + A_ij_8 * M_1_j_j_7);
     phi_q_t_lambda_q[31] = t89;
     phi_q_t_lambda_q[52] = t89;
 }
@@ -433,9 +426,8 @@ void jg_translational_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
     jg_scatter(jg_translational_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_translational_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_translational_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -448,128 +440,127 @@ void jg_translational_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_
     const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     /* omega_i_in_star = omega_i, axes of body star */
     const jg_real omega_i_in_star_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real omega_i_in_star_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
-    const jg_real omega_i_in_star_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real omega_i_in_star_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    /* v_0_in_j = r_j - r_i, axes of body j */
-    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
-    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i_in_star_0 * omega_i_in_star_0 + omega_i_in_star_1 *
         omega_i_in_star_1 + omega_i_in_star_2 * omega_i_in_star_2;
-    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    /* v_0_in_j = r_j - r_i, axes of body j */
+    const jg_real v_0_in_j_0 = v_0_world_0 * A_j[0] + v_0_world_1 * A_j[1] + v_0_world_2 * A_j[2];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
-    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
-    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
+    const jg_real v_0_in_j_1 = v_0_world_0 * A_j[3] + v_0_world_1 * A_j[4] + v_0_world_2 * A_j[5];
     /* v_1_in_j = 2 omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_0 * JG_REAL(2.0);
-    /* v_4_in_j = v_j - v_i, axes of body j */
-    const jg_real v_4_in_j_0 = v_j[0] - v_i_in_j_0;
+    const jg_real v_0_in_j_2 = v_0_world_0 * A_j[6] + v_0_world_1 * A_j[7] + v_0_world_2 * A_j[8];
+    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
+    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
+    /* v_i_in_j = v_i, axes of body j */
+    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
     const jg_real v_1_in_j_1 = omega_i_in_j_1 * JG_REAL(2.0);
     const jg_real v_1_in_j_2 = omega_i_in_j_2 * JG_REAL(2.0);
-    const jg_real v_4_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_4_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
     /* v_2_in_j = 2 omega_i - omega_j, axes of body j */
     const jg_real v_2_in_j_0 = v_1_in_j_0 - omega_j[0];
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
+    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    /* v_4_in_j = v_j - v_i, axes of body j */
+    const jg_real v_4_in_j_2 = v_j[2] - v_i_in_j_2;
+    const jg_real v_4_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_2_in_j_1 = v_1_in_j_1 - omega_j[1];
     const jg_real v_2_in_j_2 = v_1_in_j_2 - omega_j[2];
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
     /* omega_i_dot_omega_j = omega_i . omega_j */
     const jg_real omega_i_dot_omega_j = omega_i_in_j_0 * omega_j[0] + omega_i_in_j_1 * omega_j[1] + omega_i_in_j_2 *
         omega_j[2];
-    const jg_real t43 = omega_i_in_j_0 * e_ij_in_j_0 + omega_i_in_j_1 * e_ij_in_j_1 + omega_i_in_j_2 * e_ij_in_j_2;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = C_i[6] * A_ji_0 + C_i[7] * A_ji_3 + C_i[8] * A_ji_6;
+    const jg_real v_4_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_5_in_j = 2 omega_i x v_j - 2 omega_i x v_i, axes of body j */
     const jg_real v_5_in_j_0 = v_1_in_j_1 * v_4_in_j_2 - v_1_in_j_2 * v_4_in_j_1;
+    const jg_real t40 = omega_i_in_j_0 * e_ij_in_j_0 + omega_i_in_j_1 * e_ij_in_j_1 + omega_i_in_j_2 * e_ij_in_j_2;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_0 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real t42 = s_j[0] * v_2_in_j_0 + s_j[1] * v_2_in_j_1 + s_j[2] * v_2_in_j_2;
     const jg_real v_5_in_j_1 = v_1_in_j_2 * v_4_in_j_0 - v_1_in_j_0 * v_4_in_j_2;
     const jg_real v_5_in_j_2 = v_1_in_j_0 * v_4_in_j_1 - v_1_in_j_1 * v_4_in_j_0;
+    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
+    const jg_real t46 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
+    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    /* omega_i_dot_h_j = omega_i . h_j */
+    const jg_real omega_i_dot_h_j = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 * C_j[8];
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
     /* omega_j_dot_g_i = omega_j . g_i */
     const jg_real omega_j_dot_g_i = omega_j[0] * g_i_in_j_0 + omega_j[1] * g_i_in_j_1 + omega_j[2] * g_i_in_j_2;
-    /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 * C_j[8];
-    const jg_real t51 = s_j[0] * v_2_in_j_0 + s_j[1] * v_2_in_j_1 + s_j[2] * v_2_in_j_2;
-    const jg_real h_i_in_j_1 = C_i[6] * A_ji_1 + C_i[7] * A_ji_4 + C_i[8] * A_ji_7;
-    const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
-    const jg_real t54 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
-    /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 * C_j[2];
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
-    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
-    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
-    /* omega_i_dot_g_j = omega_i . g_j */
-    const jg_real omega_i_dot_g_j = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 * C_j[5];
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
-    /* omega_j_dot_h_i = omega_j . h_i */
-    const jg_real omega_j_dot_h_i = omega_j[0] * h_i_in_j_0 + omega_j[1] * h_i_in_j_1 + omega_j[2] * h_i_in_j_2;
-    /* omega_j_dot_g_j = omega_j . g_j */
-    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    gamma[3] = t54 * g_i_dot_h_j + omega_j_dot_g_i * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) -
-        omega_i_in_star_1 * omega_i_dot_h_j;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = C_i[6] * A_ji_0 + C_i[7] * A_ji_3 + C_i[8] * A_ji_6;
     /* v_3_in_j = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_3_in_j_0 = omega_i_dot_omega_i * v_0_in_j_0 + t54 * s_j[0] - omega_i_in_j_0 * t43 + omega_j[0] *
-        t51;
-    const jg_real v_3_in_j_1 = omega_i_dot_omega_i * v_0_in_j_1 + t54 * s_j[1] - omega_i_in_j_1 * t43 + omega_j[1] *
-        t51;
-    const jg_real v_3_in_j_2 = omega_i_dot_omega_i * v_0_in_j_2 + t54 * s_j[2] - omega_i_in_j_2 * t43 + omega_j[2] *
-        t51;
+    const jg_real v_3_in_j_0 = omega_i_dot_omega_i * v_0_in_j_0 + t46 * s_j[0] - omega_i_in_j_0 * t40 + omega_j[0] *
+        t42;
+    const jg_real v_3_in_j_1 = omega_i_dot_omega_i * v_0_in_j_1 + t46 * s_j[1] - omega_i_in_j_1 * t40 + omega_j[1] *
+        t42;
+    const jg_real v_3_in_j_2 = omega_i_dot_omega_i * v_0_in_j_2 + t46 * s_j[2] - omega_i_in_j_2 * t40 + omega_j[2] *
+        t42;
+    const jg_real h_i_in_j_1 = C_i[6] * A_ji_1 + C_i[7] * A_ji_4 + C_i[8] * A_ji_7;
     /* v_6_in_j = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_6_in_j_0 = v_3_in_j_0 + v_5_in_j_0;
     const jg_real v_6_in_j_1 = v_3_in_j_1 + v_5_in_j_1;
     const jg_real v_6_in_j_2 = v_3_in_j_2 + v_5_in_j_2;
+    const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
+    /* omega_i_dot_f_j = omega_i . f_j */
+    const jg_real omega_i_dot_f_j = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 * C_j[2];
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
+    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
+    /* omega_j_dot_h_i = omega_j . h_i */
+    const jg_real omega_j_dot_h_i = omega_j[0] * h_i_in_j_0 + omega_j[1] * h_i_in_j_1 + omega_j[2] * h_i_in_j_2;
+    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
+    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
+    const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
+    const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
+    /* omega_i_dot_g_j = omega_i . g_j */
+    const jg_real omega_i_dot_g_j = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 * C_j[5];
+    /* omega_j_dot_g_j = omega_j . g_j */
+    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = C_j[3] * f_i_in_j_0 + C_j[4] * f_i_in_j_1 + C_j[5] * f_i_in_j_2;
     /* omega_j_dot_f_i = omega_j . f_i */
     const jg_real omega_j_dot_f_i = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] * f_i_in_j_2;
-    gamma[4] = t54 * h_i_dot_f_j + omega_j_dot_h_i * (JG_REAL(2.0) * omega_i_dot_f_j - omega_j_dot_f_j) -
-        omega_i_in_star_2 * omega_i_dot_f_j;
-    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
+    gamma[3] = t46 * g_i_dot_h_j + omega_j_dot_g_i * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) -
+        omega_i_in_star_1 * omega_i_dot_h_j;
     gamma[0] = v_6_in_i_0;
-    const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
     gamma[1] = v_6_in_i_1;
-    const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
     gamma[2] = v_6_in_i_2;
-    gamma[5] = t54 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
+    gamma[4] = t46 * h_i_dot_f_j + omega_j_dot_h_i * (JG_REAL(2.0) * omega_i_dot_f_j - omega_j_dot_f_j) -
+        omega_i_in_star_2 * omega_i_dot_f_j;
+    gamma[5] = t46 * f_i_dot_g_j + omega_j_dot_f_i * (JG_REAL(2.0) * omega_i_dot_g_j - omega_j_dot_g_j) -
         omega_i_in_star_0 * omega_i_dot_g_j;
 }
 
-void jg_translational_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_translational_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -588,81 +579,81 @@ void jg_translational_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
     const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
     const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_2 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
+    /* v_i_in_j = v_i, axes of body j */
     const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
+    /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
     const jg_real h_i_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
-    const jg_real f_i_in_j_0 = A_ji_0 * C_i[0] + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
-    const jg_real f_i_in_j_1 = A_ji_1 * C_i[0] + A_ji_4 * C_i[1] + A_ji_7 * C_i[2];
+    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
     /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
+    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     /* v_1_in_j = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_2 * e_ij_in_j_1 - omega_i_in_j_1 * e_ij_in_j_2;
     const jg_real v_1_in_j_1 = omega_i_in_j_0 * e_ij_in_j_2 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = omega_i_in_j_1 * e_ij_in_j_0 - omega_i_in_j_0 * e_ij_in_j_1;
+    const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = A_ji_0 * C_i[0] + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
+    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
+    const jg_real f_i_in_j_2 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
+    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
+    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
+    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
+    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
+    const jg_real f_i_in_j_1 = A_ji_1 * C_i[0] + A_ji_4 * C_i[1] + A_ji_7 * C_i[2];
+    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
+    /* v_4_in_j = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
+    const jg_real v_4_in_j_0 = v_3_in_j_0 - alphadot * h_i_in_j_0;
+    const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
+    const jg_real v_4_in_j_1 = v_3_in_j_1 - alphadot * h_i_in_j_1;
+    const jg_real v_4_in_j_2 = v_3_in_j_2 - alphadot * h_i_in_j_2;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - h_i_in_j_0 * f_i_in_j_2;
     const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
     const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
-    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
-    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
-    const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
-    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
+    /* v_4_in_i = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
+    const jg_real v_4_in_i_0 = A_ji_0 * v_4_in_j_0 + A_ji_1 * v_4_in_j_1 + A_ji_2 * v_4_in_j_2;
+    const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
     /* f_i_cross_g_j_in_j = f_i x g_j, axes of body j */
     const jg_real f_i_cross_g_j_in_j_0 = f_i_in_j_1 * C_j[5] - f_i_in_j_2 * C_j[4];
-    const jg_real f_i_cross_g_j_in_j_1 = f_i_in_j_2 * C_j[3] - f_i_in_j_0 * C_j[5];
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real f_i_cross_g_j_in_j_2 = f_i_in_j_0 * C_j[4] - f_i_in_j_1 * C_j[3];
+    const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
     /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
     const jg_real g_i_cross_h_j_in_j_0 = g_i_in_j_1 * C_j[8] - g_i_in_j_2 * C_j[7];
     const jg_real g_i_cross_h_j_in_j_1 = g_i_in_j_2 * C_j[6] - g_i_in_j_0 * C_j[8];
     const jg_real g_i_cross_h_j_in_j_2 = g_i_in_j_0 * C_j[7] - g_i_in_j_1 * C_j[6];
-    /* v_4_in_j = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
-    const jg_real v_4_in_j_0 = v_3_in_j_0 - alphadot * h_i_in_j_0;
-    const jg_real v_4_in_j_1 = v_3_in_j_1 - alphadot * h_i_in_j_1;
-    const jg_real v_4_in_j_2 = v_3_in_j_2 - alphadot * h_i_in_j_2;
+    const jg_real f_i_cross_g_j_in_j_1 = f_i_in_j_2 * C_j[3] - f_i_in_j_0 * C_j[5];
+    const jg_real f_i_cross_g_j_in_j_2 = f_i_in_j_0 * C_j[4] - f_i_in_j_1 * C_j[3];
+    phi_q_v[0] = v_4_in_i_0;
+    phi_q_v[1] = v_4_in_i_1;
+    phi_q_v[2] = v_4_in_i_2;
     phi_q_v[4] = omega_i_in_j_0 * h_i_cross_f_j_in_j_0 + omega_i_in_j_1 * h_i_cross_f_j_in_j_1 + omega_i_in_j_2 *
         h_i_cross_f_j_in_j_2 - (omega_j[0] * h_i_cross_f_j_in_j_0 + omega_j[1] * h_i_cross_f_j_in_j_1 + omega_j[2] *
         h_i_cross_f_j_in_j_2);
-    /* v_4_in_i = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
-    const jg_real v_4_in_i_0 = A_ji_0 * v_4_in_j_0 + A_ji_1 * v_4_in_j_1 + A_ji_2 * v_4_in_j_2;
-    phi_q_v[0] = v_4_in_i_0;
-    const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
-    phi_q_v[1] = v_4_in_i_1;
-    const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
-    phi_q_v[2] = v_4_in_i_2;
     phi_q_v[3] = omega_i_in_j_0 * g_i_cross_h_j_in_j_0 + omega_i_in_j_1 * g_i_cross_h_j_in_j_1 + omega_i_in_j_2 *
         g_i_cross_h_j_in_j_2 - (omega_j[0] * g_i_cross_h_j_in_j_0 + omega_j[1] * g_i_cross_h_j_in_j_1 + omega_j[2] *
         g_i_cross_h_j_in_j_2);
@@ -671,16 +662,12 @@ void jg_translational_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const j
         f_i_cross_g_j_in_j_2);
 }
 
-void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_translational_parametric_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -695,10 +682,6 @@ void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     /* f_i_in_j = f_i, axes of body j */
@@ -707,59 +690,64 @@ void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real f_i_in_j_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
     const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
-    const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
-    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - h_i_in_j_0 * f_i_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
-    /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
-    const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_1 = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
     /* g_j_cross_f_i_in_j = g_j x f_i, axes of body j */
     const jg_real g_j_cross_f_i_in_j_1 = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
-    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
+    const jg_real g_j_cross_f_i_in_j_0 = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
+    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
+    const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
+    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
     /* v_2_in_j = lambda_4 f_j x h_i, axes of body j */
     const jg_real v_2_in_j_1 = lambda[4] * f_j_cross_h_i_in_j_1;
     /* v_3_in_j = lambda_5 g_j x f_i, axes of body j */
     const jg_real v_3_in_j_1 = lambda[5] * g_j_cross_f_i_in_j_1;
-    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
-    const jg_real g_j_cross_f_i_in_j_0 = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
-    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
-    const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_h_i_in_j_2 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
-    const jg_real g_j_cross_f_i_in_j_2 = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
     const jg_real v_3_in_j_0 = lambda[5] * g_j_cross_f_i_in_j_0;
     const jg_real v_2_in_j_0 = lambda[4] * f_j_cross_h_i_in_j_0;
+    const jg_real g_j_cross_f_i_in_j_2 = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
+    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
     const jg_real v_2_in_j_2 = lambda[4] * f_j_cross_h_i_in_j_2;
-    const jg_real v_3_in_j_2 = lambda[5] * g_j_cross_f_i_in_j_2;
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_0 = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    const jg_real v_3_in_j_2 = lambda[5] * g_j_cross_f_i_in_j_2;
     const jg_real h_j_cross_g_i_in_j_1 = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
     const jg_real h_j_cross_g_i_in_j_2 = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
     /* v_4_in_j = lambda_3 h_j x g_i, axes of body j */
     const jg_real v_4_in_j_0 = lambda[3] * h_j_cross_g_i_in_j_0;
+    /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
+    const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     const jg_real v_4_in_j_1 = lambda[3] * h_j_cross_g_i_in_j_1;
     const jg_real v_4_in_j_2 = lambda[3] * h_j_cross_g_i_in_j_2;
+    /* v_1_in_i = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body i */
+    const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_i + lambda_4 f_j x h_i + lambda_5 g_j x f_i, axes of ... */
     const jg_real v_5_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_2_in_j_0 + v_3_in_j_0 + v_4_in_j_0;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda[9] = v_5_in_j_0;
+    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
-    phi_q_t_lambda[10] = v_5_in_j_1;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
-    phi_q_t_lambda[11] = v_5_in_j_2;
+    const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
+    const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
     /* v_5_in_i = s_j x lambda_0_1_2 + lambda_3 h_j x g_i + lambda_4 f_j x h_i + lambda_5 g_j x f_i, axes of ... */
     const jg_real v_5_in_i_0 = A_ij_0 * v_5_in_j_0 + A_ij_3 * v_5_in_j_1 + A_ij_6 * v_5_in_j_2;
     const jg_real v_5_in_i_1 = A_ij_1 * v_5_in_j_0 + A_ij_4 * v_5_in_j_1 + A_ij_7 * v_5_in_j_2;
@@ -768,16 +756,16 @@ void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
     const jg_real v_6_in_i_0 = v_1_in_i_0 + v_5_in_i_0;
     const jg_real v_6_in_i_1 = v_1_in_i_1 + v_5_in_i_1;
     const jg_real v_6_in_i_2 = v_1_in_i_2 + v_5_in_i_2;
+    phi_q_t_lambda[10] = v_5_in_j_1;
+    phi_q_t_lambda[11] = v_5_in_j_2;
     phi_q_t_lambda[3] = -v_6_in_i_0;
     phi_q_t_lambda[4] = -v_6_in_i_1;
     phi_q_t_lambda[5] = -v_6_in_i_2;
 }
 
-void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_translational_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -791,366 +779,372 @@ void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
+    const jg_real v_1_in_i_0 = alpha[0] * C_i[6] + s_i[0];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real v_1_in_i_1 = alpha[0] * C_i[7] + s_i[1];
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real v_1_in_i_2 = alpha[0] * C_i[8] + s_i[2];
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    phi_q[22] = A_ij_4;
+    phi_q[26] = A_ij_8;
+    phi_q[23] = A_ij_5;
+    phi_q[25] = A_ij_7;
+    phi_q[21] = A_ij_3;
+    phi_q[24] = A_ij_6;
+    phi_q[18] = A_ij_0;
+    phi_q[19] = A_ij_1;
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
+    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real t24 = h_j_in_i_0 * C_i[3];
+    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real t26 = h_j_in_i_0 * C_i[5];
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
+    const jg_real g_j_in_i_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
+    const jg_real t29 = h_j_in_i_0 * C_i[4];
+    const jg_real g_j_in_i_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real t32 = h_j_in_i_1 * C_i[4];
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
+    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
+    phi_q[20] = A_ij_2;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    phi_q[45] = -C_i[6];
-    phi_q[46] = -C_i[7];
-    phi_q[47] = -C_i[8];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ij_4;
-    phi_q_t_lambda_q[2] = lambda[2];
-    phi_q_t_lambda_q[0] = -lambda[2];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[26] = A_ij_8;
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    phi_q[23] = A_ij_5;
-    /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ij_7;
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    phi_q[21] = A_ij_3;
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    phi_q[24] = A_ij_6;
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    phi_q[18] = A_ij_0;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    phi_q[20] = A_ij_2;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = A_ij_0 * C_j[3] + A_ij_3 * C_j[4] + A_ij_6 * C_j[5];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real g_j_in_i_1 = A_ij_1 * C_j[3] + A_ij_4 * C_j[4] + A_ij_7 * C_j[5];
-    const jg_real g_j_in_i_2 = A_ij_2 * C_j[3] + A_ij_5 * C_j[4] + A_ij_8 * C_j[5];
-    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     phi_q[9] = e_ij_in_i_0;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     phi_q[13] = e_ij_in_i_1;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
     phi_q[3] = e_ij_in_i_2;
-    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
-    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
     phi[0] = v_2_in_i_0;
+    const jg_real t35 = h_j_in_i_1 * C_i[5];
+    const jg_real t36 = h_j_in_i_2 * C_i[5];
+    const jg_real t37 = C_i[4] * h_j_in_i_2;
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    phi_q[4] = -e_ij_in_i_1;
+    const jg_real t40 = g_j_in_i_0 * C_i[0];
+    const jg_real t41 = g_j_in_i_1 * C_i[1];
+    const jg_real t42 = g_j_in_i_2 * C_i[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_0 = h_j_in_i_2 * g_j_in_i_1 - h_j_in_i_1 * g_j_in_i_2;
-    phi_q[8] = -e_ij_in_i_2;
-    const jg_real f_j_in_i_1 = h_j_in_i_0 * g_j_in_i_2 - h_j_in_i_2 * g_j_in_i_0;
-    const jg_real f_j_in_i_2 = h_j_in_i_1 * g_j_in_i_0 - h_j_in_i_0 * g_j_in_i_1;
-    phi_q[14] = -e_ij_in_i_0;
     /* g_i_cross_h_j_in_i = g_i x h_j, axes of body i */
-    const jg_real g_i_cross_h_j_in_i_0 = h_j_in_i_2 * C_i[4] - h_j_in_i_1 * C_i[5];
-    phi_q[5] = g_i_cross_h_j_in_i_0;
+    const jg_real g_i_cross_h_j_in_i_0 = t37 - t35;
+    const jg_real t45 = g_j_in_i_2 * C_i[1];
+    const jg_real f_j_in_i_1 = h_j_in_i_0 * g_j_in_i_2 - h_j_in_i_2 * g_j_in_i_0;
+    const jg_real t47 = g_j_in_i_1 * C_i[2];
     /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = h_j_in_i_0 * C_i[3] + h_j_in_i_1 * C_i[4] + h_j_in_i_2 * C_i[5];
-    phi[3] = g_i_dot_h_j;
+    const jg_real g_i_dot_h_j = t24 + t32 + t36;
+    const jg_real f_j_in_i_2 = h_j_in_i_1 * g_j_in_i_0 - h_j_in_i_0 * g_j_in_i_1;
+    const jg_real t50 = C_i[3] * h_j_in_i_2;
+    const jg_real t51 = g_j_in_i_0 * C_i[2];
+    const jg_real t52 = g_j_in_i_2 * C_i[0];
+    const jg_real t53 = C_i[6] * f_j_in_i_0;
+    const jg_real t54 = C_i[8] * f_j_in_i_0;
+    const jg_real t55 = C_i[7] * f_j_in_i_1;
+    const jg_real t56 = C_i[8] * f_j_in_i_1;
     /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
-    const jg_real f_i_cross_g_j_in_i_0 = g_j_in_i_2 * C_i[1] - g_j_in_i_1 * C_i[2];
+    const jg_real f_i_cross_g_j_in_i_0 = t45 - t47;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[5] = g_i_cross_h_j_in_i_0;
+    phi[3] = g_i_dot_h_j;
+    phi_q[8] = -e_ij_in_i_2;
+    phi_q[14] = -e_ij_in_i_0;
     phi_q[7] = f_i_cross_g_j_in_i_0;
-    const jg_real g_i_cross_h_j_in_i_1 = h_j_in_i_0 * C_i[5] - h_j_in_i_2 * C_i[3];
-    phi_q[10] = g_i_cross_h_j_in_i_1;
+    const jg_real t58 = C_i[3] * h_j_in_i_1;
+    const jg_real t59 = C_i[8] * f_j_in_i_2;
+    const jg_real t60 = C_i[7] * f_j_in_i_2;
     /* f_i_dot_g_j = f_i . g_j */
-    const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
-    phi[5] = f_i_dot_g_j;
-    const jg_real f_i_cross_g_j_in_i_1 = g_j_in_i_0 * C_i[2] - g_j_in_i_2 * C_i[0];
-    phi_q[12] = f_i_cross_g_j_in_i_1;
-    const jg_real g_i_cross_h_j_in_i_2 = h_j_in_i_1 * C_i[3] - h_j_in_i_0 * C_i[4];
-    phi_q[15] = g_i_cross_h_j_in_i_2;
-    const jg_real f_i_cross_g_j_in_i_2 = g_j_in_i_1 * C_i[0] - g_j_in_i_0 * C_i[1];
-    phi_q[17] = f_i_cross_g_j_in_i_2;
-    phi_q[27] = A_ij_1 * s_j_in_i_2 - A_ij_2 * s_j_in_i_1;
-    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
-    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real f_i_dot_g_j = t40 + t41 + t42;
+    const jg_real g_i_cross_h_j_in_i_1 = t26 - t50;
+    const jg_real t63 = C_i[6] * f_j_in_i_2;
+    const jg_real f_i_cross_g_j_in_i_1 = t51 - t52;
+    const jg_real t65 = C_i[6] * f_j_in_i_1;
+    const jg_real t66 = C_i[7] * f_j_in_i_0;
+    const jg_real t67 = g_j_in_i_1 * C_i[0];
+    const jg_real t68 = g_j_in_i_0 * C_i[1];
+    const jg_real g_i_cross_h_j_in_i_2 = t58 - t29;
     /* h_i_cross_f_j_in_i = h_i x f_j, axes of body i */
-    const jg_real h_i_cross_f_j_in_i_0 = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
-    phi_q[6] = h_i_cross_f_j_in_i_0;
-    const jg_real h_i_cross_f_j_in_i_1 = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
-    phi_q[11] = h_i_cross_f_j_in_i_1;
-    const jg_real h_i_cross_f_j_in_i_2 = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
-    phi_q[16] = h_i_cross_f_j_in_i_2;
-    phi_q[28] = A_ij_2 * s_j_in_i_0 - A_ij_0 * s_j_in_i_2;
-    phi_q[29] = A_ij_0 * s_j_in_i_1 - A_ij_1 * s_j_in_i_0;
+    const jg_real h_i_cross_f_j_in_i_0 = t60 - t56;
+    const jg_real h_i_cross_f_j_in_i_1 = t54 - t63;
+    const jg_real h_i_cross_f_j_in_i_2 = t65 - t66;
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
+    const jg_real h_i_dot_f_j = t53 + t55 + t59;
+    phi[5] = f_i_dot_g_j;
+    phi_q[10] = g_i_cross_h_j_in_i_1;
+    phi_q[12] = f_i_cross_g_j_in_i_1;
+    phi_q[15] = g_i_cross_h_j_in_i_2;
+    phi_q[6] = h_i_cross_f_j_in_i_0;
+    phi_q[11] = h_i_cross_f_j_in_i_1;
+    phi_q[16] = h_i_cross_f_j_in_i_2;
     phi[4] = h_i_dot_f_j;
+    const jg_real f_i_cross_g_j_in_i_2 = t67 - t68;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_1 = A_ij_3 * C_i[0] + A_ij_4 * C_i[1] + A_ij_5 * C_i[2];
+    const jg_real f_i_in_j_0 = A_ij_0 * C_i[0] + A_ij_1 * C_i[1] + A_ij_2 * C_i[2];
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real f_i_in_j_2 = A_ij_6 * C_i[0] + A_ij_7 * C_i[1] + A_ij_8 * C_i[2];
+    phi_q[17] = f_i_cross_g_j_in_i_2;
+    phi_q[27] = A_ij_1 * s_j_in_i_2 - s_j_in_i_1 * A_ij_2;
+    phi_q[28] = s_j_in_i_0 * A_ij_2 - A_ij_0 * s_j_in_i_2;
+    phi_q[29] = A_ij_0 * s_j_in_i_1 - s_j_in_i_0 * A_ij_1;
     phi_q[33] = A_ij_4 * s_j_in_i_2 - A_ij_5 * s_j_in_i_1;
     phi_q[34] = A_ij_5 * s_j_in_i_0 - A_ij_3 * s_j_in_i_2;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
-    phi_q[31] = h_i_in_j_2 * C_j[1] - h_i_in_j_1 * C_j[2];
     phi_q[35] = A_ij_3 * s_j_in_i_1 - A_ij_4 * s_j_in_i_0;
-    phi_q[37] = h_i_in_j_0 * C_j[2] - h_i_in_j_2 * C_j[0];
     phi_q[39] = A_ij_7 * s_j_in_i_2 - A_ij_8 * s_j_in_i_1;
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - f_i_in_j_0 * h_i_in_j_1;
+    const jg_real g_i_in_j_1 = f_i_in_j_0 * h_i_in_j_2 - h_i_in_j_0 * f_i_in_j_2;
+    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - f_i_in_j_1 * h_i_in_j_2;
     phi_q[40] = A_ij_8 * s_j_in_i_0 - A_ij_6 * s_j_in_i_2;
+    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
+    phi_q[31] = h_i_in_j_2 * C_j[1] - h_i_in_j_1 * C_j[2];
+    phi_q[32] = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
+    phi_q[37] = h_i_in_j_0 * C_j[2] - h_i_in_j_2 * C_j[0];
+    phi_q[38] = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
+    phi_q[45] = -C_i[6];
+    phi_q[43] = h_i_in_j_1 * C_j[0] - h_i_in_j_0 * C_j[1];
+    phi_q[46] = -C_i[7];
+    phi_q[47] = -C_i[8];
+    phi_q_t_lambda_q[2] = lambda[2];
+    phi_q_t_lambda_q[0] = -lambda[2];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
-    const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - h_i_in_j_0 * f_i_in_j_2;
-    phi_q[41] = A_ij_6 * s_j_in_i_1 - A_ij_7 * s_j_in_i_0;
-    phi_q[32] = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
     phi_q_t_lambda_q[4] = -lambda[1];
-    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
-    /* v_3_in_i = lambda_4 f_j, axes of body i */
-    const jg_real v_3_in_i_1 = f_j_in_i_1 * lambda[4];
-    phi_q[38] = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
-    phi_q[43] = h_i_in_j_1 * C_j[0] - h_i_in_j_0 * C_j[1];
-    /* v_4_in_i = lambda_5 g_j, axes of body i */
-    const jg_real v_4_in_i_1 = g_j_in_i_1 * lambda[5];
-    /* v_5_in_i = lambda_3 h_j, axes of body i */
-    const jg_real v_5_in_i_1 = h_j_in_i_1 * lambda[3];
+    /* v_5_in_j = lambda_3 h_j, axes of body j */
+    const jg_real v_5_in_j_1 = C_j[7] * lambda[3];
+    const jg_real t85 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
+    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
+    const jg_real M_0_i_i_4 = t55 * lambda[4] + e_ij_in_i_1 * lambda[1] + t41 * lambda[5] + t32 * lambda[3];
+    const jg_real t87 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
     phi_q[44] = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
-    const jg_real v_3_in_i_2 = f_j_in_i_2 * lambda[4];
-    const jg_real v_4_in_i_2 = g_j_in_i_2 * lambda[5];
-    const jg_real v_5_in_i_2 = h_j_in_i_2 * lambda[3];
     phi_q[30] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
     phi_q[36] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
     phi_q[42] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    /* v_5_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_5_in_j_1 = C_j[7] * lambda[3];
+    phi_q_t_lambda_q[9] = t85;
+    phi_q_t_lambda_q[33] = t85;
+    phi_q_t_lambda_q[10] = t87;
+    phi_q_t_lambda_q[36] = t87;
     /* v_3_in_j = lambda_4 f_j, axes of body j */
     const jg_real v_3_in_j_1 = C_j[1] * lambda[4];
+    const jg_real t89 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
     /* v_4_in_j = lambda_5 g_j, axes of body j */
     const jg_real v_4_in_j_1 = C_j[4] * lambda[5];
+    const jg_real M_0_i_i_8 = t59 * lambda[4] + e_ij_in_i_2 * lambda[2] + t42 * lambda[5] + t36 * lambda[3];
     const jg_real v_5_in_j_2 = C_j[8] * lambda[3];
-    const jg_real t67 = A_ij_2 * lambda[1] - A_ij_1 * lambda[2];
-    phi_q_t_lambda_q[9] = t67;
-    phi_q_t_lambda_q[33] = t67;
-    const jg_real t68 = A_ij_5 * lambda[1] - A_ij_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t68;
-    phi_q_t_lambda_q[36] = t68;
-    const jg_real t69 = A_ij_8 * lambda[1] - A_ij_7 * lambda[2];
-    phi_q_t_lambda_q[11] = t69;
-    phi_q_t_lambda_q[39] = t69;
+    const jg_real M_0_i_i_3 = t65 * lambda[4] + e_ij_in_i_1 * lambda[0] + t67 * lambda[5] + t58 * lambda[3];
     const jg_real v_3_in_j_2 = C_j[2] * lambda[4];
-    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + C_i[7] * v_3_in_i_1 + C_i[1] * v_4_in_i_1 + C_i[4] *
-        v_5_in_i_1;
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + C_i[6] * v_3_in_i_1 + C_i[0] * v_4_in_i_1 + C_i[3] *
-        v_5_in_i_1;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    const jg_real M_0_i_i_6 = t63 * lambda[4] + e_ij_in_i_2 * lambda[0] + t52 * lambda[5] + t50 * lambda[3];
     const jg_real v_4_in_j_2 = C_j[5] * lambda[5];
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + C_i[8] * v_3_in_i_2 + C_i[2] * v_4_in_i_2 + C_i[5] *
-        v_5_in_i_2;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + C_i[6] * v_3_in_i_2 + C_i[0] * v_4_in_i_2 + C_i[3] *
-        v_5_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
     const jg_real v_3_in_j_0 = C_j[0] * lambda[4];
     const jg_real v_4_in_j_0 = C_j[3] * lambda[5];
-    const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
-    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
     const jg_real v_5_in_j_0 = C_j[6] * lambda[3];
     const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[11] = t89;
+    phi_q_t_lambda_q[39] = t89;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[61] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real v_3_in_i_0 = f_j_in_i_0 * lambda[4];
-    const jg_real v_4_in_i_0 = g_j_in_i_0 * lambda[5];
-    const jg_real v_5_in_i_0 = h_j_in_i_0 * lambda[3];
+    phi_q_t_lambda_q[45] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_0;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_i^T + (lambda_5 g_j) f_i^T + (lambda_3 h_j) g_i^T; ... */
     const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_3_in_j_1 + f_i_in_j_1 * v_4_in_j_1 +
         g_i_in_j_1 * v_5_in_j_1;
     const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_3_in_j_2 + f_i_in_j_1 * v_4_in_j_2 +
         g_i_in_j_1 * v_5_in_j_2;
-    phi_q_t_lambda_q[64] = M_1_j_j_7;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_3_in_j_0 + f_i_in_j_1 * v_4_in_j_0 +
-        g_i_in_j_1 * v_5_in_j_0;
-    phi_q_t_lambda_q[48] = M_1_j_j_1;
     const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_3_in_j_2 + f_i_in_j_2 * v_4_in_j_2 +
         g_i_in_j_2 * v_5_in_j_2;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_3_in_j_0 + f_i_in_j_2 * v_4_in_j_0 +
-        g_i_in_j_2 * v_5_in_j_0;
-    phi_q_t_lambda_q[49] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_3_in_j_1 + f_i_in_j_2 * v_4_in_j_1 +
-        g_i_in_j_2 * v_5_in_j_1;
-    phi_q_t_lambda_q[57] = M_1_j_j_5;
+    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + h_i_in_j_1 * v_3_in_j_0 + f_i_in_j_1 * v_4_in_j_0 +
+        g_i_in_j_1 * v_5_in_j_0;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + h_i_in_j_0 * v_3_in_j_1 + f_i_in_j_0 * v_4_in_j_1 +
         g_i_in_j_0 * v_5_in_j_1;
-    phi_q_t_lambda_q[55] = M_1_j_j_3;
-    const jg_real t92 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t108 = M_1_j_j_4 + M_1_j_j_8;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + h_i_in_j_0 * v_3_in_j_2 + f_i_in_j_0 * v_4_in_j_2 +
         g_i_in_j_0 * v_5_in_j_2;
-    phi_q_t_lambda_q[63] = M_1_j_j_6;
     const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + h_i_in_j_0 * v_3_in_j_0 + f_i_in_j_0 * v_4_in_j_0 +
         g_i_in_j_0 * v_5_in_j_0;
-    const jg_real t95 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
-    phi_q_t_lambda_q[18] = t95;
-    phi_q_t_lambda_q[34] = t95;
-    const jg_real t96 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
-    phi_q_t_lambda_q[19] = t96;
-    phi_q_t_lambda_q[37] = t96;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + C_i[7] * v_3_in_i_0 + C_i[1] * v_4_in_i_0 + C_i[4] *
-        v_5_in_i_0;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_3_in_j_0 + f_i_in_j_2 * v_4_in_j_0 +
+        g_i_in_j_2 * v_5_in_j_0;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + h_i_in_j_2 * v_3_in_j_1 + f_i_in_j_2 * v_4_in_j_1 +
+        g_i_in_j_2 * v_5_in_j_1;
+    const jg_real t113 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t114 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_0_i_i_1 = t66 * lambda[4] + e_ij_in_i_0 * lambda[1] + t68 * lambda[5] + t29 * lambda[3];
+    const jg_real M_0_i_i_0 = t53 * lambda[4] + e_ij_in_i_0 * lambda[0] + t40 * lambda[5] + t24 * lambda[3];
+    const jg_real t117 = A_ij_0 * lambda[2] - A_ij_2 * lambda[0];
+    phi_q_t_lambda_q[64] = M_1_j_j_7;
+    phi_q_t_lambda_q[48] = M_1_j_j_1;
+    phi_q_t_lambda_q[55] = M_1_j_j_3;
+    phi_q_t_lambda_q[63] = M_1_j_j_6;
+    phi_q_t_lambda_q[49] = M_1_j_j_2;
+    phi_q_t_lambda_q[57] = M_1_j_j_5;
     phi_q_t_lambda_q[15] = M_0_i_i_1;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + C_i[6] * v_3_in_i_0 + C_i[0] * v_4_in_i_0 + C_i[3] *
-        v_5_in_i_0;
-    const jg_real t99 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t100 = M_1_j_j_0 + M_1_j_j_4;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + C_i[7] * v_3_in_i_2 + C_i[1] * v_4_in_i_2 + C_i[4] *
-        v_5_in_i_2;
+    phi_q_t_lambda_q[18] = t117;
+    phi_q_t_lambda_q[34] = t117;
+    const jg_real t118 = A_ij_3 * lambda[2] - A_ij_5 * lambda[0];
+    const jg_real t119 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
+    const jg_real t120 = A_ij_6 * t114 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t121 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t108 + A_ij_6 * M_1_j_j_6);
+    phi_q_t_lambda_q[19] = t118;
+    phi_q_t_lambda_q[37] = t118;
+    phi_q_t_lambda_q[20] = t119;
+    phi_q_t_lambda_q[40] = t119;
+    phi_q_t_lambda_q[14] = t120;
+    phi_q_t_lambda_q[58] = t120;
+    phi_q_t_lambda_q[12] = t121;
+    phi_q_t_lambda_q[42] = t121;
+    const jg_real M_0_i_i_7 = t60 * lambda[4] + e_ij_in_i_2 * lambda[1] + t45 * lambda[5] + t37 * lambda[3];
+    const jg_real t123 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t113 + A_ij_6 * M_1_j_j_7);
+    const jg_real t124 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t108 + A_ij_7 * M_1_j_j_6);
+    const jg_real t125 = A_ij_7 * t114 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
     phi_q_t_lambda_q[17] = M_0_i_i_7;
-    const jg_real t102 = A_ij_6 * lambda[2] - A_ij_8 * lambda[0];
-    phi_q_t_lambda_q[20] = t102;
-    phi_q_t_lambda_q[40] = t102;
-    phi_q_t_lambda_q[16] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real t103 = A_ij_6 * t100 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t103;
-    phi_q_t_lambda_q[58] = t103;
-    const jg_real t104 = A_ij_7 * t100 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[23] = t104;
-    phi_q_t_lambda_q[59] = t104;
-    phi_q_t_lambda_q[26] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t105 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
-    phi_q_t_lambda_q[27] = t105;
-    phi_q_t_lambda_q[35] = t105;
-    const jg_real t106 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t92 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t106;
-    phi_q_t_lambda_q[42] = t106;
-    const jg_real t107 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
-    phi_q_t_lambda_q[28] = t107;
-    phi_q_t_lambda_q[38] = t107;
-    const jg_real t108 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t92 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[21] = t108;
-    phi_q_t_lambda_q[43] = t108;
-    const jg_real t109 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
-    phi_q_t_lambda_q[29] = t109;
-    phi_q_t_lambda_q[41] = t109;
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + C_i[8] * v_3_in_i_0 + C_i[2] * v_4_in_i_0 + C_i[5] *
-        v_5_in_i_0;
+    phi_q_t_lambda_q[16] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[13] = t123;
+    phi_q_t_lambda_q[50] = t123;
+    phi_q_t_lambda_q[21] = t124;
+    phi_q_t_lambda_q[43] = t124;
+    phi_q_t_lambda_q[23] = t125;
+    phi_q_t_lambda_q[59] = t125;
+    const jg_real t126 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t113 + A_ij_7 * M_1_j_j_7);
+    const jg_real t127 = A_ij_1 * lambda[0] - A_ij_0 * lambda[1];
+    const jg_real t128 = A_ij_4 * lambda[0] - A_ij_3 * lambda[1];
+    const jg_real t129 = A_ij_7 * lambda[0] - A_ij_6 * lambda[1];
+    phi_q_t_lambda_q[26] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[22] = t126;
+    phi_q_t_lambda_q[51] = t126;
+    phi_q_t_lambda_q[27] = t127;
+    phi_q_t_lambda_q[35] = t127;
+    phi_q_t_lambda_q[28] = t128;
+    phi_q_t_lambda_q[38] = t128;
+    phi_q_t_lambda_q[29] = t129;
+    phi_q_t_lambda_q[41] = t129;
+    const jg_real M_0_i_i_2 = t54 * lambda[4] + e_ij_in_i_0 * lambda[2] + t51 * lambda[5] + t26 * lambda[3];
+    const jg_real M_0_i_i_5 = t56 * lambda[4] + e_ij_in_i_1 * lambda[2] + t47 * lambda[5] + t35 * lambda[3];
     phi_q_t_lambda_q[24] = M_0_i_i_2;
     phi_q_t_lambda_q[46] = -lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[47] = -t92;
-    const jg_real t111 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t99 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t111;
-    phi_q_t_lambda_q[50] = t111;
-    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
-    const jg_real t112 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t99 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[22] = t112;
-    phi_q_t_lambda_q[51] = t112;
-    phi_q_t_lambda_q[56] = -t99;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + C_i[8] * v_3_in_i_1 + C_i[2] * v_4_in_i_1 + C_i[5] *
-        v_5_in_i_1;
+    phi_q_t_lambda_q[47] = -t108;
     phi_q_t_lambda_q[25] = M_0_i_i_5;
+    phi_q_t_lambda_q[53] = -lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[56] = -t113;
     phi_q_t_lambda_q[62] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[65] = -t100;
-    const jg_real t114 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t92 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[30] = t114;
-    phi_q_t_lambda_q[44] = t114;
-    const jg_real t115 = A_ij_8 * t100 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[32] = t115;
-    phi_q_t_lambda_q[60] = t115;
-    const jg_real t116 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t99 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[31] = t116;
-    phi_q_t_lambda_q[52] = t116;
+    phi_q_t_lambda_q[65] = -t114;
+    const jg_real t132 = A_ij_8 * t114 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t133 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t108 + A_ij_8 * M_1_j_j_6);
+    const jg_real t134 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t113 + A_ij_8 * M_1_j_j_7);
     /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = g_i_in_j_0 * omega_j[0] + g_i_in_j_1 * omega_j[1] + g_i_in_j_2 * omega_j[2];
+    const jg_real g_i_dot_omega_j = g_i_in_j_1 * omega_j[1] + g_i_in_j_0 * omega_j[0] + g_i_in_j_2 * omega_j[2];
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = A_ij_0 * omega_j[0] + A_ij_3 * omega_j[1] + A_ij_6 * omega_j[2];
     const jg_real omega_j_in_i_1 = A_ij_1 * omega_j[0] + A_ij_4 * omega_j[1] + A_ij_7 * omega_j[2];
-    /* v_6_in_i = 2 omega_i, axes of body i */
-    const jg_real v_6_in_i_0 = JG_REAL(2.0) * omega_i[0];
     const jg_real omega_j_in_i_2 = A_ij_2 * omega_j[0] + A_ij_5 * omega_j[1] + A_ij_8 * omega_j[2];
-    const jg_real v_6_in_i_1 = JG_REAL(2.0) * omega_i[1];
-    const jg_real v_6_in_i_2 = JG_REAL(2.0) * omega_i[2];
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    /* v_9_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_9_in_i_0 = v_6_in_i_0 - omega_j_in_i_0;
+    /* v_6_in_i = 2 omega_i, axes of body i */
+    const jg_real v_6_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_6_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_6_in_i_2 = omega_i[2] * JG_REAL(2.0);
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
-    const jg_real v_9_in_i_1 = v_6_in_i_1 - omega_j_in_i_1;
-    const jg_real v_9_in_i_2 = v_6_in_i_2 - omega_j_in_i_2;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    const jg_real t131 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
+    /* v_9_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_9_in_i_0 = v_6_in_i_0 - omega_j_in_i_0;
+    const jg_real v_9_in_i_1 = v_6_in_i_1 - omega_j_in_i_1;
+    const jg_real v_9_in_i_2 = v_6_in_i_2 - omega_j_in_i_2;
+    const jg_real t149 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     /* f_i_dot_omega_j = f_i . omega_j */
     const jg_real f_i_dot_omega_j = C_i[0] * omega_j_in_i_0 + C_i[1] * omega_j_in_i_1 + C_i[2] * omega_j_in_i_2;
-    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
-    /* v_7_in_i = v_j - v_i, axes of body i */
-    const jg_real v_7_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_2 = A_ij_2 * v_j[0] + A_ij_5 * v_j[1] + A_ij_8 * v_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = f_i_dot_omega_i * f_i_dot_omega_i + g_i_dot_omega_i * g_i_dot_omega_i +
         h_i_dot_omega_i * h_i_dot_omega_i;
-    const jg_real t138 = s_j_in_i_0 * v_9_in_i_0 + s_j_in_i_1 * v_9_in_i_1 + s_j_in_i_2 * v_9_in_i_2;
-    const jg_real v_7_in_i_1 = v_j_in_i_1 - v_i[1];
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
-    const jg_real v_7_in_i_0 = v_j_in_i_0 - v_i[0];
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    /* v_7_in_i = v_j - v_i, axes of body i */
+    const jg_real v_7_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_j_in_i_1 = A_ij_1 * v_j[0] + A_ij_4 * v_j[1] + A_ij_7 * v_j[2];
+    const jg_real t155 = s_j_in_i_0 * v_9_in_i_0 + s_j_in_i_1 * v_9_in_i_1 + s_j_in_i_2 * v_9_in_i_2;
     /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_i_dot_omega_j * f_i_dot_omega_j + g_i_dot_omega_j * g_i_dot_omega_j +
+    const jg_real omega_j_dot_omega_j = g_i_dot_omega_j * g_i_dot_omega_j + f_i_dot_omega_j * f_i_dot_omega_j +
         h_i_dot_omega_j * h_i_dot_omega_j;
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = f_i_dot_omega_i * f_i_dot_omega_j + g_i_dot_omega_i * g_i_dot_omega_j +
-        h_i_dot_omega_i * h_i_dot_omega_j;
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real omega_i_dot_omega_j = g_i_dot_omega_j * g_i_dot_omega_i + f_i_dot_omega_j * f_i_dot_omega_i +
+        h_i_dot_omega_j * h_i_dot_omega_i;
+    const jg_real v_7_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_0 = A_ij_0 * v_j[0] + A_ij_3 * v_j[1] + A_ij_6 * v_j[2];
+    const jg_real v_7_in_i_0 = v_j_in_i_0 - v_i[0];
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     /* v_8_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
     const jg_real v_8_in_i_0 = v_6_in_i_1 * v_7_in_i_2 - v_6_in_i_2 * v_7_in_i_1;
+    const jg_real t164 = omega_i_dot_omega_i - omega_i_dot_omega_j * JG_REAL(2.0) + omega_j_dot_omega_j;
+    /* f_j_dot_omega_i = f_j . omega_i */
+    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
     const jg_real v_8_in_i_1 = v_6_in_i_2 * v_7_in_i_0 - v_6_in_i_0 * v_7_in_i_2;
     const jg_real v_8_in_i_2 = v_6_in_i_0 * v_7_in_i_1 - v_6_in_i_1 * v_7_in_i_0;
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = g_j_in_i_0 * omega_j_in_i_0 + g_j_in_i_1 * omega_j_in_i_1 + g_j_in_i_2 *
         omega_j_in_i_2;
     /* g_j_dot_omega_i = g_j . omega_i */
     const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
-    const jg_real t152 = omega_i_dot_omega_i - JG_REAL(2.0) * omega_i_dot_omega_j + omega_j_dot_omega_j;
-    gamma[3] = g_i_dot_h_j * t152 + g_i_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) -
-        g_i_dot_omega_i * h_j_dot_omega_i;
-    gamma[4] = h_i_dot_f_j * t152 + h_i_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
-        h_i_dot_omega_i * f_j_dot_omega_i;
     /* v_10_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_10_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i + s_j_in_i_0 * t152 - omega_i[0] * t131 +
-        omega_j_in_i_0 * t138;
-    const jg_real v_10_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i + s_j_in_i_1 * t152 - omega_i[1] * t131 +
-        omega_j_in_i_1 * t138;
-    const jg_real v_10_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i + s_j_in_i_2 * t152 - omega_i[2] * t131 +
-        omega_j_in_i_2 * t138;
-    gamma[5] = f_i_dot_g_j * t152 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
-        f_i_dot_omega_i * g_j_dot_omega_i;
+    const jg_real v_10_in_i_0 = s_j_in_i_0 * t164 + v_0_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t149 +
+        omega_j_in_i_0 * t155;
+    const jg_real v_10_in_i_1 = s_j_in_i_1 * t164 + v_0_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t149 +
+        omega_j_in_i_1 * t155;
+    const jg_real v_10_in_i_2 = s_j_in_i_2 * t164 + v_0_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t149 +
+        omega_j_in_i_2 * t155;
     /* v_11_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_11_in_i_0 = v_8_in_i_0 + v_10_in_i_0;
+    const jg_real v_11_in_i_0 = v_10_in_i_0 + v_8_in_i_0;
+    phi_q_t_lambda_q[32] = t132;
+    phi_q_t_lambda_q[60] = t132;
+    phi_q_t_lambda_q[30] = t133;
+    phi_q_t_lambda_q[44] = t133;
+    phi_q_t_lambda_q[31] = t134;
+    phi_q_t_lambda_q[52] = t134;
+    gamma[3] = g_i_dot_h_j * t164 + g_i_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) -
+        g_i_dot_omega_i * h_j_dot_omega_i;
     gamma[0] = v_11_in_i_0;
-    const jg_real v_11_in_i_1 = v_8_in_i_1 + v_10_in_i_1;
+    const jg_real v_11_in_i_1 = v_10_in_i_1 + v_8_in_i_1;
+    const jg_real v_11_in_i_2 = v_10_in_i_2 + v_8_in_i_2;
     gamma[1] = v_11_in_i_1;
-    const jg_real v_11_in_i_2 = v_8_in_i_2 + v_10_in_i_2;
     gamma[2] = v_11_in_i_2;
+    gamma[4] = h_i_dot_f_j * t164 + h_i_dot_omega_j * (JG_REAL(2.0) * f_j_dot_omega_i - f_j_dot_omega_j) -
+        h_i_dot_omega_i * f_j_dot_omega_i;
+    gamma[5] = f_i_dot_g_j * t164 + f_i_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+        f_i_dot_omega_i * g_j_dot_omega_i;
 }
 
 void jg_translational_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

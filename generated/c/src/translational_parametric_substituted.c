@@ -4,10 +4,6 @@
  * joint translational, form parametric, rows regular, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/translational.h"
 
 const int *jg_translational_parametric_substituted_phi_q_sparsity(void)
@@ -27,9 +23,8 @@ const int *jg_translational_parametric_substituted_phi_q_t_lambda_q_sparsity(voi
     return pattern;
 }
 
-void jg_translational_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_translational_parametric_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -41,55 +36,55 @@ void jg_translational_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i,
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
+    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
     const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
-    phi[4] = h_i_dot_f_j;
     /* f_i_dot_g_j = f_i . g_j */
     const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
-    phi[5] = f_i_dot_g_j;
     /* g_i_dot_h_j = g_i . h_j */
     const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    phi[0] = v_2_in_i_0;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
+    phi[4] = h_i_dot_f_j;
+    phi[5] = f_i_dot_g_j;
     phi[3] = g_i_dot_h_j;
 }
 
@@ -108,50 +103,50 @@ void jg_translational_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT
     phi_q[5] = C_i[0];
     phi_q[6] = C_i[3];
     phi_q[7] = C_i[6];
+    /* v_0_in_i = s_i + alpha_0 h_i, axes of body i */
+    const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[8];
+    const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[7];
+    const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
     phi_q[10] = C_i[1];
     phi_q[11] = C_i[4];
     phi_q[15] = C_i[2];
     phi_q[16] = C_i[5];
-    /* v_0_in_i = s_i + alpha_0 h_i, axes of body i */
-    const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     phi_q[3] = v_0_in_i_2;
-    const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[7];
     phi_q[13] = v_0_in_i_1;
-    const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
     phi_q[9] = v_0_in_i_0;
+    phi_q[8] = -v_0_in_i_2;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = C_j[1] * C_i[1] + C_j[4] * C_i[4] + C_i[7] * C_j[7];
+    const jg_real A_ij_8 = C_i[2] * C_j[2] + C_i[5] * C_j[5] + C_i[8] * C_j[8];
+    const jg_real A_ij_5 = C_j[1] * C_i[2] + C_j[4] * C_i[5] + C_i[8] * C_j[7];
+    phi_q[4] = -v_0_in_i_1;
+    phi_q[14] = -v_0_in_i_0;
+    phi_q[22] = A_ij_4;
+    phi_q[26] = A_ij_8;
+    phi_q[23] = A_ij_5;
     phi_q[30] = -C_j[0];
     phi_q[31] = -C_j[3];
     phi_q[32] = -C_j[6];
-    phi_q[36] = -C_j[1];
-    phi_q[8] = -v_0_in_i_2;
-    phi_q[4] = -v_0_in_i_1;
-    phi_q[14] = -v_0_in_i_0;
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = C_j[1] * C_i[1] + C_j[4] * C_i[4] + C_i[7] * C_j[7];
-    phi_q[22] = A_ij_4;
-    phi_q[37] = -C_j[4];
-    phi_q[38] = -C_j[7];
-    const jg_real A_ij_8 = C_i[2] * C_j[2] + C_i[5] * C_j[5] + C_i[8] * C_j[8];
-    phi_q[26] = A_ij_8;
-    phi_q[42] = -C_j[2];
-    const jg_real A_ij_5 = C_j[1] * C_i[2] + C_j[4] * C_i[5] + C_i[8] * C_j[7];
-    phi_q[23] = A_ij_5;
-    phi_q[43] = -C_j[5];
-    phi_q[44] = -C_j[8];
     const jg_real A_ij_7 = C_i[1] * C_j[2] + C_i[4] * C_j[5] + C_i[7] * C_j[8];
+    const jg_real A_ij_6 = C_i[0] * C_j[2] + C_i[3] * C_j[5] + C_i[6] * C_j[8];
+    const jg_real A_ij_3 = C_j[1] * C_i[0] + C_j[4] * C_i[3] + C_i[6] * C_j[7];
+    phi_q[36] = -C_j[1];
+    phi_q[37] = -C_j[4];
     phi_q[25] = A_ij_7;
+    phi_q[24] = A_ij_6;
+    phi_q[38] = -C_j[7];
+    phi_q[42] = -C_j[2];
+    phi_q[43] = -C_j[5];
+    phi_q[21] = A_ij_3;
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
+    phi_q[44] = -C_j[8];
     phi_q[45] = -C_i[6];
     phi_q[46] = -C_i[7];
-    phi_q[47] = -C_i[8];
-    const jg_real A_ij_6 = C_i[0] * C_j[2] + C_i[3] * C_j[5] + C_i[6] * C_j[8];
-    phi_q[24] = A_ij_6;
-    const jg_real A_ij_3 = C_j[1] * C_i[0] + C_j[4] * C_i[3] + C_i[6] * C_j[7];
-    phi_q[21] = A_ij_3;
-    phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
     phi_q[18] = A_ij_0;
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    phi_q[47] = -C_i[8];
     phi_q[19] = A_ij_1;
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
@@ -189,8 +184,7 @@ void jg_translational_parametric_substituted_phi_q_t_lambda_q_dense(const jg_rea
     jg_scatter(jg_translational_parametric_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_translational_parametric_substituted_gamma(const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_translational_parametric_substituted_gamma(const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const C_j = geometry + 15;
@@ -199,9 +193,6 @@ void jg_translational_parametric_substituted_gamma(const jg_real *JG_RESTRICT ge
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    gamma[3] = JG_REAL(0.0);
-    gamma[4] = JG_REAL(0.0);
-    gamma[5] = JG_REAL(0.0);
     /* omega_j_cross_v_j_in_j = omega_j x v_j, axes of body j */
     const jg_real omega_j_cross_v_j_in_j_0 = omega_j[1] * v_j[2] - omega_j[2] * v_j[1];
     const jg_real omega_j_cross_v_j_in_j_1 = omega_j[2] * v_j[0] - omega_j[0] * v_j[2];
@@ -213,12 +204,12 @@ void jg_translational_parametric_substituted_gamma(const jg_real *JG_RESTRICT ge
     /* v_1_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
     const jg_real v_1_in_i_0 = omega_i[2] * v_0_in_i_1 - omega_i[1] * v_0_in_i_2;
     const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
-    const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
     /* omega_j_cross_v_j_in_joint_i = omega_j x v_j, axes of joint i */
     const jg_real omega_j_cross_v_j_in_joint_i_0 = omega_j_cross_v_j_in_j_0 * C_j[0] + omega_j_cross_v_j_in_j_1 *
         C_j[1] + omega_j_cross_v_j_in_j_2 * C_j[2];
     const jg_real omega_j_cross_v_j_in_joint_i_1 = omega_j_cross_v_j_in_j_0 * C_j[3] + omega_j_cross_v_j_in_j_1 *
         C_j[4] + omega_j_cross_v_j_in_j_2 * C_j[5];
+    const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
     const jg_real omega_j_cross_v_j_in_joint_i_2 = omega_j_cross_v_j_in_j_0 * C_j[6] + omega_j_cross_v_j_in_j_1 *
         C_j[7] + omega_j_cross_v_j_in_j_2 * C_j[8];
     /* omega_j_cross_v_j_in_i = omega_j x v_j, axes of body i */
@@ -228,13 +219,16 @@ void jg_translational_parametric_substituted_gamma(const jg_real *JG_RESTRICT ge
         omega_j_cross_v_j_in_joint_i_1 * C_i[4] + C_i[7] * omega_j_cross_v_j_in_joint_i_2;
     const jg_real omega_j_cross_v_j_in_i_2 = omega_j_cross_v_j_in_joint_i_0 * C_i[2] +
         omega_j_cross_v_j_in_joint_i_1 * C_i[5] + C_i[8] * omega_j_cross_v_j_in_joint_i_2;
+    gamma[3] = JG_REAL(0.0);
+    gamma[4] = JG_REAL(0.0);
+    gamma[5] = JG_REAL(0.0);
     gamma[0] = omega_j_cross_v_j_in_i_0 - v_1_in_i_0;
     gamma[1] = omega_j_cross_v_j_in_i_1 - v_1_in_i_1;
     gamma[2] = omega_j_cross_v_j_in_i_2 - v_1_in_i_2;
 }
 
-void jg_translational_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_translational_parametric_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -247,84 +241,81 @@ void jg_translational_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT 
     const jg_real alphadot = velocity[12];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_3_in_i = alphadot_0 h_i, axes of body i */
-    const jg_real v_3_in_i_0 = C_i[6] * alphadot;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     /* v_0_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[7];
     const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[8];
-    const jg_real v_3_in_i_1 = C_i[7] * alphadot;
-    const jg_real v_3_in_i_2 = C_i[8] * alphadot;
+    /* v_3_in_i = alphadot_0 h_i, axes of body i */
+    const jg_real v_3_in_i_0 = C_i[6] * alphadot;
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     const jg_real v_j_in_joint_i_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real v_j_in_joint_i_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
+    const jg_real v_3_in_i_1 = C_i[7] * alphadot;
+    const jg_real v_3_in_i_2 = C_i[8] * alphadot;
     /* v_1_in_i = s_i x omega_i + alpha_0 h_i x omega_i, axes of body i */
     const jg_real v_1_in_i_0 = omega_i[2] * v_0_in_i_1 - omega_i[1] * v_0_in_i_2;
+    const jg_real v_j_in_joint_i_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* s_j_cross_omega_j_in_joint_i = s_j x omega_j, axes of joint i */
     const jg_real s_j_cross_omega_j_in_joint_i_0 = s_j_cross_omega_j_in_j_0 * C_j[0] + s_j_cross_omega_j_in_j_1 *
         C_j[1] + s_j_cross_omega_j_in_j_2 * C_j[2];
     const jg_real s_j_cross_omega_j_in_joint_i_1 = s_j_cross_omega_j_in_j_0 * C_j[3] + s_j_cross_omega_j_in_j_1 *
         C_j[4] + s_j_cross_omega_j_in_j_2 * C_j[5];
+    const jg_real v_0_in_i_0 = s_i[0] + alpha[0] * C_i[6];
     const jg_real s_j_cross_omega_j_in_joint_i_2 = s_j_cross_omega_j_in_j_0 * C_j[6] + s_j_cross_omega_j_in_j_1 *
         C_j[7] + s_j_cross_omega_j_in_j_2 * C_j[8];
-    /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
-    const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
-    const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_0 = C_i[0] * v_j_in_joint_i_0 + C_i[3] * v_j_in_joint_i_1 + C_i[6] * v_j_in_joint_i_2;
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
+    const jg_real v_1_in_i_1 = omega_i[0] * v_0_in_i_2 - omega_i[2] * v_0_in_i_0;
     const jg_real v_j_in_i_1 = C_i[1] * v_j_in_joint_i_0 + C_i[4] * v_j_in_joint_i_1 + C_i[7] * v_j_in_joint_i_2;
     /* v_2_in_i = v_i - v_j, axes of body i */
     const jg_real v_2_in_i_0 = v_i[0] - v_j_in_i_0;
-    const jg_real v_j_in_i_2 = C_i[2] * v_j_in_joint_i_0 + C_i[5] * v_j_in_joint_i_1 + C_i[8] * v_j_in_joint_i_2;
-    phi_q_v[3] = f_i_dot_omega_i - omega_j_dot_f_j;
-    const jg_real v_2_in_i_1 = v_i[1] - v_j_in_i_1;
-    /* omega_j_dot_g_j = omega_j . g_j */
-    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = s_j_cross_omega_j_in_joint_i_0 * C_i[0] +
         s_j_cross_omega_j_in_joint_i_1 * C_i[3] + C_i[6] * s_j_cross_omega_j_in_joint_i_2;
+    const jg_real v_1_in_i_2 = omega_i[1] * v_0_in_i_0 - omega_i[0] * v_0_in_i_1;
     const jg_real s_j_cross_omega_j_in_i_1 = s_j_cross_omega_j_in_joint_i_0 * C_i[1] +
         s_j_cross_omega_j_in_joint_i_1 * C_i[4] + C_i[7] * s_j_cross_omega_j_in_joint_i_2;
+    const jg_real v_j_in_i_2 = C_i[2] * v_j_in_joint_i_0 + C_i[5] * v_j_in_joint_i_1 + C_i[8] * v_j_in_joint_i_2;
+    const jg_real v_2_in_i_1 = v_i[1] - v_j_in_i_1;
+    /* f_i_dot_omega_i = f_i . omega_i */
+    const jg_real f_i_dot_omega_i = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real s_j_cross_omega_j_in_i_2 = s_j_cross_omega_j_in_joint_i_0 * C_i[2] +
         s_j_cross_omega_j_in_joint_i_1 * C_i[5] + C_i[8] * s_j_cross_omega_j_in_joint_i_2;
     /* v_4_in_i = v_i - v_j + alphadot_0 h_i, axes of body i */
     const jg_real v_4_in_i_0 = v_2_in_i_0 + v_3_in_i_0;
     const jg_real v_2_in_i_2 = v_i[2] - v_j_in_i_2;
     const jg_real v_4_in_i_1 = v_2_in_i_1 + v_3_in_i_1;
-    phi_q_v[4] = g_i_dot_omega_i - omega_j_dot_g_j;
+    /* v_5_in_i = v_i - v_j + alphadot_0 h_i - s_i x omega_i - alpha_0 h_i x omega_i + s_j x omega_j, axes of ... */
+    const jg_real v_5_in_i_0 = s_j_cross_omega_j_in_i_0 - v_1_in_i_0 + v_4_in_i_0;
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    const jg_real v_4_in_i_2 = v_2_in_i_2 + v_3_in_i_2;
+    const jg_real v_5_in_i_1 = s_j_cross_omega_j_in_i_1 - v_1_in_i_1 + v_4_in_i_1;
+    /* g_i_dot_omega_i = g_i . omega_i */
+    const jg_real g_i_dot_omega_i = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
+    const jg_real v_5_in_i_2 = s_j_cross_omega_j_in_i_2 - v_1_in_i_2 + v_4_in_i_2;
+    /* omega_j_dot_g_j = omega_j . g_j */
+    const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    const jg_real v_4_in_i_2 = v_2_in_i_2 + v_3_in_i_2;
-    /* v_5_in_i = v_i - v_j + alphadot_0 h_i - s_i x omega_i - alpha_0 h_i x omega_i + s_j x omega_j, axes of ... */
-    const jg_real v_5_in_i_0 = s_j_cross_omega_j_in_i_0 - v_1_in_i_0 + v_4_in_i_0;
-    const jg_real v_5_in_i_1 = s_j_cross_omega_j_in_i_1 - v_1_in_i_1 + v_4_in_i_1;
-    phi_q_v[5] = h_i_dot_omega_i - omega_j_dot_h_j;
-    const jg_real v_5_in_i_2 = s_j_cross_omega_j_in_i_2 - v_1_in_i_2 + v_4_in_i_2;
     phi_q_v[0] = -v_5_in_i_0;
+    phi_q_v[3] = f_i_dot_omega_i - omega_j_dot_f_j;
     phi_q_v[1] = -v_5_in_i_1;
     phi_q_v[2] = -v_5_in_i_2;
+    phi_q_v[4] = g_i_dot_omega_i - omega_j_dot_g_j;
+    phi_q_v[5] = h_i_dot_omega_i - omega_j_dot_h_j;
 }
 
-void jg_translational_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_translational_parametric_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     /* v_0_in_i = s_i + alpha_0 h_i, axes of body i */
     const jg_real v_0_in_i_1 = s_i[1] + alpha[0] * C_i[7];
     const jg_real v_0_in_i_2 = s_i[2] + alpha[0] * C_i[8];
@@ -335,50 +326,51 @@ void jg_translational_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RE
     const jg_real v_2_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5] + C_i[8] * lambda[5];
     /* lambda_0_1_2_dot_f_i = lambda_0_1_2 . f_i */
     const jg_real lambda_0_1_2_dot_f_i = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
-    /* lambda_0_1_2_dot_g_i = lambda_0_1_2 . g_i */
-    const jg_real lambda_0_1_2_dot_g_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     /* v_1_in_i = s_i x lambda_0_1_2 - alpha_0 lambda_0_1_2 x h_i, axes of body i */
     const jg_real v_1_in_i_0 = lambda[2] * v_0_in_i_1 - lambda[1] * v_0_in_i_2;
     const jg_real v_1_in_i_1 = lambda[0] * v_0_in_i_2 - lambda[2] * v_0_in_i_0;
     const jg_real v_1_in_i_2 = lambda[1] * v_0_in_i_0 - lambda[0] * v_0_in_i_1;
+    /* lambda_0_1_2_dot_g_i = lambda_0_1_2 . g_i */
+    const jg_real lambda_0_1_2_dot_g_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
+    /* v_3_in_i = lambda_3 f_i + lambda_4 g_i + lambda_5 h_i - s_i x lambda_0_1_2 + alpha_0 lambda_0_1_2 x ... */
+    const jg_real v_3_in_i_0 = v_2_in_i_0 - v_1_in_i_0;
+    const jg_real v_3_in_i_1 = v_2_in_i_1 - v_1_in_i_1;
+    const jg_real v_3_in_i_2 = v_2_in_i_2 - v_1_in_i_2;
     /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
     const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     /* v_4_in_j = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of body j */
     const jg_real v_4_in_j_0 = lambda[3] * C_j[0] + lambda[4] * C_j[3] + lambda[5] * C_j[6];
     const jg_real v_4_in_j_1 = lambda[3] * C_j[1] + lambda[4] * C_j[4] + lambda[5] * C_j[7];
-    /* v_3_in_i = lambda_3 f_i + lambda_4 g_i + lambda_5 h_i - s_i x lambda_0_1_2 + alpha_0 lambda_0_1_2 x ... */
-    const jg_real v_3_in_i_0 = v_2_in_i_0 - v_1_in_i_0;
-    phi_q_t_lambda[3] = v_3_in_i_0;
-    const jg_real v_3_in_i_1 = v_2_in_i_1 - v_1_in_i_1;
-    phi_q_t_lambda[4] = v_3_in_i_1;
-    const jg_real v_3_in_i_2 = v_2_in_i_2 - v_1_in_i_2;
-    phi_q_t_lambda[5] = v_3_in_i_2;
-    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
-    const jg_real v_4_in_j_2 = lambda[3] * C_j[2] + lambda[4] * C_j[5] + lambda[5] * C_j[8];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_dot_f_i * C_j[0] + lambda_0_1_2_dot_g_i * C_j[3] +
         lambda_0_1_2_dot_h_i * C_j[6];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[3] = v_3_in_i_0;
+    phi_q_t_lambda[4] = v_3_in_i_1;
+    phi_q_t_lambda[5] = v_3_in_i_2;
+    phi_q_t_lambda[12] = -lambda_0_1_2_dot_h_i;
     phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_dot_f_i * C_j[1] + lambda_0_1_2_dot_g_i * C_j[4] +
         lambda_0_1_2_dot_h_i * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_dot_f_i * C_j[2] + lambda_0_1_2_dot_g_i * C_j[5] +
         lambda_0_1_2_dot_h_i * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    const jg_real v_4_in_j_2 = lambda[3] * C_j[2] + lambda[4] * C_j[5] + lambda[5] * C_j[8];
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_in_j_2 - v_4_in_j_2;
     phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_in_j_0 - v_4_in_j_0;
     phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_in_j_1 - v_4_in_j_1;
-    phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_in_j_2 - v_4_in_j_2;
 }
 
-void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_translational_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -393,21 +385,47 @@ void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i,
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
+    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
+    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    /* g_j_world = g_j, world axes */
+    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
+    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
+    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
+    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
     phi_q[7] = C_i[6];
     phi_q[12] = C_i[7];
     phi_q[17] = C_i[8];
-    /* v_1_in_i = s_i + alpha_0 h_i, axes of body i */
-    const jg_real v_1_in_i_0 = s_i[0] + alpha[0] * C_i[6];
     phi_q[9] = v_1_in_i_0;
-    const jg_real v_1_in_i_1 = s_i[1] + alpha[0] * C_i[7];
     phi_q[13] = v_1_in_i_1;
-    const jg_real v_1_in_i_2 = s_i[2] + alpha[0] * C_i[8];
     phi_q[3] = v_1_in_i_2;
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     phi_q[6] = C_i[3];
+    phi[0] = v_2_in_i_0;
+    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
+    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    phi[1] = v_2_in_i_1;
+    phi[2] = v_2_in_i_2;
     phi_q[11] = C_i[4];
     phi_q[16] = C_i[5];
     phi_q[5] = C_i[0];
@@ -416,103 +434,77 @@ void jg_translational_parametric_substituted_all(const jg_real *JG_RESTRICT r_i,
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    phi_q[4] = -v_1_in_i_1;
-    phi_q[8] = -v_1_in_i_2;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi_q[14] = -v_1_in_i_0;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    /* g_j_world = g_j, world axes */
-    const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = C_j[1] * C_i[1] + C_i[4] * C_j[4] + C_i[7] * C_j[7];
-    phi_q[22] = A_ij_4;
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    const jg_real A_ij_8 = C_j[2] * C_i[2] + C_i[5] * C_j[5] + C_i[8] * C_j[8];
-    phi_q[26] = A_ij_8;
-    /* v_2_in_i = r_j + s_j - r_i - s_i - alpha_0 h_i, axes of body i */
-    const jg_real v_2_in_i_0 = e_ij_in_i_0 - v_1_in_i_0;
-    phi[0] = v_2_in_i_0;
-    const jg_real v_2_in_i_1 = e_ij_in_i_1 - v_1_in_i_1;
-    phi[1] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = e_ij_in_i_2 - v_1_in_i_2;
-    phi[2] = v_2_in_i_2;
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
-    const jg_real A_ij_5 = C_j[1] * C_i[2] + C_i[5] * C_j[4] + C_i[8] * C_j[7];
-    phi_q[23] = A_ij_5;
-    phi_q[30] = -C_j[0];
-    const jg_real A_ij_7 = C_j[2] * C_i[1] + C_i[4] * C_j[5] + C_i[7] * C_j[8];
-    phi_q[25] = A_ij_7;
-    phi_q[31] = -C_j[3];
-    phi_q[32] = -C_j[6];
-    phi_q[36] = -C_j[1];
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = C_j[1] * C_i[1] + C_i[4] * C_j[4] + C_i[7] * C_j[7];
+    const jg_real A_ij_8 = C_j[2] * C_i[2] + C_i[5] * C_j[5] + C_i[8] * C_j[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    phi_q[37] = -C_j[4];
-    phi_q[38] = -C_j[7];
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
-    const jg_real A_ij_6 = C_j[2] * C_i[0] + C_i[3] * C_j[5] + C_i[6] * C_j[8];
-    phi_q[24] = A_ij_6;
-    const jg_real A_ij_3 = C_j[1] * C_i[0] + C_i[3] * C_j[4] + C_i[6] * C_j[7];
-    phi_q[21] = A_ij_3;
+    const jg_real A_ij_5 = C_j[1] * C_i[2] + C_i[5] * C_j[4] + C_i[8] * C_j[7];
+    const jg_real A_ij_7 = C_j[2] * C_i[1] + C_i[4] * C_j[5] + C_i[7] * C_j[8];
     /* h_i_dot_f_j = h_i . f_j */
     const jg_real h_i_dot_f_j = C_i[6] * f_j_in_i_0 + C_i[7] * f_j_in_i_1 + C_i[8] * f_j_in_i_2;
+    phi_q[4] = -v_1_in_i_1;
+    phi_q[8] = -v_1_in_i_2;
+    phi_q[14] = -v_1_in_i_0;
+    phi_q[22] = A_ij_4;
+    phi_q[26] = A_ij_8;
+    phi_q[23] = A_ij_5;
+    phi_q[25] = A_ij_7;
     phi[4] = h_i_dot_f_j;
+    /* f_i_dot_g_j = f_i . g_j */
+    const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
+    const jg_real A_ij_6 = C_j[2] * C_i[0] + C_i[3] * C_j[5] + C_i[6] * C_j[8];
+    phi[5] = f_i_dot_g_j;
+    phi_q[30] = -C_j[0];
+    phi_q[31] = -C_j[3];
+    phi_q[32] = -C_j[6];
+    phi_q[24] = A_ij_6;
+    phi_q[36] = -C_j[1];
     phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    phi_q[37] = -C_j[4];
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_3 = C_j[1] * C_i[0] + C_i[3] * C_j[4] + C_i[6] * C_j[7];
+    /* g_i_dot_h_j = g_i . h_j */
+    const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    phi_q[18] = A_ij_0;
+    phi_q[21] = A_ij_3;
+    phi[3] = g_i_dot_h_j;
+    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    phi_q[38] = -C_j[7];
     phi_q[42] = -C_j[2];
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
-    /* f_i_dot_g_j = f_i . g_j */
-    const jg_real f_i_dot_g_j = g_j_in_i_0 * C_i[0] + g_j_in_i_1 * C_i[1] + g_j_in_i_2 * C_i[2];
-    phi[5] = f_i_dot_g_j;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[45] = -C_i[6];
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    phi_q[18] = A_ij_0;
-    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     phi_q[46] = -C_i[7];
     phi_q[47] = -C_i[8];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
+    phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    /* g_i_dot_h_j = g_i . h_j */
-    const jg_real g_i_dot_h_j = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
-    phi[3] = g_i_dot_h_j;
-    phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
-    phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
-    phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
     /* omega_j_cross_v_j_in_j = omega_j x v_j, axes of body j */
     const jg_real omega_j_cross_v_j_in_j_0 = omega_j[1] * v_j[2] - omega_j[2] * v_j[1];
     const jg_real omega_j_cross_v_j_in_j_1 = omega_j[2] * v_j[0] - omega_j[0] * v_j[2];
+    phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
+    phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
+    phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
+    phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     gamma[3] = JG_REAL(0.0);
     gamma[4] = JG_REAL(0.0);
     gamma[5] = JG_REAL(0.0);
     const jg_real omega_j_cross_v_j_in_j_2 = omega_j[0] * v_j[1] - omega_j[1] * v_j[0];
-    phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     const jg_real t48 = C_i[7] * alphadot - v_i[1];
     const jg_real t49 = C_i[8] * alphadot - v_i[2];
     const jg_real t50 = C_i[6] * alphadot - v_i[0];

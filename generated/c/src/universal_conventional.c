@@ -4,10 +4,6 @@
  * joint universal, form conventional, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/universal.h"
 
 const int *jg_universal_conventional_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_universal_conventional_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT phi)
+void jg_universal_conventional_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -46,75 +41,67 @@ void jg_universal_conventional_phi(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     /* v_0_world = r_ij - s_i, world axes */
     const jg_real v_0_world_0 = r_ij_world_0 - s_i_world_0;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
     const jg_real v_0_world_1 = r_ij_world_1 - s_i_world_1;
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* d_ij_world = r_ij + s_j - s_i, world axes */
     const jg_real d_ij_world_0 = v_0_world_0 + s_j_world_0;
-    phi[0] = d_ij_world_0;
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real v_0_world_2 = r_ij_world_2 - s_i_world_2;
     const jg_real d_ij_world_1 = v_0_world_1 + s_j_world_1;
-    phi[1] = d_ij_world_1;
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real d_ij_world_2 = v_0_world_2 + s_j_world_2;
-    phi[2] = d_ij_world_2;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     /* h_i_dot_h_j = h_i . h_j */
     const jg_real h_i_dot_h_j = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
+    phi[2] = d_ij_world_2;
     phi[3] = h_i_dot_h_j;
 }
 
-void jg_universal_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_universal_conventional_phi_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     phi_q[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
     phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     phi_q[7] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     phi_q[8] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* h_j_cross_h_i_world = h_j x h_i, world axes */
+    const jg_real h_j_cross_h_i_world_0 = h_j_world_1 * h_i_world_2 - h_j_world_2 * h_i_world_1;
+    phi_q[9] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
+    phi_q[11] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
     phi_q[15] = JG_REAL(1.0);
     phi_q[16] = JG_REAL(1.0);
     phi_q[17] = JG_REAL(1.0);
-    phi_q[9] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    phi_q[11] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     phi_q[12] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     phi_q[13] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
     phi_q[18] = s_j[1] * A_j[6] - s_j[2] * A_j[3];
-    phi_q[19] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
-    phi_q[20] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
-    /* h_j_cross_h_i_world = h_j x h_i, world axes */
-    const jg_real h_j_cross_h_i_world_0 = h_j_world_1 * h_i_world_2 - h_j_world_2 * h_i_world_1;
-    phi_q[22] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
-    phi_q[23] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
-    phi_q[24] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
     const jg_real h_j_cross_h_i_world_1 = h_j_world_2 * h_i_world_0 - h_j_world_0 * h_i_world_2;
     const jg_real h_j_cross_h_i_world_2 = h_j_world_0 * h_i_world_1 - h_j_world_1 * h_i_world_0;
-    phi_q[26] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
-    phi_q[27] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
-    phi_q[28] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
     /* h_j_cross_h_i_in_i = h_j x h_i, axes of body i */
     const jg_real h_j_cross_h_i_in_i_0 = A_i[0] * h_j_cross_h_i_world_0 + A_i[1] * h_j_cross_h_i_world_1 + A_i[2] *
         h_j_cross_h_i_world_2;
@@ -125,16 +112,24 @@ void jg_universal_conventional_phi_q_nz(const jg_real *JG_RESTRICT A_i, const jg
     /* h_j_cross_h_i_in_j = h_j x h_i, axes of body j */
     const jg_real h_j_cross_h_i_in_j_0 = A_j[0] * h_j_cross_h_i_world_0 + A_j[1] * h_j_cross_h_i_world_1 + A_j[2] *
         h_j_cross_h_i_world_2;
+    phi_q[19] = s_j[1] * A_j[7] - s_j[2] * A_j[4];
+    phi_q[20] = s_j[1] * A_j[8] - s_j[2] * A_j[5];
+    phi_q[22] = s_j[2] * A_j[0] - s_j[0] * A_j[6];
+    phi_q[23] = s_j[2] * A_j[1] - s_j[0] * A_j[7];
+    phi_q[24] = s_j[2] * A_j[2] - s_j[0] * A_j[8];
+    phi_q[26] = s_j[0] * A_j[3] - s_j[1] * A_j[0];
+    phi_q[27] = s_j[0] * A_j[4] - s_j[1] * A_j[1];
     phi_q[21] = h_j_cross_h_i_in_j_0;
     const jg_real h_j_cross_h_i_in_j_1 = A_j[3] * h_j_cross_h_i_world_0 + A_j[4] * h_j_cross_h_i_world_1 + A_j[5] *
         h_j_cross_h_i_world_2;
-    phi_q[25] = h_j_cross_h_i_in_j_1;
     const jg_real h_j_cross_h_i_in_j_2 = A_j[6] * h_j_cross_h_i_world_0 + A_j[7] * h_j_cross_h_i_world_1 + A_j[8] *
         h_j_cross_h_i_world_2;
-    phi_q[29] = h_j_cross_h_i_in_j_2;
+    phi_q[28] = s_j[0] * A_j[5] - s_j[1] * A_j[2];
+    phi_q[25] = h_j_cross_h_i_in_j_1;
     phi_q[6] = -h_j_cross_h_i_in_i_0;
     phi_q[10] = -h_j_cross_h_i_in_i_1;
     phi_q[14] = -h_j_cross_h_i_in_i_2;
+    phi_q[29] = h_j_cross_h_i_in_j_2;
 }
 
 void jg_universal_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
@@ -145,8 +140,8 @@ void jg_universal_conventional_phi_q_dense(const jg_real *JG_RESTRICT A_i, const
     jg_scatter(jg_universal_conventional_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_universal_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_universal_conventional_phi_q_t_lambda_q_nz(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -154,108 +149,108 @@ void jg_universal_conventional_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT A_
     const jg_real *const C_j = geometry + 15;
     /* v_0_in_i = lambda_3 h_i, axes of body i */
     const jg_real v_0_in_i_1 = lambda[3] * C_i[7];
-    const jg_real v_0_in_i_2 = lambda[3] * C_i[8];
-    const jg_real v_0_in_i_0 = lambda[3] * C_i[6];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real v_0_in_i_2 = lambda[3] * C_i[8];
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
+    const jg_real v_0_in_i_0 = lambda[3] * C_i[6];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
-    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real t15 = v_0_in_i_1 * h_j_in_i_1;
     const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
-    const jg_real t17 = v_0_in_i_1 * h_j_in_i_1;
-    const jg_real t18 = v_0_in_i_2 * h_j_in_i_2;
     /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_3 h_i) h_j^T; rows in axes of body i, columns in axes of body i */
-    const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - t17;
-    phi_q_t_lambda_q[1] = v_0_in_i_0 * h_j_in_i_1 - s_i[0] * lambda_0_1_2_in_i_1;
-    phi_q_t_lambda_q[13] = v_0_in_i_2 * h_j_in_i_1 - s_i[2] * lambda_0_1_2_in_i_1;
-    const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - t18;
-    phi_q_t_lambda_q[2] = v_0_in_i_0 * h_j_in_i_2 - s_i[0] * lambda_0_1_2_in_i_2;
-    phi_q_t_lambda_q[8] = v_0_in_i_1 * h_j_in_i_2 - s_i[1] * lambda_0_1_2_in_i_2;
-    const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
+    const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - t15;
+    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
+    const jg_real t19 = v_0_in_i_2 * h_j_in_i_2;
+    const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - t19;
     /* v_0_in_j = lambda_3 h_i, axes of body j */
+    const jg_real v_0_in_j_2 = v_0_in_i_0 * A_ji_2 + v_0_in_i_1 * A_ji_5 + v_0_in_i_2 * A_ji_8;
+    const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
     const jg_real v_0_in_j_0 = v_0_in_i_0 * A_ji_0 + v_0_in_i_1 * A_ji_3 + v_0_in_i_2 * A_ji_6;
     const jg_real v_0_in_j_1 = v_0_in_i_0 * A_ji_1 + v_0_in_i_1 * A_ji_4 + v_0_in_i_2 * A_ji_7;
-    const jg_real v_0_in_j_2 = v_0_in_i_0 * A_ji_2 + v_0_in_i_1 * A_ji_5 + v_0_in_i_2 * A_ji_8;
+    /* M_1_i_j = (lambda_3 h_j) h_i^T; rows in axes of body i, columns in axes of body j */
+    const jg_real M_1_i_j_5 = h_j_in_i_1 * v_0_in_j_2;
+    const jg_real M_1_i_j_8 = h_j_in_i_2 * v_0_in_j_2;
+    const jg_real t27 = v_0_in_i_0 * h_j_in_i_0;
+    const jg_real M_1_i_j_0 = h_j_in_i_0 * v_0_in_j_0;
+    const jg_real M_1_i_j_2 = h_j_in_i_0 * v_0_in_j_2;
+    const jg_real M_1_i_j_1 = h_j_in_i_0 * v_0_in_j_1;
+    const jg_real M_1_i_j_3 = h_j_in_i_1 * v_0_in_j_0;
+    const jg_real M_1_i_j_4 = h_j_in_i_1 * v_0_in_j_1;
+    const jg_real M_1_i_j_6 = h_j_in_i_2 * v_0_in_j_0;
+    const jg_real M_1_i_j_7 = h_j_in_i_2 * v_0_in_j_1;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - t27;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_i_0 * A_ji_1 + lambda_0_1_2_in_i_1 * A_ji_4 +
         lambda_0_1_2_in_i_2 * A_ji_7;
+    const jg_real t37 = t27 + t15 + t19;
+    phi_q_t_lambda_q[1] = v_0_in_i_0 * h_j_in_i_1 - s_i[0] * lambda_0_1_2_in_i_1;
+    phi_q_t_lambda_q[13] = v_0_in_i_2 * h_j_in_i_1 - s_i[2] * lambda_0_1_2_in_i_1;
+    phi_q_t_lambda_q[2] = v_0_in_i_0 * h_j_in_i_2 - s_i[0] * lambda_0_1_2_in_i_2;
+    phi_q_t_lambda_q[8] = v_0_in_i_1 * h_j_in_i_2 - s_i[1] * lambda_0_1_2_in_i_2;
+    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
+    phi_q_t_lambda_q[6] = v_0_in_i_1 * h_j_in_i_0 - s_i[1] * lambda_0_1_2_in_i_0;
+    phi_q_t_lambda_q[12] = v_0_in_i_2 * h_j_in_i_0 - s_i[2] * lambda_0_1_2_in_i_0;
+    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_i_0 * A_ji_2 + lambda_0_1_2_in_i_1 * A_ji_5 +
         lambda_0_1_2_in_i_2 * A_ji_8;
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_i_0 * A_ji_0 + lambda_0_1_2_in_i_1 * A_ji_3 +
         lambda_0_1_2_in_i_2 * A_ji_6;
-    phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
-    const jg_real t28 = v_0_in_i_0 * h_j_in_i_0;
-    /* M_1_i_j = (lambda_3 h_j) h_i^T; rows in axes of body i, columns in axes of body j */
-    const jg_real M_1_i_j_0 = h_j_in_i_0 * v_0_in_j_0;
-    const jg_real M_1_i_j_1 = h_j_in_i_0 * v_0_in_j_1;
-    const jg_real M_1_i_j_2 = h_j_in_i_0 * v_0_in_j_2;
-    const jg_real M_1_i_j_3 = h_j_in_i_1 * v_0_in_j_0;
-    const jg_real M_1_i_j_4 = h_j_in_i_1 * v_0_in_j_1;
-    const jg_real M_1_i_j_5 = h_j_in_i_1 * v_0_in_j_2;
-    const jg_real M_1_i_j_6 = h_j_in_i_2 * v_0_in_j_0;
-    const jg_real M_1_i_j_7 = h_j_in_i_2 * v_0_in_j_1;
-    const jg_real M_1_i_j_8 = h_j_in_i_2 * v_0_in_j_2;
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - t28;
-    phi_q_t_lambda_q[6] = v_0_in_i_1 * h_j_in_i_0 - s_i[1] * lambda_0_1_2_in_i_0;
-    phi_q_t_lambda_q[12] = v_0_in_i_2 * h_j_in_i_0 - s_i[2] * lambda_0_1_2_in_i_0;
     /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_3 h_j) h_i^T; rows in axes of body j, columns in axes of body j */
     const jg_real M_2_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[7] * v_0_in_j_1;
-    const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[8] * v_0_in_j_2;
-    const jg_real t41 = t28 + t17 + t18;
-    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
-    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
     const jg_real M_2_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[6] * v_0_in_j_1;
+    const jg_real t42 = A_ji_0 * t37 - M_1_i_j_0;
+    const jg_real t43 = A_ji_1 * t37 - M_1_i_j_1;
+    const jg_real t44 = A_ji_2 * t37 - M_1_i_j_2;
+    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
     phi_q_t_lambda_q[22] = M_2_j_j_1;
+    phi_q_t_lambda_q[3] = t42;
+    phi_q_t_lambda_q[18] = t42;
+    phi_q_t_lambda_q[4] = t43;
+    phi_q_t_lambda_q[24] = t43;
+    phi_q_t_lambda_q[5] = t44;
+    phi_q_t_lambda_q[30] = t44;
+    const jg_real t45 = A_ji_3 * t37 - M_1_i_j_3;
+    const jg_real t46 = A_ji_4 * t37 - M_1_i_j_4;
+    const jg_real t47 = A_ji_5 * t37 - M_1_i_j_5;
+    const jg_real t48 = A_ji_6 * t37 - M_1_i_j_6;
+    phi_q_t_lambda_q[9] = t45;
+    phi_q_t_lambda_q[19] = t45;
+    phi_q_t_lambda_q[10] = t46;
+    phi_q_t_lambda_q[25] = t46;
+    phi_q_t_lambda_q[11] = t47;
+    phi_q_t_lambda_q[31] = t47;
+    phi_q_t_lambda_q[15] = t48;
+    phi_q_t_lambda_q[20] = t48;
+    const jg_real t49 = A_ji_7 * t37 - M_1_i_j_7;
+    const jg_real t50 = A_ji_8 * t37 - M_1_i_j_8;
+    const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[8] * v_0_in_j_2;
     const jg_real M_2_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[6] * v_0_in_j_2;
-    phi_q_t_lambda_q[23] = M_2_j_j_2;
     const jg_real M_2_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[7] * v_0_in_j_0;
-    phi_q_t_lambda_q[27] = M_2_j_j_3;
     const jg_real M_2_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[6] * v_0_in_j_0;
     const jg_real M_2_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[7] * v_0_in_j_2;
-    phi_q_t_lambda_q[29] = M_2_j_j_5;
     const jg_real M_2_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[8] * v_0_in_j_0;
+    phi_q_t_lambda_q[16] = t49;
+    phi_q_t_lambda_q[26] = t49;
+    phi_q_t_lambda_q[17] = t50;
+    phi_q_t_lambda_q[32] = t50;
+    phi_q_t_lambda_q[23] = M_2_j_j_2;
+    phi_q_t_lambda_q[27] = M_2_j_j_3;
+    phi_q_t_lambda_q[29] = M_2_j_j_5;
     phi_q_t_lambda_q[33] = M_2_j_j_6;
     const jg_real M_2_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[8] * v_0_in_j_1;
     phi_q_t_lambda_q[34] = M_2_j_j_7;
     phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
-    const jg_real t49 = A_ji_0 * t41 - M_1_i_j_0;
-    phi_q_t_lambda_q[3] = t49;
-    phi_q_t_lambda_q[18] = t49;
-    const jg_real t50 = A_ji_1 * t41 - M_1_i_j_1;
-    phi_q_t_lambda_q[4] = t50;
-    phi_q_t_lambda_q[24] = t50;
-    const jg_real t51 = A_ji_2 * t41 - M_1_i_j_2;
-    phi_q_t_lambda_q[5] = t51;
-    phi_q_t_lambda_q[30] = t51;
-    const jg_real t52 = A_ji_3 * t41 - M_1_i_j_3;
-    phi_q_t_lambda_q[9] = t52;
-    phi_q_t_lambda_q[19] = t52;
-    const jg_real t53 = A_ji_4 * t41 - M_1_i_j_4;
-    phi_q_t_lambda_q[10] = t53;
-    phi_q_t_lambda_q[25] = t53;
-    const jg_real t54 = A_ji_5 * t41 - M_1_i_j_5;
-    phi_q_t_lambda_q[11] = t54;
-    phi_q_t_lambda_q[31] = t54;
-    const jg_real t55 = A_ji_6 * t41 - M_1_i_j_6;
-    phi_q_t_lambda_q[15] = t55;
-    phi_q_t_lambda_q[20] = t55;
-    const jg_real t56 = A_ji_7 * t41 - M_1_i_j_7;
-    phi_q_t_lambda_q[16] = t56;
-    phi_q_t_lambda_q[26] = t56;
-    const jg_real t57 = A_ji_8 * t41 - M_1_i_j_8;
-    phi_q_t_lambda_q[17] = t57;
-    phi_q_t_lambda_q[32] = t57;
     phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
     phi_q_t_lambda_q[35] = -(M_2_j_j_0 + M_2_j_j_4);
 }
@@ -269,8 +264,8 @@ void jg_universal_conventional_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
     jg_scatter(jg_universal_conventional_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_universal_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_universal_conventional_gamma(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -293,61 +288,61 @@ void jg_universal_conventional_gamma(const jg_real *JG_RESTRICT A_i, const jg_re
     /* omega_i_world = omega_i, world axes */
     const jg_real omega_i_world_0 = omega_i[0] * A_i[0] + omega_i[1] * A_i[3] + omega_i[2] * A_i[6];
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
-    const jg_real omega_i_world_1 = omega_i[0] * A_i[1] + omega_i[1] * A_i[4] + omega_i[2] * A_i[7];
-    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
-    const jg_real omega_i_world_2 = omega_i[0] * A_i[2] + omega_i[1] * A_i[5] + omega_i[2] * A_i[8];
     /* s_j_dot_omega_j = s_j . omega_j */
     const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j_world_0 + s_j_world_1 * omega_j_world_1 + s_j_world_2 *
         omega_j_world_2;
+    const jg_real omega_i_world_1 = omega_i[0] * A_i[1] + omega_i[1] * A_i[4] + omega_i[2] * A_i[7];
+    const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
+    const jg_real omega_i_world_2 = omega_i[0] * A_i[2] + omega_i[1] * A_i[5] + omega_i[2] * A_i[8];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
+    /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
+    const jg_real v_1_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_j_world_0 * s_j_dot_omega_j;
+    const jg_real v_1_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_j_world_1 * s_j_dot_omega_j;
+    const jg_real v_1_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_j_world_2 * s_j_dot_omega_j;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
-    const jg_real v_1_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_j_world_0 * s_j_dot_omega_j;
     /* s_i_dot_omega_i = s_i . omega_i */
     const jg_real s_i_dot_omega_i = s_i_world_0 * omega_i_world_0 + s_i_world_1 * omega_i_world_1 + s_i_world_2 *
         omega_i_world_2;
-    const jg_real v_1_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_j_world_1 * s_j_dot_omega_j;
-    const jg_real v_1_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_j_world_2 * s_j_dot_omega_j;
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    /* omega_j_dot_omega_i = omega_j . omega_i */
-    const jg_real omega_j_dot_omega_i = omega_i_world_0 * omega_j_world_0 + omega_i_world_1 * omega_j_world_1 +
-        omega_i_world_2 * omega_j_world_2;
     /* v_0_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
     const jg_real v_0_world_0 = omega_i_dot_omega_i * s_i_world_0 - omega_i_world_0 * s_i_dot_omega_i;
     const jg_real v_0_world_1 = omega_i_dot_omega_i * s_i_world_1 - omega_i_world_1 * s_i_dot_omega_i;
     const jg_real v_0_world_2 = omega_i_dot_omega_i * s_i_world_2 - omega_i_world_2 * s_i_dot_omega_i;
-    /* omega_j_dot_h_j = omega_j . h_j */
-    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    /* omega_j_dot_omega_i = omega_j . omega_i */
+    const jg_real omega_j_dot_omega_i = omega_i_world_0 * omega_j_world_0 + omega_i_world_1 * omega_j_world_1 +
+        omega_i_world_2 * omega_j_world_2;
+    /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
+    const jg_real v_2_world_0 = v_1_world_0 - v_0_world_0;
+    const jg_real v_2_world_1 = v_1_world_1 - v_0_world_1;
+    const jg_real v_2_world_2 = v_1_world_2 - v_0_world_2;
     /* omega_j_dot_h_i = omega_j . h_i */
     const jg_real omega_j_dot_h_i = omega_j_world_0 * h_i_world_0 + omega_j_world_1 * h_i_world_1 + omega_j_world_2
         * h_i_world_2;
-    /* omega_i_dot_h_i = omega_i . h_i */
-    const jg_real omega_i_dot_h_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     /* h_i_dot_h_j = h_i . h_j */
     const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = omega_i_world_0 * h_j_world_0 + omega_i_world_1 * h_j_world_1 + omega_i_world_2
         * h_j_world_2;
-    /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
-    const jg_real v_2_world_0 = v_1_world_0 - v_0_world_0;
+    /* omega_j_dot_h_j = omega_j . h_j */
+    const jg_real omega_j_dot_h_j = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
+    /* omega_i_dot_h_i = omega_i . h_i */
+    const jg_real omega_i_dot_h_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     gamma[0] = v_2_world_0;
-    const jg_real v_2_world_1 = v_1_world_1 - v_0_world_1;
     gamma[1] = v_2_world_1;
-    const jg_real v_2_world_2 = v_1_world_2 - v_0_world_2;
     gamma[2] = v_2_world_2;
     gamma[3] = h_i_dot_h_j * (omega_i_dot_omega_i + omega_j_dot_omega_j - omega_j_dot_omega_i * JG_REAL(2.0)) +
         omega_j_dot_h_i * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) - omega_i_dot_h_j * omega_i_dot_h_i;
 }
 
-void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_universal_conventional_phi_q_v(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -365,39 +360,36 @@ void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* s_i_cross_omega_i_world = s_i x omega_i, world axes */
     const jg_real s_i_cross_omega_i_world_0 = s_i_cross_omega_i_in_i_0 * A_i[0] + s_i_cross_omega_i_in_i_1 * A_i[3]
         + s_i_cross_omega_i_in_i_2 * A_i[6];
     const jg_real s_i_cross_omega_i_world_1 = s_i_cross_omega_i_in_i_0 * A_i[1] + s_i_cross_omega_i_in_i_1 * A_i[4]
         + s_i_cross_omega_i_in_i_2 * A_i[7];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     /* s_j_cross_omega_j_world = s_j x omega_j, world axes */
     const jg_real s_j_cross_omega_j_world_0 = s_j_cross_omega_j_in_j_0 * A_j[0] + s_j_cross_omega_j_in_j_1 * A_j[3]
         + s_j_cross_omega_j_in_j_2 * A_j[6];
     const jg_real s_j_cross_omega_j_world_1 = s_j_cross_omega_j_in_j_0 * A_j[1] + s_j_cross_omega_j_in_j_1 * A_j[4]
         + s_j_cross_omega_j_in_j_2 * A_j[7];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real s_i_cross_omega_i_world_2 = s_i_cross_omega_i_in_i_0 * A_i[2] + s_i_cross_omega_i_in_i_1 * A_i[5]
         + s_i_cross_omega_i_in_i_2 * A_i[8];
     const jg_real s_j_cross_omega_j_world_2 = s_j_cross_omega_j_in_j_0 * A_j[2] + s_j_cross_omega_j_in_j_1 * A_j[5]
         + s_j_cross_omega_j_in_j_2 * A_j[8];
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     /* v_0_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
     const jg_real v_0_world_0 = v_j[0] - v_i[0] - s_j_cross_omega_j_world_0 + s_i_cross_omega_i_world_0;
-    phi_q_v[0] = v_0_world_0;
     const jg_real v_0_world_1 = v_j[1] - v_i[1] - s_j_cross_omega_j_world_1 + s_i_cross_omega_i_world_1;
-    phi_q_v[1] = v_0_world_1;
-    /* h_i_cross_h_j_world = h_i x h_j, world axes */
-    const jg_real h_i_cross_h_j_world_0 = h_i_world_1 * h_j_world_2 - h_i_world_2 * h_j_world_1;
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     /* omega_j_world = omega_j, world axes */
     const jg_real omega_j_world_0 = omega_j[0] * A_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
-    const jg_real v_0_world_2 = v_j[2] - v_i[2] - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
-    phi_q_v[2] = v_0_world_2;
+    /* h_i_cross_h_j_world = h_i x h_j, world axes */
+    const jg_real h_i_cross_h_j_world_0 = h_i_world_1 * h_j_world_2 - h_i_world_2 * h_j_world_1;
     const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
     const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
     const jg_real h_i_cross_h_j_world_1 = h_i_world_2 * h_j_world_0 - h_i_world_0 * h_j_world_2;
@@ -409,24 +401,21 @@ void jg_universal_conventional_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg_
         h_i_cross_h_j_world_2;
     const jg_real h_i_cross_h_j_in_i_2 = A_i[6] * h_i_cross_h_j_world_0 + A_i[7] * h_i_cross_h_j_world_1 + A_i[8] *
         h_i_cross_h_j_world_2;
+    phi_q_v[0] = v_0_world_0;
+    phi_q_v[1] = v_0_world_1;
+    phi_q_v[2] = v_0_world_2;
     phi_q_v[3] = omega_i[0] * h_i_cross_h_j_in_i_0 + omega_i[1] * h_i_cross_h_j_in_i_1 + omega_i[2] *
         h_i_cross_h_j_in_i_2 - (h_i_cross_h_j_world_0 * omega_j_world_0 + h_i_cross_h_j_world_1 * omega_j_world_1 +
         h_i_cross_h_j_world_2 * omega_j_world_2);
 }
 
-void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_universal_conventional_phi_q_t_lambda(const jg_real *A_i, const jg_real *A_j, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[6] = lambda[0];
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[7] = lambda[1];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[8] = lambda[2];
-    phi_q_t_lambda[2] = -lambda[2];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
     /* h_i_world = h_i, world axes */
@@ -438,27 +427,25 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
     const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
-    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     /* h_j_cross_h_i_world = h_j x h_i, world axes */
     const jg_real h_j_cross_h_i_world_0 = h_j_world_1 * h_i_world_2 - h_j_world_2 * h_i_world_1;
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
     const jg_real h_j_cross_h_i_world_1 = h_j_world_2 * h_i_world_0 - h_j_world_0 * h_i_world_2;
     const jg_real h_j_cross_h_i_world_2 = h_j_world_0 * h_i_world_1 - h_j_world_1 * h_i_world_0;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
-    /* s_i_cross_lambda_0_1_2_in_i = s_i x lambda_0_1_2, axes of body i */
-    const jg_real s_i_cross_lambda_0_1_2_in_i_0 = s_i[1] * lambda_0_1_2_in_i_2 - s_i[2] * lambda_0_1_2_in_i_1;
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     /* v_0_world = lambda_3 h_j x h_i, world axes */
     const jg_real v_0_world_0 = lambda[3] * h_j_cross_h_i_world_0;
-    const jg_real s_i_cross_lambda_0_1_2_in_i_1 = s_i[2] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    /* s_i_cross_lambda_0_1_2_in_i = s_i x lambda_0_1_2, axes of body i */
+    const jg_real s_i_cross_lambda_0_1_2_in_i_0 = s_i[1] * lambda_0_1_2_in_i_2 - s_i[2] * lambda_0_1_2_in_i_1;
     const jg_real v_0_world_1 = lambda[3] * h_j_cross_h_i_world_1;
     const jg_real v_0_world_2 = lambda[3] * h_j_cross_h_i_world_2;
+    const jg_real s_i_cross_lambda_0_1_2_in_i_1 = s_i[2] * lambda_0_1_2_in_i_0 - s_i[0] * lambda_0_1_2_in_i_2;
     const jg_real s_i_cross_lambda_0_1_2_in_i_2 = s_i[0] * lambda_0_1_2_in_i_1 - s_i[1] * lambda_0_1_2_in_i_0;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     /* v_0_in_i = lambda_3 h_j x h_i, axes of body i */
     const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
@@ -466,27 +453,34 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
     /* v_0_in_j = lambda_3 h_j x h_i, axes of body j */
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     /* v_1_in_i = s_i x lambda_0_1_2 + lambda_3 h_j x h_i, axes of body i */
     const jg_real v_1_in_i_0 = s_i_cross_lambda_0_1_2_in_i_0 + v_0_in_i_0;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real v_1_in_i_1 = s_i_cross_lambda_0_1_2_in_i_1 + v_0_in_i_1;
     const jg_real v_1_in_i_2 = s_i_cross_lambda_0_1_2_in_i_2 + v_0_in_i_2;
+    const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
     /* v_2_in_j = lambda_3 h_j x h_i + s_j x lambda_0_1_2, axes of body j */
     const jg_real v_2_in_j_0 = v_0_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda[9] = v_2_in_j_0;
     const jg_real v_2_in_j_1 = v_0_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[6] = lambda[0];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[7] = lambda[1];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[8] = lambda[2];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[9] = v_2_in_j_0;
     phi_q_t_lambda[10] = v_2_in_j_1;
     const jg_real v_2_in_j_2 = v_0_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2;
-    phi_q_t_lambda[11] = v_2_in_j_2;
     phi_q_t_lambda[3] = -v_1_in_i_0;
     phi_q_t_lambda[4] = -v_1_in_i_1;
     phi_q_t_lambda[5] = -v_1_in_i_2;
+    phi_q_t_lambda[11] = v_2_in_j_2;
 }
 
-void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi,
-    jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q, jg_real *JG_RESTRICT gamma)
+void jg_universal_conventional_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi, jg_real *phi_q,
+    jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -506,157 +500,156 @@ void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real s_i_world_1 = s_i[0] * A_i[1] + s_i[1] * A_i[4] + s_i[2] * A_i[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real s_i_world_2 = s_i[0] * A_i[2] + s_i[1] * A_i[5] + s_i[2] * A_i[8];
+    /* d_ij_world = r_ij + s_j - s_i, world axes */
+    const jg_real d_ij_world_0 = s_j_world_0 + r_ij_world_0 - s_i_world_0;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real d_ij_world_1 = s_j_world_1 + r_ij_world_1 - s_i_world_1;
+    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real d_ij_world_2 = s_j_world_2 + r_ij_world_2 - s_i_world_2;
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    phi[0] = d_ij_world_0;
+    phi[1] = d_ij_world_1;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
-    const jg_real A_ij_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    /* d_ij_world = r_ij + s_j - s_i, world axes */
-    const jg_real d_ij_world_0 = r_ij_world_0 + s_j_world_0 - s_i_world_0;
-    phi[0] = d_ij_world_0;
-    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    const jg_real d_ij_world_1 = r_ij_world_1 + s_j_world_1 - s_i_world_1;
-    phi[1] = d_ij_world_1;
-    phi_q[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
-    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    const jg_real d_ij_world_2 = r_ij_world_2 + s_j_world_2 - s_i_world_2;
     phi[2] = d_ij_world_2;
+    phi_q[3] = A_i[3] * s_i[2] - s_i[1] * A_i[6];
     phi_q[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
-    phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    phi_q[7] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_2 = C_i[6] * A_ij_6 + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real h_i_in_j_1 = C_i[6] * A_ij_3 + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
+    phi_q[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
+    phi_q[7] = s_i[0] * A_i[6] - A_i[0] * s_i[2];
     phi_q[8] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
+    phi_q[9] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
     phi_q[15] = JG_REAL(1.0);
     phi_q[16] = JG_REAL(1.0);
     phi_q[17] = JG_REAL(1.0);
-    phi_q[9] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    phi_q[11] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
+    phi_q[11] = A_i[0] * s_i[1] - s_i[0] * A_i[3];
+    const jg_real t23 = h_i_in_j_2 * C_j[8];
+    const jg_real t24 = h_i_in_j_1 * C_j[7];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
+    const jg_real t26 = C_j[7] * h_i_in_j_2;
+    const jg_real t27 = h_i_in_j_1 * C_j[8];
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
+    const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
+    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real t31 = h_i_in_j_0 * C_j[6];
+    const jg_real t32 = h_i_in_j_0 * C_j[8];
+    const jg_real t33 = C_j[6] * h_i_in_j_2;
     phi_q[12] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     phi_q[13] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    phi_q[18] = A_j[1] * s_j_world_2 - A_j[2] * s_j_world_1;
-    const jg_real h_i_in_j_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
-    phi_q[19] = A_j[2] * s_j_world_0 - A_j[0] * s_j_world_2;
-    phi_q[20] = A_j[0] * s_j_world_1 - A_j[1] * s_j_world_0;
-    phi_q[22] = A_j[4] * s_j_world_2 - A_j[5] * s_j_world_1;
-    phi_q[23] = A_j[5] * s_j_world_0 - A_j[3] * s_j_world_2;
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = C_j[6] * A_ij_0 + C_j[7] * A_ij_3 + C_j[8] * A_ij_6;
-    phi_q[24] = A_j[3] * s_j_world_1 - A_j[4] * s_j_world_0;
-    const jg_real h_i_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
-    phi_q[26] = A_j[7] * s_j_world_2 - A_j[8] * s_j_world_1;
-    const jg_real h_j_in_i_2 = C_j[6] * A_ij_2 + C_j[7] * A_ij_5 + C_j[8] * A_ij_8;
-    const jg_real h_j_in_i_1 = C_j[6] * A_ij_1 + C_j[7] * A_ij_4 + C_j[8] * A_ij_7;
-    phi_q[21] = C_j[7] * h_i_in_j_2 - C_j[8] * h_i_in_j_1;
-    phi_q[27] = A_j[8] * s_j_world_0 - A_j[6] * s_j_world_2;
-    phi_q[28] = A_j[6] * s_j_world_1 - A_j[7] * s_j_world_0;
+    phi_q[18] = A_j[1] * s_j_world_2 - s_j_world_1 * A_j[2];
+    phi_q[19] = s_j_world_0 * A_j[2] - A_j[0] * s_j_world_2;
+    phi_q[20] = A_j[0] * s_j_world_1 - s_j_world_0 * A_j[1];
+    phi_q[21] = t26 - t27;
+    phi_q[22] = A_j[4] * s_j_world_2 - s_j_world_1 * A_j[5];
+    phi_q[23] = s_j_world_0 * A_j[5] - A_j[3] * s_j_world_2;
+    /* h_i_cross_h_j_in_i = h_i x h_j, axes of body i */
+    const jg_real h_i_cross_h_j_in_i_0 = C_i[7] * h_j_in_i_2 - C_i[8] * h_j_in_i_1;
+    const jg_real h_i_cross_h_j_in_i_1 = C_i[8] * h_j_in_i_0 - C_i[6] * h_j_in_i_2;
+    const jg_real h_i_cross_h_j_in_i_2 = C_i[6] * h_j_in_i_1 - C_i[7] * h_j_in_i_0;
+    const jg_real t37 = h_i_in_j_0 * C_j[7];
+    /* h_i_dot_h_j = h_i . h_j */
+    const jg_real h_i_dot_h_j = t31 + t24 + t23;
+    const jg_real t39 = C_j[6] * h_i_in_j_1;
+    phi_q[24] = A_j[3] * s_j_world_1 - s_j_world_0 * A_j[4];
+    phi_q[6] = h_i_cross_h_j_in_i_0;
+    phi_q[10] = h_i_cross_h_j_in_i_1;
+    phi_q[14] = h_i_cross_h_j_in_i_2;
+    phi_q[25] = t32 - t33;
+    phi_q[26] = A_j[7] * s_j_world_2 - s_j_world_1 * A_j[8];
+    phi[3] = h_i_dot_h_j;
+    phi_q[27] = s_j_world_0 * A_j[8] - A_j[6] * s_j_world_2;
     /* v_0_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_0_in_i_1 = h_j_in_i_1 * lambda[3];
     const jg_real v_0_in_i_2 = h_j_in_i_2 * lambda[3];
-    /* v_1_in_j = lambda_3 h_i, axes of body j */
-    const jg_real v_1_in_j_0 = h_i_in_j_0 * lambda[3];
-    const jg_real v_1_in_j_1 = h_i_in_j_1 * lambda[3];
-    const jg_real v_1_in_j_2 = h_i_in_j_2 * lambda[3];
+    const jg_real t42 = h_i_dot_h_j * lambda[3];
+    const jg_real v_0_in_i_0 = h_j_in_i_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = A_j[0] * lambda[0] + A_j[1] * lambda[1] + A_j[2] * lambda[2];
-    const jg_real v_0_in_i_0 = h_j_in_i_0 * lambda[3];
-    phi_q[25] = C_j[8] * h_i_in_j_0 - C_j[6] * h_i_in_j_2;
-    /* h_i_cross_h_j_in_i = h_i x h_j, axes of body i */
-    const jg_real h_i_cross_h_j_in_i_1 = C_i[8] * h_j_in_i_0 - C_i[6] * h_j_in_i_2;
-    phi_q[10] = h_i_cross_h_j_in_i_1;
-    const jg_real h_i_cross_h_j_in_i_0 = C_i[7] * h_j_in_i_2 - C_i[8] * h_j_in_i_1;
-    phi_q[6] = h_i_cross_h_j_in_i_0;
-    const jg_real h_i_cross_h_j_in_i_2 = C_i[6] * h_j_in_i_1 - C_i[7] * h_j_in_i_0;
-    phi_q[14] = h_i_cross_h_j_in_i_2;
-    phi_q[29] = C_j[6] * h_i_in_j_1 - C_j[7] * h_i_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = A_j[3] * lambda[0] + A_j[4] * lambda[1] + A_j[5] * lambda[2];
     /* M_1_i_j = (lambda_3 h_j) h_i^T; rows in axes of body i, columns in axes of body j */
-    const jg_real M_1_i_j_0 = h_j_in_i_0 * v_1_in_j_0;
+    const jg_real M_1_i_j_0 = h_i_in_j_0 * v_0_in_i_0;
     const jg_real lambda_0_1_2_in_j_2 = A_j[6] * lambda[0] + A_j[7] * lambda[1] + A_j[8] * lambda[2];
-    /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
-    phi[3] = h_i_dot_h_j;
-    const jg_real M_1_i_j_1 = h_j_in_i_0 * v_1_in_j_1;
-    const jg_real M_1_i_j_2 = h_j_in_i_0 * v_1_in_j_2;
-    const jg_real M_1_i_j_3 = h_j_in_i_1 * v_1_in_j_0;
-    const jg_real M_1_i_j_4 = h_j_in_i_1 * v_1_in_j_1;
-    const jg_real M_1_i_j_5 = h_j_in_i_1 * v_1_in_j_2;
-    const jg_real t46 = h_i_dot_h_j * lambda[3];
-    const jg_real M_1_i_j_6 = h_j_in_i_2 * v_1_in_j_0;
-    const jg_real M_1_i_j_7 = h_j_in_i_2 * v_1_in_j_1;
-    const jg_real M_1_i_j_8 = h_j_in_i_2 * v_1_in_j_2;
+    const jg_real M_1_i_j_1 = h_i_in_j_1 * v_0_in_i_0;
+    const jg_real M_1_i_j_2 = h_i_in_j_2 * v_0_in_i_0;
+    const jg_real t50 = A_ij_0 * t42 - M_1_i_j_0;
+    const jg_real t51 = A_ij_3 * t42 - M_1_i_j_1;
+    const jg_real t52 = A_ij_6 * t42 - M_1_i_j_2;
+    phi_q[28] = A_j[6] * s_j_world_1 - s_j_world_0 * A_j[7];
+    phi_q[29] = t39 - t37;
+    phi_q_t_lambda_q[3] = t50;
+    phi_q_t_lambda_q[18] = t50;
+    phi_q_t_lambda_q[4] = t51;
+    phi_q_t_lambda_q[24] = t51;
+    phi_q_t_lambda_q[5] = t52;
+    phi_q_t_lambda_q[30] = t52;
+    const jg_real M_1_i_j_3 = h_i_in_j_0 * v_0_in_i_1;
+    const jg_real M_1_i_j_4 = h_i_in_j_1 * v_0_in_i_1;
+    const jg_real M_1_i_j_5 = h_i_in_j_2 * v_0_in_i_1;
+    const jg_real M_1_i_j_6 = h_i_in_j_0 * v_0_in_i_2;
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = A_ij_1 * lambda_0_1_2_in_j_0 + A_ij_4 * lambda_0_1_2_in_j_1 + A_ij_7 *
         lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_i_2 = A_ij_2 * lambda_0_1_2_in_j_0 + A_ij_5 * lambda_0_1_2_in_j_1 + A_ij_8 *
         lambda_0_1_2_in_j_2;
+    const jg_real t59 = A_ij_1 * t42 - M_1_i_j_3;
     const jg_real lambda_0_1_2_in_i_0 = A_ij_0 * lambda_0_1_2_in_j_0 + A_ij_3 * lambda_0_1_2_in_j_1 + A_ij_6 *
         lambda_0_1_2_in_j_2;
-    /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_3 h_j) h_i^T; rows in axes of body j, columns in axes of body j */
-    const jg_real M_2_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[7] * v_1_in_j_1;
-    const jg_real M_2_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[8] * v_1_in_j_2;
-    const jg_real M_2_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[6] * v_1_in_j_1;
-    phi_q_t_lambda_q[22] = M_2_j_j_1;
-    const jg_real t56 = A_ij_0 * t46 - M_1_i_j_0;
-    phi_q_t_lambda_q[3] = t56;
-    phi_q_t_lambda_q[18] = t56;
-    const jg_real t57 = A_ij_3 * t46 - M_1_i_j_1;
-    phi_q_t_lambda_q[4] = t57;
-    phi_q_t_lambda_q[24] = t57;
-    const jg_real t58 = A_ij_6 * t46 - M_1_i_j_2;
-    phi_q_t_lambda_q[5] = t58;
-    phi_q_t_lambda_q[30] = t58;
-    const jg_real t59 = A_ij_1 * t46 - M_1_i_j_3;
+    const jg_real t61 = A_ij_4 * t42 - M_1_i_j_4;
+    const jg_real M_1_i_j_7 = h_i_in_j_1 * v_0_in_i_2;
+    const jg_real t63 = A_ij_7 * t42 - M_1_i_j_5;
+    const jg_real M_1_i_j_8 = h_i_in_j_2 * v_0_in_i_2;
+    const jg_real t65 = A_ij_2 * t42 - M_1_i_j_6;
     phi_q_t_lambda_q[9] = t59;
     phi_q_t_lambda_q[19] = t59;
-    const jg_real t60 = A_ij_4 * t46 - M_1_i_j_4;
-    phi_q_t_lambda_q[10] = t60;
-    phi_q_t_lambda_q[25] = t60;
-    const jg_real t61 = A_ij_7 * t46 - M_1_i_j_5;
-    phi_q_t_lambda_q[11] = t61;
-    phi_q_t_lambda_q[31] = t61;
-    const jg_real t62 = A_ij_2 * t46 - M_1_i_j_6;
-    phi_q_t_lambda_q[15] = t62;
-    phi_q_t_lambda_q[20] = t62;
-    const jg_real t63 = A_ij_5 * t46 - M_1_i_j_7;
-    phi_q_t_lambda_q[16] = t63;
-    phi_q_t_lambda_q[26] = t63;
-    const jg_real t64 = A_ij_8 * t46 - M_1_i_j_8;
-    phi_q_t_lambda_q[17] = t64;
-    phi_q_t_lambda_q[32] = t64;
-    const jg_real M_2_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[6] * v_1_in_j_2;
-    phi_q_t_lambda_q[23] = M_2_j_j_2;
+    phi_q_t_lambda_q[10] = t61;
+    phi_q_t_lambda_q[25] = t61;
+    phi_q_t_lambda_q[11] = t63;
+    phi_q_t_lambda_q[31] = t63;
+    phi_q_t_lambda_q[15] = t65;
+    phi_q_t_lambda_q[20] = t65;
+    const jg_real t66 = A_ij_5 * t42 - M_1_i_j_7;
+    const jg_real t67 = A_ij_8 * t42 - M_1_i_j_8;
+    /* M_2_j_j = (s_j) lambda_0_1_2^T + (lambda_3 h_j) h_i^T; rows in axes of body j, columns in axes of body j */
+    const jg_real M_2_j_j_4 = t24 * lambda[3] + s_j[1] * lambda_0_1_2_in_j_1;
     /* M_0_i_i = (s_i) lambda_0_1_2^T + (-lambda_3 h_i) h_j^T; rows in axes of body i, columns in axes of body i */
     const jg_real M_0_i_i_4 = s_i[1] * lambda_0_1_2_in_i_1 - C_i[7] * v_0_in_i_1;
     const jg_real M_0_i_i_8 = s_i[2] * lambda_0_1_2_in_i_2 - C_i[8] * v_0_in_i_2;
+    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - C_i[6] * v_0_in_i_0;
+    phi_q_t_lambda_q[16] = t66;
+    phi_q_t_lambda_q[26] = t66;
+    phi_q_t_lambda_q[17] = t67;
+    phi_q_t_lambda_q[32] = t67;
     phi_q_t_lambda_q[1] = C_i[6] * v_0_in_i_1 - s_i[0] * lambda_0_1_2_in_i_1;
     phi_q_t_lambda_q[2] = C_i[6] * v_0_in_i_2 - s_i[0] * lambda_0_1_2_in_i_2;
     phi_q_t_lambda_q[6] = C_i[7] * v_0_in_i_0 - s_i[1] * lambda_0_1_2_in_i_0;
-    const jg_real M_0_i_i_0 = s_i[0] * lambda_0_1_2_in_i_0 - C_i[6] * v_0_in_i_0;
     phi_q_t_lambda_q[8] = C_i[7] * v_0_in_i_2 - s_i[1] * lambda_0_1_2_in_i_2;
+    const jg_real M_2_j_j_8 = t23 * lambda[3] + s_j[2] * lambda_0_1_2_in_j_2;
+    const jg_real M_2_j_j_1 = t39 * lambda[3] + s_j[0] * lambda_0_1_2_in_j_1;
+    const jg_real M_2_j_j_2 = t33 * lambda[3] + s_j[0] * lambda_0_1_2_in_j_2;
+    const jg_real M_2_j_j_3 = t37 * lambda[3] + s_j[1] * lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[12] = C_i[8] * v_0_in_i_0 - s_i[2] * lambda_0_1_2_in_i_0;
     phi_q_t_lambda_q[13] = C_i[8] * v_0_in_i_1 - s_i[2] * lambda_0_1_2_in_i_1;
-    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
-    const jg_real M_2_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[7] * v_1_in_j_0;
-    phi_q_t_lambda_q[27] = M_2_j_j_3;
-    const jg_real M_2_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[6] * v_1_in_j_0;
     phi_q_t_lambda_q[0] = M_0_i_i_4 + M_0_i_i_8;
-    phi_q_t_lambda_q[7] = M_0_i_i_0 + M_0_i_i_8;
-    phi_q_t_lambda_q[14] = M_0_i_i_0 + M_0_i_i_4;
-    const jg_real M_2_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[7] * v_1_in_j_2;
-    phi_q_t_lambda_q[29] = M_2_j_j_5;
-    const jg_real M_2_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[8] * v_1_in_j_0;
-    phi_q_t_lambda_q[33] = M_2_j_j_6;
-    const jg_real M_2_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[8] * v_1_in_j_1;
-    phi_q_t_lambda_q[34] = M_2_j_j_7;
-    phi_q_t_lambda_q[28] = -(M_2_j_j_0 + M_2_j_j_8);
-    phi_q_t_lambda_q[35] = -(M_2_j_j_0 + M_2_j_j_4);
+    phi_q_t_lambda_q[7] = M_0_i_i_8 + M_0_i_i_0;
+    phi_q_t_lambda_q[14] = M_0_i_i_4 + M_0_i_i_0;
+    phi_q_t_lambda_q[22] = M_2_j_j_1;
+    phi_q_t_lambda_q[23] = M_2_j_j_2;
+    phi_q_t_lambda_q[27] = M_2_j_j_3;
+    const jg_real M_2_j_j_0 = t31 * lambda[3] + s_j[0] * lambda_0_1_2_in_j_0;
+    const jg_real M_2_j_j_5 = t26 * lambda[3] + s_j[1] * lambda_0_1_2_in_j_2;
+    const jg_real M_2_j_j_6 = t32 * lambda[3] + s_j[2] * lambda_0_1_2_in_j_0;
+    const jg_real M_2_j_j_7 = t27 * lambda[3] + s_j[2] * lambda_0_1_2_in_j_1;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j[0] * omega_j[0] + omega_j[1] * omega_j[1] + omega_j[2] * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
@@ -669,35 +662,42 @@ void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real omega_i_world_0 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
     const jg_real omega_i_world_1 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
     const jg_real omega_i_world_2 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
+    /* s_j_dot_omega_j = s_j . omega_j */
+    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j_world_0 + s_j_world_1 * omega_j_world_1 + s_j_world_2 *
+        omega_j_world_2;
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = h_i_in_j_0 * omega_j[0] + h_i_in_j_1 * omega_j[1] + h_i_in_j_2 * omega_j[2];
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* s_j_dot_omega_j = s_j . omega_j */
-    const jg_real s_j_dot_omega_j = s_j_world_0 * omega_j_world_0 + s_j_world_1 * omega_j_world_1 + s_j_world_2 *
-        omega_j_world_2;
-    /* h_i_dot_omega_i = h_i . omega_i */
-    const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
     /* s_i_dot_omega_i = s_i . omega_i */
     const jg_real s_i_dot_omega_i = s_i_world_0 * omega_i_world_0 + s_i_world_1 * omega_i_world_1 + s_i_world_2 *
         omega_i_world_2;
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     /* omega_j_dot_omega_i = omega_j . omega_i */
     const jg_real omega_j_dot_omega_i = omega_j_world_0 * omega_i_world_0 + omega_j_world_1 * omega_i_world_1 +
         omega_j_world_2 * omega_i_world_2;
+    /* h_i_dot_omega_i = h_i . omega_i */
+    const jg_real h_i_dot_omega_i = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
     /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
     const jg_real v_2_world_0 = s_j_world_0 * omega_j_dot_omega_j - s_i_world_0 * omega_i_dot_omega_i -
         omega_j_world_0 * s_j_dot_omega_j + omega_i_world_0 * s_i_dot_omega_i;
-    gamma[0] = v_2_world_0;
     const jg_real v_2_world_1 = s_j_world_1 * omega_j_dot_omega_j - s_i_world_1 * omega_i_dot_omega_i -
         omega_j_world_1 * s_j_dot_omega_j + omega_i_world_1 * s_i_dot_omega_i;
+    phi_q_t_lambda_q[29] = M_2_j_j_5;
+    phi_q_t_lambda_q[33] = M_2_j_j_6;
+    phi_q_t_lambda_q[34] = M_2_j_j_7;
+    phi_q_t_lambda_q[21] = -(M_2_j_j_4 + M_2_j_j_8);
+    phi_q_t_lambda_q[28] = -(M_2_j_j_8 + M_2_j_j_0);
+    phi_q_t_lambda_q[35] = -(M_2_j_j_4 + M_2_j_j_0);
+    gamma[0] = v_2_world_0;
     gamma[1] = v_2_world_1;
     const jg_real v_2_world_2 = s_j_world_2 * omega_j_dot_omega_j - s_i_world_2 * omega_i_dot_omega_i -
         omega_j_world_2 * s_j_dot_omega_j + omega_i_world_2 * s_i_dot_omega_i;
     gamma[2] = v_2_world_2;
-    gamma[3] = h_i_dot_h_j * (omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0)) +
-        h_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) - h_j_dot_omega_i * h_i_dot_omega_i;
+    gamma[3] = h_i_dot_omega_j * (h_j_dot_omega_i * JG_REAL(2.0) - h_j_dot_omega_j) + h_i_dot_h_j *
+        (omega_j_dot_omega_j + omega_i_dot_omega_i - JG_REAL(2.0) * omega_j_dot_omega_i) - h_j_dot_omega_i *
+        h_i_dot_omega_i;
 }
 
 void jg_universal_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -4,10 +4,6 @@
  * joint universal, form parametric, rows regular, derivative exact, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/universal.h"
 
 const int *jg_universal_parametric_phi_q_sparsity(void)
@@ -30,9 +26,8 @@ const int *jg_universal_parametric_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_universal_parametric_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -58,11 +53,8 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
     const jg_real t17 = sine_1 * cosine_0;
@@ -90,93 +82,92 @@ void jg_universal_parametric_phi(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    phi[5] = f_star_dot_g_j;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
-    phi[3] = g_star_dot_h_j;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[5] = f_star_dot_g_j;
+    phi[3] = g_star_dot_h_j;
     phi[4] = h_star_dot_f_j;
 }
 
-void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_universal_parametric_phi_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    phi_q[22] = A_ji_4;
-    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    phi_q[26] = A_ji_8;
-    /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real A_ji_5 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    phi_q[25] = A_ji_5;
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    phi_q[23] = A_ji_7;
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[22] = A_ji_4;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
+    phi_q[23] = A_ji_7;
     phi_q[20] = A_ji_6;
     const jg_real A_ji_3 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    phi_q[19] = A_ji_3;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    phi_q[3] = e_ij_in_i_2;
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
-    phi_q[13] = e_ij_in_i_1;
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
+    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    phi_q[19] = A_ji_3;
+    phi_q[18] = A_ji_0;
+    phi_q[3] = e_ij_in_i_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[21] = A_ji_1;
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[24] = A_ji_2;
+    phi_q[8] = -e_ij_in_i_2;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    phi_q[4] = -e_ij_in_i_1;
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    phi_q[8] = -e_ij_in_i_2;
     const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
-    phi_q[9] = e_ij_in_i_0;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    phi_q[14] = -e_ij_in_i_0;
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = h_j_in_i_1 * f_j_in_i_2 - h_j_in_i_2 * f_j_in_i_1;
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    phi_q[14] = -e_ij_in_i_0;
+    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     const jg_real g_j_in_i_2 = h_j_in_i_0 * f_j_in_i_1 - h_j_in_i_1 * f_j_in_i_0;
     const jg_real g_j_in_i_1 = h_j_in_i_2 * f_j_in_i_0 - h_j_in_i_0 * f_j_in_i_2;
     /* H_02 =  */
@@ -203,47 +194,50 @@ void jg_universal_parametric_phi_q_nz(const jg_real *JG_RESTRICT r_i, const jg_r
     /* h_j_dot_h_star = h_j . h_star */
     const jg_real h_j_dot_h_star = h_j_in_i_0 * h_star_in_i_0 + h_j_in_i_1 * h_star_in_i_1 + h_j_in_i_2 *
         h_star_in_i_2;
-    phi_q[48] = h_j_dot_h_star;
     /* g_j_dot_h_star = g_j . h_star */
     const jg_real g_j_dot_h_star = h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_2 *
         g_j_in_i_2;
     /* g_j_cross_f_star_in_j = g_j x f_star, axes of body j */
     const jg_real g_j_cross_f_star_in_j_0 = h_j_dot_f_star * C_j[0] - C_j[6] * f_j_dot_f_star;
+    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    phi_q[48] = h_j_dot_h_star;
     phi_q[32] = g_j_cross_f_star_in_j_0;
-    const jg_real g_j_cross_f_star_in_j_1 = h_j_dot_f_star * C_j[1] - C_j[7] * f_j_dot_f_star;
-    phi_q[38] = g_j_cross_f_star_in_j_1;
-    const jg_real g_j_cross_f_star_in_j_2 = h_j_dot_f_star * C_j[2] - C_j[8] * f_j_dot_f_star;
-    phi_q[44] = g_j_cross_f_star_in_j_2;
-    phi_q[46] = sine_1 * f_j_dot_f_star;
     phi_q[5] = h_j_dot_h_star * f_star_in_i_0 - h_star_in_i_0 * h_j_dot_f_star;
     phi_q[10] = h_j_dot_h_star * f_star_in_i_1 - h_star_in_i_1 * h_j_dot_f_star;
     phi_q[15] = h_j_dot_h_star * f_star_in_i_2 - h_star_in_i_2 * h_j_dot_f_star;
     /* f_j_dot_g_star = f_j . g_star */
     const jg_real f_j_dot_g_star = g_star_in_i_0 * f_j_in_i_0 + g_star_in_i_1 * f_j_in_i_1 + g_star_in_i_2 *
         f_j_in_i_2;
-    phi_q[45] = -(cosine_1 * h_j_dot_f_star);
     /* g_j_dot_g_star = g_j . g_star */
     const jg_real g_j_dot_g_star = g_star_in_i_0 * g_j_in_i_0 + g_star_in_i_1 * g_j_in_i_1 + g_star_in_i_2 *
         g_j_in_i_2;
+    const jg_real g_j_cross_f_star_in_j_1 = h_j_dot_f_star * C_j[1] - C_j[7] * f_j_dot_f_star;
     /* f_j_cross_h_star_in_j = f_j x h_star, axes of body j */
     const jg_real f_j_cross_h_star_in_j_0 = C_j[6] * g_j_dot_h_star - h_j_dot_h_star * C_j[3];
-    phi_q[31] = f_j_cross_h_star_in_j_0;
     const jg_real f_j_cross_h_star_in_j_1 = C_j[7] * g_j_dot_h_star - h_j_dot_h_star * C_j[4];
+    phi_q[38] = g_j_cross_f_star_in_j_1;
+    phi_q[46] = sine_1 * f_j_dot_f_star;
+    phi_q[31] = f_j_cross_h_star_in_j_0;
     phi_q[37] = f_j_cross_h_star_in_j_1;
-    const jg_real f_j_cross_h_star_in_j_2 = C_j[8] * g_j_dot_h_star - h_j_dot_h_star * C_j[5];
-    phi_q[43] = f_j_cross_h_star_in_j_2;
-    phi_q[49] = -f_j_dot_g_star;
     phi_q[6] = g_star_in_i_0 * f_j_dot_f_star - f_star_in_i_0 * f_j_dot_g_star;
     phi_q[11] = g_star_in_i_1 * f_j_dot_f_star - f_star_in_i_1 * f_j_dot_g_star;
     phi_q[7] = h_star_in_i_0 * g_j_dot_g_star - g_star_in_i_0 * g_j_dot_h_star;
     phi_q[12] = h_star_in_i_1 * g_j_dot_g_star - g_star_in_i_1 * g_j_dot_h_star;
-    phi_q[16] = g_star_in_i_2 * f_j_dot_f_star - f_star_in_i_2 * f_j_dot_g_star;
-    phi_q[17] = h_star_in_i_2 * g_j_dot_g_star - g_star_in_i_2 * g_j_dot_h_star;
     /* h_j_cross_g_star_in_j = h_j x g_star, axes of body j */
     const jg_real h_j_cross_g_star_in_j_0 = f_j_dot_g_star * C_j[3] - C_j[0] * g_j_dot_g_star;
-    phi_q[30] = h_j_cross_g_star_in_j_0;
+    const jg_real f_j_cross_h_star_in_j_2 = C_j[8] * g_j_dot_h_star - h_j_dot_h_star * C_j[5];
     const jg_real h_j_cross_g_star_in_j_1 = f_j_dot_g_star * C_j[4] - C_j[1] * g_j_dot_g_star;
+    const jg_real g_j_cross_f_star_in_j_2 = h_j_dot_f_star * C_j[2] - C_j[8] * f_j_dot_f_star;
+    phi_q[16] = g_star_in_i_2 * f_j_dot_f_star - f_star_in_i_2 * f_j_dot_g_star;
+    phi_q[17] = h_star_in_i_2 * g_j_dot_g_star - g_star_in_i_2 * g_j_dot_h_star;
+    phi_q[30] = h_j_cross_g_star_in_j_0;
+    phi_q[43] = f_j_cross_h_star_in_j_2;
     phi_q[36] = h_j_cross_g_star_in_j_1;
+    phi_q[44] = g_j_cross_f_star_in_j_2;
+    phi_q[45] = -(cosine_1 * h_j_dot_f_star);
+    phi_q[49] = -f_j_dot_g_star;
     const jg_real h_j_cross_g_star_in_j_2 = f_j_dot_g_star * C_j[5] - C_j[2] * g_j_dot_g_star;
     phi_q[42] = h_j_cross_g_star_in_j_2;
     phi_q[47] = cosine_1 * g_j_dot_g_star - sine_1 * g_j_dot_h_star;
@@ -258,329 +252,323 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
     jg_scatter(jg_universal_parametric_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda_q[2] = lambda[2];
-    phi_q_t_lambda_q[0] = -lambda[2];
-    phi_q_t_lambda_q[1] = lambda[1];
-    phi_q_t_lambda_q[5] = lambda[0];
-    phi_q_t_lambda_q[3] = -lambda[0];
-    phi_q_t_lambda_q[4] = -lambda[1];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_5 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    const jg_real t18 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
-    phi_q_t_lambda_q[10] = t18;
-    phi_q_t_lambda_q[42] = t18;
-    const jg_real t19 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
-    phi_q_t_lambda_q[11] = t19;
-    phi_q_t_lambda_q[45] = t19;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    phi_q_t_lambda_q[71] = lambda_0_1_2_in_j_1;
-    const jg_real t21 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
-    phi_q_t_lambda_q[9] = t21;
-    phi_q_t_lambda_q[39] = t21;
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    phi_q_t_lambda_q[51] = lambda_0_1_2_in_j_2;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    const jg_real t17 = lambda[1] * A_ij_5 - lambda[2] * A_ij_4;
+    phi_q_t_lambda_q[2] = lambda[2];
+    phi_q_t_lambda_q[0] = -lambda[2];
+    phi_q_t_lambda_q[1] = lambda[1];
+    phi_q_t_lambda_q[5] = lambda[0];
+    phi_q_t_lambda_q[3] = -lambda[0];
+    phi_q_t_lambda_q[4] = -lambda[1];
+    phi_q_t_lambda_q[10] = t17;
+    phi_q_t_lambda_q[42] = t17;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_0 = A_ij_0 * C_j[0] + A_ij_3 * C_j[1] + A_ij_6 * C_j[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = A_ij_0 * C_j[6] + A_ij_3 * C_j[7] + A_ij_6 * C_j[8];
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_0 = s_j[0] * A_ij_0 + s_j[1] * A_ij_3 + s_j[2] * A_ij_6;
+    const jg_real t21 = lambda[1] * A_ij_8 - lambda[2] * A_ij_7;
+    const jg_real t22 = lambda[1] * A_ij_2 - lambda[2] * A_ij_1;
     const jg_real h_j_in_i_2 = A_ij_2 * C_j[6] + A_ij_5 * C_j[7] + A_ij_8 * C_j[8];
-    const jg_real f_j_in_i_2 = A_ij_2 * C_j[0] + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
-    const jg_real s_j_in_i_2 = s_j[0] * A_ij_2 + s_j[1] * A_ij_5 + s_j[2] * A_ij_8;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ij_1 + s_j[1] * A_ij_4 + s_j[2] * A_ij_7;
-    const jg_real f_j_in_i_1 = A_ij_1 * C_j[0] + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
-    const jg_real h_j_in_i_1 = A_ij_1 * C_j[6] + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    phi_q_t_lambda_q[62] = lambda_0_1_2_in_j_0;
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    /* v_3_in_i = lambda_3 h_j, axes of body i */
-    const jg_real v_3_in_i_0 = h_j_in_i_0 * lambda[3];
-    const jg_real t35 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
-    phi_q_t_lambda_q[20] = t35;
-    phi_q_t_lambda_q[40] = t35;
+    const jg_real f_j_in_i_2 = C_j[0] * A_ij_2 + A_ij_5 * C_j[1] + A_ij_8 * C_j[2];
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_1 = A_ij_1 * s_j[0] + A_ij_4 * s_j[1] + A_ij_7 * s_j[2];
+    const jg_real f_j_in_i_1 = C_j[0] * A_ij_1 + A_ij_4 * C_j[1] + A_ij_7 * C_j[2];
+    const jg_real h_j_in_i_1 = C_j[6] * A_ij_1 + A_ij_4 * C_j[7] + A_ij_7 * C_j[8];
+    const jg_real s_j_in_i_2 = A_ij_2 * s_j[0] + A_ij_5 * s_j[1] + A_ij_8 * s_j[2];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    /* v_3_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_3_in_i_2 = h_j_in_i_2 * lambda[3];
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
+    const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
-    const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
-    const jg_real t44 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
-    phi_q_t_lambda_q[21] = t44;
-    phi_q_t_lambda_q[43] = t44;
-    const jg_real t45 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
-    phi_q_t_lambda_q[22] = t45;
-    phi_q_t_lambda_q[46] = t45;
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
+    const jg_real g_j_in_i_2 = h_j_in_i_0 * f_j_in_i_1 - f_j_in_i_0 * h_j_in_i_1;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
+    const jg_real v_3_in_i_0 = h_j_in_i_0 * lambda[3];
+    const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - h_j_in_i_2 * f_j_in_i_1;
+    const jg_real s_j_in_i_0 = A_ij_0 * s_j[0] + A_ij_3 * s_j[1] + A_ij_6 * s_j[2];
+    const jg_real t41 = lambda[2] * A_ij_0 - lambda[0] * A_ij_2;
+    phi_q_t_lambda_q[11] = t21;
+    phi_q_t_lambda_q[45] = t21;
+    phi_q_t_lambda_q[9] = t22;
+    phi_q_t_lambda_q[39] = t22;
+    phi_q_t_lambda_q[71] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[51] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[62] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[20] = t41;
+    phi_q_t_lambda_q[40] = t41;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real t43 = lambda[2] * A_ij_3 - lambda[0] * A_ij_5;
+    const jg_real t44 = lambda[2] * A_ij_6 - lambda[0] * A_ij_8;
+    const jg_real t45 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
+    phi_q_t_lambda_q[21] = t43;
+    phi_q_t_lambda_q[43] = t43;
+    phi_q_t_lambda_q[22] = t44;
+    phi_q_t_lambda_q[46] = t44;
     phi_q_t_lambda_q[52] = -lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[61] = -lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[72] = -lambda_0_1_2_in_j_0;
-    const jg_real t46 = lambda[0] * A_ij_1 - lambda[1] * A_ij_0;
-    phi_q_t_lambda_q[31] = t46;
-    phi_q_t_lambda_q[41] = t46;
-    const jg_real t47 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
-    phi_q_t_lambda_q[32] = t47;
-    phi_q_t_lambda_q[44] = t47;
+    phi_q_t_lambda_q[31] = t45;
+    phi_q_t_lambda_q[41] = t45;
+    const jg_real t46 = lambda[0] * A_ij_4 - lambda[1] * A_ij_3;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
     const jg_real t48 = lambda[0] * A_ij_7 - lambda[1] * A_ij_6;
-    phi_q_t_lambda_q[33] = t48;
-    phi_q_t_lambda_q[47] = t48;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     const jg_real t50 = cosine_0 * sine_1;
-    const jg_real t51 = cosine_1 * lambda[3];
-    /* v_5_in_joint_j = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of joint j */
-    const jg_real v_5_in_joint_j = lambda[4] * sine_1;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real t52 = cosine_1 * lambda[3];
     const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    /* v_5_in_joint_j = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of joint j */
+    const jg_real v_5_in_joint_j = sine_1 * lambda[4];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
     /* v_2_in_i = lambda_5 f_star, axes of body i */
     const jg_real v_2_in_i_1 = f_star_in_i_1 * lambda[5];
-    const jg_real v_2_in_i_0 = f_star_in_i_0 * lambda[5];
-    const jg_real v_2_in_i_2 = f_star_in_i_2 * lambda[5];
+    const jg_real v_2_in_i_0 = lambda[5] * f_star_in_i_0;
+    const jg_real v_2_in_i_2 = lambda[5] * f_star_in_i_2;
     /* h_star_in_i = h_star, axes of body i */
     const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t50 + C_i[7] * cosine_1;
-    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t50 + C_i[8] * cosine_1;
-    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t50 + C_i[6] * cosine_1;
+    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t50 * C_i[5] + cosine_1 * C_i[8];
+    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t50 * C_i[3] + cosine_1 * C_i[6];
     /* v_1_in_i = lambda_4 h_star, axes of body i */
-    const jg_real v_1_in_i_1 = lambda[4] * h_star_in_i_1;
+    const jg_real v_1_in_i_1 = h_star_in_i_1 * lambda[4];
     const jg_real v_1_in_i_2 = lambda[4] * h_star_in_i_2;
     const jg_real v_1_in_i_0 = lambda[4] * h_star_in_i_0;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = f_star_in_i_0 * h_star_in_i_2 - f_star_in_i_2 * h_star_in_i_0;
-    const jg_real g_star_in_i_2 = f_star_in_i_1 * h_star_in_i_0 - f_star_in_i_0 * h_star_in_i_1;
-    const jg_real g_star_in_i_0 = f_star_in_i_2 * h_star_in_i_1 - f_star_in_i_1 * h_star_in_i_2;
+    const jg_real g_star_in_i_2 = f_star_in_i_1 * h_star_in_i_0 - h_star_in_i_1 * f_star_in_i_0;
+    const jg_real g_star_in_i_0 = h_star_in_i_1 * f_star_in_i_2 - f_star_in_i_1 * h_star_in_i_2;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = A_ij_0 * h_star_in_i_0 + A_ij_1 * h_star_in_i_1 + A_ij_2 * h_star_in_i_2;
     const jg_real h_star_in_j_2 = A_ij_6 * h_star_in_i_0 + A_ij_7 * h_star_in_i_1 + A_ij_8 * h_star_in_i_2;
-    const jg_real h_star_in_j_1 = A_ij_3 * h_star_in_i_0 + A_ij_4 * h_star_in_i_1 + A_ij_5 * h_star_in_i_2;
-    /* v_1_in_j = lambda_4 h_star, axes of body j */
-    const jg_real v_1_in_j_0 = lambda[4] * h_star_in_j_0;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_0_i_i_4 = lambda[1] * e_ij_in_i_1 + f_j_in_i_1 * v_1_in_i_1 + g_j_in_i_1 * v_2_in_i_1 +
         g_star_in_i_1 * v_3_in_i_1;
-    const jg_real v_1_in_j_2 = lambda[4] * h_star_in_j_2;
     const jg_real M_0_i_i_8 = lambda[2] * e_ij_in_i_2 + f_j_in_i_2 * v_1_in_i_2 + g_j_in_i_2 * v_2_in_i_2 +
         g_star_in_i_2 * v_3_in_i_2;
-    const jg_real v_1_in_j_1 = lambda[4] * h_star_in_j_1;
     const jg_real M_0_i_i_3 = lambda[0] * e_ij_in_i_1 + f_j_in_i_1 * v_1_in_i_0 + g_j_in_i_1 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_1;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
+        v_3_in_i_1 * g_star_in_i_0;
     const jg_real M_0_i_i_6 = lambda[0] * e_ij_in_i_2 + f_j_in_i_2 * v_1_in_i_0 + g_j_in_i_2 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_2;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
+        v_3_in_i_2 * g_star_in_i_0;
+    /* v_1_in_j = lambda_4 h_star, axes of body j */
+    const jg_real v_1_in_j_2 = lambda[4] * h_star_in_j_2;
+    const jg_real v_1_in_j_0 = lambda[4] * h_star_in_j_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_2 = A_ij_6 * g_star_in_i_0 + A_ij_7 * g_star_in_i_1 + A_ij_8 * g_star_in_i_2;
+    const jg_real h_star_in_j_1 = A_ij_3 * h_star_in_i_0 + A_ij_4 * h_star_in_i_1 + A_ij_5 * h_star_in_i_2;
     const jg_real g_star_in_j_0 = A_ij_0 * g_star_in_i_0 + A_ij_1 * g_star_in_i_1 + A_ij_2 * g_star_in_i_2;
-    /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = f_j_in_i_0 * h_star_in_i_0 + f_j_in_i_1 * h_star_in_i_1 + f_j_in_i_2 *
-        h_star_in_i_2;
-    const jg_real g_star_in_j_1 = A_ij_3 * g_star_in_i_0 + A_ij_4 * g_star_in_i_1 + A_ij_5 * g_star_in_i_2;
     /* v_4_in_j = lambda_3 g_star, axes of body j */
     const jg_real v_4_in_j_2 = lambda[3] * g_star_in_j_2;
-    const jg_real v_4_in_j_0 = lambda[3] * g_star_in_j_0;
+    const jg_real v_1_in_j_1 = lambda[4] * h_star_in_j_1;
+    phi_q_t_lambda_q[72] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[32] = t46;
+    phi_q_t_lambda_q[44] = t46;
+    phi_q_t_lambda_q[33] = t48;
+    phi_q_t_lambda_q[47] = t48;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    const jg_real g_star_in_j_1 = A_ij_3 * g_star_in_i_0 + A_ij_4 * g_star_in_i_1 + A_ij_5 * g_star_in_i_2;
+    const jg_real v_4_in_j_0 = lambda[3] * g_star_in_j_0;
     const jg_real v_4_in_j_1 = lambda[3] * g_star_in_j_1;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - g_star_in_j_0 * h_star_in_j_2;
-    /* g_star_dot_h_j = g_star . h_j */
-    const jg_real g_star_dot_h_j = g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
-        h_j_in_i_2;
-    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - g_star_in_j_1 * h_star_in_j_0;
-    const jg_real f_star_in_j_0 = g_star_in_j_1 * h_star_in_j_2 - g_star_in_j_2 * h_star_in_j_1;
-    /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = C_j[6] * h_star_in_j_0 + C_j[7] * h_star_in_j_1 + C_j[8] * h_star_in_j_2;
     /* v_2_in_j = lambda_5 f_star, axes of body j */
     const jg_real v_2_in_j_1 = lambda[5] * f_star_in_j_1;
+    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - h_star_in_j_0 * g_star_in_j_1;
+    const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - g_star_in_j_2 * h_star_in_j_1;
     const jg_real v_2_in_j_2 = lambda[5] * f_star_in_j_2;
     const jg_real v_2_in_j_0 = lambda[5] * f_star_in_j_0;
-    /* g_star_dot_f_j = g_star . f_j */
-    const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
-    const jg_real t94 = lambda[3] * g_star_dot_h_j + lambda[4] * h_star_dot_f_j;
-    const jg_real t95 = cosine_1 * g_star_dot_h_j - sine_1 * h_star_dot_h_j;
-    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_1 + g_j_in_i_0 * v_2_in_i_1 +
-        g_star_in_i_1 * v_3_in_i_0;
-    phi_q_t_lambda_q[17] = M_0_i_i_1;
+    /* g_star_dot_h_j = g_star . h_j */
+    const jg_real g_star_dot_h_j = h_j_in_i_0 * g_star_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + h_j_in_i_2 *
+        g_star_in_i_2;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_1_in_j_1 + C_j[4] * v_2_in_j_1 + C_j[7] *
+    const jg_real M_1_j_j_4 = C_j[1] * v_1_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + v_2_in_j_1 * C_j[4] + C_j[7] *
         v_4_in_j_1;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_1_in_j_1 + C_j[3] * v_2_in_j_1 + C_j[6] *
+    const jg_real M_1_j_j_1 = C_j[0] * v_1_in_j_1 + s_j[0] * lambda_0_1_2_in_j_1 + v_2_in_j_1 * C_j[3] + C_j[6] *
         v_4_in_j_1;
-    phi_q_t_lambda_q[54] = M_1_j_j_1;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_1_in_j_1 + C_j[5] * v_2_in_j_1 + C_j[8] *
+    const jg_real M_1_j_j_7 = C_j[2] * v_1_in_j_1 + s_j[2] * lambda_0_1_2_in_j_1 + v_2_in_j_1 * C_j[5] + C_j[8] *
         v_4_in_j_1;
-    phi_q_t_lambda_q[74] = M_1_j_j_7;
     /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = C_j[0] * f_star_in_j_0 + C_j[1] * f_star_in_j_1 + C_j[2] * f_star_in_j_2;
+    const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
-    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_0;
-    /* g_j_in_star = g_j, axes of body star */
-    const jg_real g_j_in_star = g_star_dot_h_j * h_star_dot_f_j - h_star_dot_h_j * g_star_dot_f_j;
-    /* v_7_in_joint_j = cos(alpha_1) g_star x g_j - sin(alpha_1) h_star x g_j, axes of joint j */
-    const jg_real v_7_in_joint_j_2 = cosine_1 * g_star_dot_f_j - sine_1 * h_star_dot_f_j;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_1_in_j_2 + C_j[5] * v_2_in_j_2 + C_j[8] *
+    const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
+    const jg_real M_1_j_j_8 = C_j[2] * v_1_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + v_2_in_j_2 * C_j[5] + C_j[8] *
         v_4_in_j_2;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_1_in_j_0 + C_j[4] * v_2_in_j_0 + C_j[7] *
         v_4_in_j_0;
-    phi_q_t_lambda_q[63] = M_1_j_j_3;
     const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_1_in_j_0 + C_j[5] * v_2_in_j_0 + C_j[8] *
         v_4_in_j_0;
-    phi_q_t_lambda_q[73] = M_1_j_j_6;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_1_in_j_0 + C_j[3] * v_2_in_j_0 + C_j[6] *
+    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_1_in_j_0 + v_2_in_j_0 * C_j[3] + C_j[6] *
         v_4_in_j_0;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_1_in_j_2 + C_j[3] * v_2_in_j_2 + C_j[6] *
+    const jg_real M_1_j_j_2 = C_j[0] * v_1_in_j_2 + s_j[0] * lambda_0_1_2_in_j_2 + v_2_in_j_2 * C_j[3] + C_j[6] *
         v_4_in_j_2;
-    phi_q_t_lambda_q[55] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_1_in_j_2 + C_j[4] * v_2_in_j_2 + C_j[7] *
+    const jg_real M_1_j_j_5 = C_j[1] * v_1_in_j_2 + s_j[1] * lambda_0_1_2_in_j_2 + C_j[4] * v_2_in_j_2 + C_j[7] *
         v_4_in_j_2;
-    phi_q_t_lambda_q[65] = M_1_j_j_5;
+    /* h_star_dot_f_j = h_star . f_j */
+    const jg_real h_star_dot_f_j = f_j_in_i_0 * h_star_in_i_0 + f_j_in_i_1 * h_star_in_i_1 + f_j_in_i_2 *
+        h_star_in_i_2;
+    const jg_real t103 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t104 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t105 = M_1_j_j_4 + M_1_j_j_0;
+    /* v_6_in_joint_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j, axes of joint j */
+    const jg_real v_6_in_joint_j_1 = f_star_dot_f_j * t52 + f_star_dot_h_j * v_5_in_joint_j;
     /* v_10_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
-    const jg_real v_10_in_star_2 = lambda[4] * f_star_dot_f_j;
     const jg_real v_10_in_star_1 = lambda[3] * f_star_dot_h_j;
-    const jg_real t113 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t114 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t115 = M_1_j_j_0 + M_1_j_j_4;
+    /* g_star_dot_f_j = g_star . f_j */
+    const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
+    const jg_real t109 = A_ij_6 * t105 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    phi_q_t_lambda_q[54] = M_1_j_j_1;
+    phi_q_t_lambda_q[74] = M_1_j_j_7;
+    phi_q_t_lambda_q[63] = M_1_j_j_3;
+    phi_q_t_lambda_q[73] = M_1_j_j_6;
+    phi_q_t_lambda_q[55] = M_1_j_j_2;
+    phi_q_t_lambda_q[65] = M_1_j_j_5;
+    phi_q_t_lambda_q[14] = t109;
+    phi_q_t_lambda_q[68] = t109;
+    /* h_star_dot_h_j = h_star . h_j */
+    const jg_real h_star_dot_h_j = C_j[6] * h_star_in_j_0 + C_j[7] * h_star_in_j_1 + C_j[8] * h_star_in_j_2;
+    const jg_real t111 = lambda[3] * g_star_dot_h_j + lambda[4] * h_star_dot_f_j;
+    /* v_7_in_joint_j = cos(alpha_1) g_star x g_j - sin(alpha_1) h_star x g_j, axes of joint j */
+    const jg_real v_7_in_joint_j_2 = cosine_1 * g_star_dot_f_j - sine_1 * h_star_dot_f_j;
+    const jg_real t113 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t103 + A_ij_6 * M_1_j_j_6);
+    const jg_real t114 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t104 + A_ij_6 * M_1_j_j_7);
     /* v_8_in_joint_j = cos(alpha_1) lambda_5 g_star x g_j - sin(alpha_1) lambda_5 h_star x g_j, axes of joint j */
     const jg_real v_8_in_joint_j_2 = lambda[5] * v_7_in_joint_j_2;
-    /* v_6_in_joint_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j, axes of joint j */
-    const jg_real v_6_in_joint_j_1 = t51 * f_star_dot_f_j + v_5_in_joint_j * f_star_dot_h_j;
-    phi_q_t_lambda_q[18] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real t118 = t51 * g_j_in_star + lambda[5] * t95;
+    /* g_j_in_star = g_j, axes of body star */
+    const jg_real g_j_in_star = g_star_dot_h_j * h_star_dot_f_j - g_star_dot_f_j * h_star_dot_h_j;
+    const jg_real t117 = cosine_1 * g_star_dot_h_j - sine_1 * h_star_dot_h_j;
+    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_1 + v_2_in_i_1 * g_j_in_i_0 +
+        g_star_in_i_1 * v_3_in_i_0;
+    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_0 + v_2_in_i_0 * g_j_in_i_0 +
+        g_star_in_i_0 * v_3_in_i_0;
+    /* v_10_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
+    const jg_real v_10_in_i_0 = g_star_in_i_0 * v_10_in_star_1 - f_star_in_i_0 * t111 + v_1_in_i_0 * f_star_dot_f_j;
+    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + f_j_in_i_2 * v_1_in_i_1 + v_2_in_i_1 * g_j_in_i_2 +
+        g_star_in_i_1 * v_3_in_i_2;
+    phi_q_t_lambda_q[12] = t113;
+    phi_q_t_lambda_q[48] = t113;
+    phi_q_t_lambda_q[13] = t114;
+    phi_q_t_lambda_q[58] = t114;
+    phi_q_t_lambda_q[17] = M_0_i_i_1;
+    phi_q_t_lambda_q[16] = v_10_in_i_0;
+    phi_q_t_lambda_q[86] = v_10_in_i_0;
+    phi_q_t_lambda_q[19] = M_0_i_i_7;
+    const jg_real t122 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t103 + A_ij_7 * M_1_j_j_6);
+    const jg_real t123 = t52 * g_j_in_star + lambda[5] * t117;
     /* v_9_in_joint_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ...
         */
     const jg_real v_9_in_joint_j_2 = v_8_in_joint_j_2 - v_5_in_joint_j * g_j_in_star;
-    const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + f_j_in_i_2 * v_1_in_i_1 + g_j_in_i_2 * v_2_in_i_1 +
-        g_star_in_i_1 * v_3_in_i_2;
-    phi_q_t_lambda_q[19] = M_0_i_i_7;
-    const jg_real t121 = A_ij_6 * t115 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t121;
-    phi_q_t_lambda_q[68] = t121;
-    /* v_10_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_10_in_i_0 = g_star_in_i_0 * v_10_in_star_1 - f_star_in_i_0 * t94 + h_star_in_i_0 *
-        v_10_in_star_2;
-    phi_q_t_lambda_q[16] = v_10_in_i_0;
-    phi_q_t_lambda_q[86] = v_10_in_i_0;
-    /* v_9_in_i = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_9_in_i_0 = g_j_in_i_0 * v_6_in_joint_j_1 - f_j_in_i_0 * t118 + h_j_in_i_0 * v_9_in_joint_j_2;
-    phi_q_t_lambda_q[15] = v_9_in_i_0;
-    phi_q_t_lambda_q[78] = v_9_in_i_0;
-    const jg_real t124 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t113 + A_ij_6 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t124;
-    phi_q_t_lambda_q[48] = t124;
-    const jg_real t125 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t113 + A_ij_7 * M_1_j_j_6);
-    phi_q_t_lambda_q[23] = t125;
-    phi_q_t_lambda_q[49] = t125;
-    const jg_real t126 = A_ij_7 * t115 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    const jg_real t125 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t104 + A_ij_7 * M_1_j_j_7);
+    const jg_real t126 = A_ij_7 * t105 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    phi_q_t_lambda_q[23] = t122;
+    phi_q_t_lambda_q[49] = t122;
+    phi_q_t_lambda_q[18] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[24] = t125;
+    phi_q_t_lambda_q[59] = t125;
     phi_q_t_lambda_q[25] = t126;
     phi_q_t_lambda_q[69] = t126;
-    const jg_real t127 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t114 + A_ij_6 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t127;
-    phi_q_t_lambda_q[58] = t127;
-    const jg_real v_9_in_i_1 = g_j_in_i_1 * v_6_in_joint_j_1 - f_j_in_i_1 * t118 + h_j_in_i_1 * v_9_in_joint_j_2;
-    phi_q_t_lambda_q[26] = v_9_in_i_1;
-    phi_q_t_lambda_q[79] = v_9_in_i_1;
-    const jg_real t129 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t114 + A_ij_7 * M_1_j_j_7);
-    phi_q_t_lambda_q[24] = t129;
-    phi_q_t_lambda_q[59] = t129;
-    phi_q_t_lambda_q[30] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real v_10_in_i_1 = g_star_in_i_1 * v_10_in_star_1 - f_star_in_i_1 * t94 + h_star_in_i_1 *
-        v_10_in_star_2;
+    phi_q_t_lambda_q[30] = -(M_0_i_i_4 + M_0_i_i_0);
+    const jg_real v_10_in_i_1 = g_star_in_i_1 * v_10_in_star_1 - f_star_in_i_1 * t111 + v_1_in_i_1 * f_star_dot_f_j;
+    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_2 + v_2_in_i_2 * g_j_in_i_0 +
+        g_star_in_i_2 * v_3_in_i_0;
+    /* v_9_in_i = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_9_in_i_0 = v_6_in_joint_j_1 * g_j_in_i_0 - f_j_in_i_0 * t123 + h_j_in_i_0 * v_9_in_joint_j_2;
+    const jg_real v_9_in_i_1 = g_j_in_i_1 * v_6_in_joint_j_1 - f_j_in_i_1 * t123 + h_j_in_i_1 * v_9_in_joint_j_2;
+    const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + f_j_in_i_1 * v_1_in_i_2 + g_j_in_i_1 * v_2_in_i_2 +
+        v_3_in_i_1 * g_star_in_i_2;
     phi_q_t_lambda_q[27] = v_10_in_i_1;
     phi_q_t_lambda_q[87] = v_10_in_i_1;
-    phi_q_t_lambda_q[53] = -t113;
-    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_2 + g_j_in_i_0 * v_2_in_i_2 +
-        g_star_in_i_2 * v_3_in_i_0;
     phi_q_t_lambda_q[28] = M_0_i_i_2;
-    phi_q_t_lambda_q[64] = -t114;
-    const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + f_j_in_i_1 * v_1_in_i_2 + g_j_in_i_1 * v_2_in_i_2 +
-        g_star_in_i_2 * v_3_in_i_1;
+    phi_q_t_lambda_q[15] = v_9_in_i_0;
+    phi_q_t_lambda_q[78] = v_9_in_i_0;
+    phi_q_t_lambda_q[26] = v_9_in_i_1;
+    phi_q_t_lambda_q[79] = v_9_in_i_1;
     phi_q_t_lambda_q[29] = M_0_i_i_5;
-    const jg_real t133 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t113 + A_ij_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[34] = t133;
-    phi_q_t_lambda_q[50] = t133;
-    phi_q_t_lambda_q[75] = -t115;
-    const jg_real t134 = A_ij_8 * t115 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    phi_q_t_lambda_q[36] = t134;
-    phi_q_t_lambda_q[70] = t134;
-    const jg_real v_9_in_i_2 = g_j_in_i_2 * v_6_in_joint_j_1 - f_j_in_i_2 * t118 + h_j_in_i_2 * v_9_in_joint_j_2;
-    phi_q_t_lambda_q[37] = v_9_in_i_2;
-    phi_q_t_lambda_q[80] = v_9_in_i_2;
-    const jg_real t136 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t114 + A_ij_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[35] = t136;
-    phi_q_t_lambda_q[60] = t136;
-    const jg_real v_10_in_i_2 = g_star_in_i_2 * v_10_in_star_1 - f_star_in_i_2 * t94 + h_star_in_i_2 *
-        v_10_in_star_2;
-    phi_q_t_lambda_q[38] = v_10_in_i_2;
-    phi_q_t_lambda_q[88] = v_10_in_i_2;
+    const jg_real t132 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t103 + A_ij_8 * M_1_j_j_6);
+    const jg_real t133 = A_ij_8 * t105 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t134 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t104 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[53] = -t103;
+    phi_q_t_lambda_q[64] = -t104;
+    phi_q_t_lambda_q[34] = t132;
+    phi_q_t_lambda_q[50] = t132;
+    phi_q_t_lambda_q[36] = t133;
+    phi_q_t_lambda_q[70] = t133;
+    phi_q_t_lambda_q[35] = t134;
+    phi_q_t_lambda_q[60] = t134;
+    const jg_real v_9_in_i_2 = g_j_in_i_2 * v_6_in_joint_j_1 - f_j_in_i_2 * t123 + h_j_in_i_2 * v_9_in_joint_j_2;
+    const jg_real v_10_in_i_2 = g_star_in_i_2 * v_10_in_star_1 - f_star_in_i_2 * t111 + v_1_in_i_2 * f_star_dot_f_j;
     /* v_10_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_10_in_j_0 = g_star_in_j_0 * v_10_in_star_1 - f_star_in_j_0 * t94 + h_star_in_j_0 *
-        v_10_in_star_2;
-    phi_q_t_lambda_q[93] = -t94;
-    const jg_real v_10_in_j_1 = g_star_in_j_1 * v_10_in_star_1 - f_star_in_j_1 * t94 + h_star_in_j_1 *
-        v_10_in_star_2;
-    const jg_real t140 = sine_1 * lambda[3] * f_star_dot_h_j + lambda[4] * cosine_1 * f_star_dot_f_j;
-    phi_q_t_lambda_q[85] = t140;
-    phi_q_t_lambda_q[92] = t140;
-    const jg_real t141 = -v_10_in_j_0;
-    phi_q_t_lambda_q[57] = t141;
-    phi_q_t_lambda_q[89] = t141;
+    const jg_real v_10_in_j_0 = g_star_in_j_0 * v_10_in_star_1 - f_star_in_j_0 * t111 + v_1_in_j_0 * f_star_dot_f_j;
     /* v_9_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
     const jg_real v_9_in_j_0 = A_ij_0 * v_9_in_i_0 + A_ij_1 * v_9_in_i_1 + A_ij_2 * v_9_in_i_2;
     const jg_real v_9_in_j_1 = A_ij_3 * v_9_in_i_0 + A_ij_4 * v_9_in_i_1 + A_ij_5 * v_9_in_i_2;
+    const jg_real v_10_in_star_2 = lambda[4] * f_star_dot_f_j;
+    const jg_real t141 = -v_10_in_j_0;
+    const jg_real v_10_in_j_1 = g_star_in_j_1 * v_10_in_star_1 - f_star_in_j_1 * t111 + v_1_in_j_1 * f_star_dot_f_j;
+    phi_q_t_lambda_q[37] = v_9_in_i_2;
+    phi_q_t_lambda_q[80] = v_9_in_i_2;
+    phi_q_t_lambda_q[75] = -t105;
+    phi_q_t_lambda_q[38] = v_10_in_i_2;
+    phi_q_t_lambda_q[88] = v_10_in_i_2;
+    phi_q_t_lambda_q[57] = t141;
+    phi_q_t_lambda_q[89] = t141;
+    phi_q_t_lambda_q[93] = -t111;
     const jg_real v_9_in_j_2 = A_ij_6 * v_9_in_i_0 + A_ij_7 * v_9_in_i_1 + A_ij_8 * v_9_in_i_2;
-    const jg_real v_10_in_j_2 = g_star_in_j_2 * v_10_in_star_1 - f_star_in_j_2 * t94 + h_star_in_j_2 *
-        v_10_in_star_2;
+    const jg_real t144 = -v_9_in_j_0;
+    const jg_real t145 = -v_9_in_j_1;
     const jg_real t146 = -v_10_in_j_1;
+    const jg_real v_10_in_j_2 = g_star_in_j_2 * v_10_in_star_1 - f_star_in_j_2 * t111 + v_1_in_j_2 * f_star_dot_f_j;
+    const jg_real t148 = -v_9_in_j_2;
+    phi_q_t_lambda_q[56] = t144;
+    phi_q_t_lambda_q[81] = t144;
+    phi_q_t_lambda_q[66] = t145;
+    phi_q_t_lambda_q[82] = t145;
     phi_q_t_lambda_q[67] = t146;
     phi_q_t_lambda_q[90] = t146;
-    const jg_real t147 = -v_9_in_j_0;
-    phi_q_t_lambda_q[56] = t147;
-    phi_q_t_lambda_q[81] = t147;
-    const jg_real t148 = -v_9_in_j_1;
-    phi_q_t_lambda_q[66] = t148;
-    phi_q_t_lambda_q[82] = t148;
-    const jg_real t149 = -v_9_in_j_2;
-    phi_q_t_lambda_q[76] = t149;
-    phi_q_t_lambda_q[83] = t149;
+    phi_q_t_lambda_q[76] = t148;
+    phi_q_t_lambda_q[83] = t148;
+    const jg_real t149 = sine_1 * v_10_in_star_1 + cosine_1 * v_10_in_star_2;
     const jg_real t150 = -v_10_in_j_2;
+    phi_q_t_lambda_q[85] = t149;
+    phi_q_t_lambda_q[92] = t149;
     phi_q_t_lambda_q[77] = t150;
     phi_q_t_lambda_q[91] = t150;
-    phi_q_t_lambda_q[84] = -(t51 * t95 - v_5_in_joint_j * v_7_in_joint_j_2 + cosine_1 * lambda[5] * (cosine_1 *
-        g_j_in_star) + sine_1 * lambda[5] * (sine_1 * g_j_in_star));
+    phi_q_t_lambda_q[84] = -(t52 * t117 - v_5_in_joint_j * v_7_in_joint_j_2 + cosine_1 * g_j_in_star * (lambda[5] *
+        cosine_1) + sine_1 * g_j_in_star * (lambda[5] * sine_1));
 }
 
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -592,9 +580,8 @@ void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r
     jg_scatter(jg_universal_parametric_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_universal_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -612,144 +599,142 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     jg_sincos(alpha[1], &sine_1, &cosine_1);
     /* v_2_in_i = 2 omega_i, axes of body i */
     const jg_real v_2_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real v_2_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
     const jg_real v_2_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real t12 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t13 = alphadot[1] * alphadot[1];
-    const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
     /* omega_j_in_i = omega_j, axes of body i */
-    const jg_real omega_j_in_i_0 = omega_j[0] * A_ji_0 + omega_j[1] * A_ji_1 + omega_j[2] * A_ji_2;
-    const jg_real omega_j_in_i_2 = omega_j[0] * A_ji_6 + omega_j[1] * A_ji_7 + omega_j[2] * A_ji_8;
+    const jg_real omega_j_in_i_0 = omega_j[0] * A_ji_0 + A_ji_1 * omega_j[1] + A_ji_2 * omega_j[2];
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
+    const jg_real omega_j_in_i_2 = omega_j[0] * A_ji_6 + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
     const jg_real s_j_in_i_2 = A_ji_6 * s_j[0] + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     /* v_3_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_3_in_i_0 = v_2_in_i_0 - omega_j_in_i_0;
     const jg_real v_3_in_i_2 = v_2_in_i_2 - omega_j_in_i_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
-    /* v_7_in_i = v_j - v_i, axes of body i */
-    const jg_real v_7_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real omega_j_in_i_1 = omega_j[0] * A_ji_3 + omega_j[1] * A_ji_4 + omega_j[2] * A_ji_5;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
     const jg_real s_j_in_i_1 = A_ji_3 * s_j[0] + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    const jg_real v_3_in_i_1 = v_2_in_i_1 - omega_j_in_i_1;
+    /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real v_7_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
+    /* v_7_in_i = v_j - v_i, axes of body i */
+    const jg_real v_7_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
+    const jg_real v_7_in_i_2 = v_j_in_i_2 - v_i[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    const jg_real v_3_in_i_1 = v_2_in_i_1 - omega_j_in_i_1;
+    const jg_real v_7_in_i_0 = v_j_in_i_0 - v_i[0];
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    const jg_real v_7_in_i_1 = v_j_in_i_1 - v_i[1];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    const jg_real t43 = s_j_in_i_1 * v_3_in_i_1 + s_j_in_i_0 * v_3_in_i_0 + s_j_in_i_2 * v_3_in_i_2;
+    const jg_real t44 = omega_i[1] * e_ij_in_i_1 + omega_i[0] * e_ij_in_i_0 + omega_i[2] * e_ij_in_i_2;
+    /* v_8_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_8_in_i_0 = v_2_in_i_1 * v_7_in_i_2 - v_2_in_i_2 * v_7_in_i_1;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    /* v_8_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    /* v_5_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
+    const jg_real v_5_in_i_0 = omega_i[0] * t44;
+    const jg_real v_5_in_i_1 = omega_i[1] * t44;
     const jg_real v_8_in_i_1 = v_2_in_i_2 * v_7_in_i_0 - v_2_in_i_0 * v_7_in_i_2;
+    const jg_real v_5_in_i_2 = omega_i[2] * t44;
+    const jg_real v_8_in_i_2 = v_2_in_i_0 * v_7_in_i_1 - v_2_in_i_1 * v_7_in_i_0;
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real t53 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t54 = alphadot[1] * alphadot[1];
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
     /* omega_j_dot_g_j = omega_j . g_j */
     const jg_real omega_j_dot_g_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real v_8_in_i_0 = v_2_in_i_1 * v_7_in_i_2 - v_2_in_i_2 * v_7_in_i_1;
-    const jg_real v_8_in_i_2 = v_2_in_i_0 * v_7_in_i_1 - v_2_in_i_1 * v_7_in_i_0;
-    const jg_real t52 = s_j_in_i_0 * v_3_in_i_0 + s_j_in_i_1 * v_3_in_i_1 + s_j_in_i_2 * v_3_in_i_2;
     /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i[0] * h_j_in_i_0 + omega_i[1] * h_j_in_i_1 + omega_i[2] * h_j_in_i_2;
-    const jg_real t54 = omega_i[0] * e_ij_in_i_0 + omega_i[1] * e_ij_in_i_1 + omega_i[2] * e_ij_in_i_2;
-    /* v_5_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_5_in_i_0 = omega_i[0] * t54;
-    const jg_real v_5_in_i_1 = omega_i[1] * t54;
-    const jg_real v_5_in_i_2 = omega_i[2] * t54;
+    const jg_real omega_i_dot_h_j = omega_i[1] * h_j_in_i_1 + omega_i[0] * h_j_in_i_0 + omega_i[2] * h_j_in_i_2;
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = omega_i[0] * f_j_in_i_0 + omega_i[1] * f_j_in_i_1 + omega_i[2] * f_j_in_i_2;
+    const jg_real omega_i_dot_f_j = omega_i[1] * f_j_in_i_1 + omega_i[0] * f_j_in_i_0 + omega_i[2] * f_j_in_i_2;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     const jg_real t60 = cosine_0 * sine_1;
-    const jg_real t61 = sine_1 * alphadot[0];
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real t62 = sine_1 * alphadot[0];
     const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real t65 = cosine_1 * alphadot[0];
     /* h_star_in_i = h_star, axes of body i */
     const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t60 + C_i[8] * cosine_1;
-    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t60 + C_i[6] * cosine_1;
-    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t60 + C_i[7] * cosine_1;
+    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t60 + cosine_1 * C_i[6];
+    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t60 + cosine_1 * C_i[7];
     /* omega_j_dot_f_star = omega_j . f_star */
-    const jg_real omega_j_dot_f_star = f_star_in_i_0 * omega_j_in_i_0 + f_star_in_i_1 * omega_j_in_i_1 +
-        f_star_in_i_2 * omega_j_in_i_2;
+    const jg_real omega_j_dot_f_star = omega_j_in_i_1 * f_star_in_i_1 + omega_j_in_i_0 * f_star_in_i_0 +
+        omega_j_in_i_2 * f_star_in_i_2;
     /* omega_i_dot_f_star = omega_i . f_star */
-    const jg_real omega_i_dot_f_star = omega_i[0] * f_star_in_i_0 + omega_i[1] * f_star_in_i_1 + omega_i[2] *
-        f_star_in_i_2;
+    const jg_real omega_i_dot_f_star = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
+        omega_i[2];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = f_star_in_i_0 * h_star_in_i_2 - f_star_in_i_2 * h_star_in_i_0;
     const jg_real g_star_in_i_0 = f_star_in_i_2 * h_star_in_i_1 - f_star_in_i_1 * h_star_in_i_2;
     const jg_real g_star_in_i_2 = f_star_in_i_1 * h_star_in_i_0 - f_star_in_i_0 * h_star_in_i_1;
+    /* omega_j_dot_h_star = omega_j . h_star */
+    const jg_real omega_j_dot_h_star = omega_j_in_i_1 * h_star_in_i_1 + omega_j_in_i_0 * h_star_in_i_0 +
+        omega_j_in_i_2 * h_star_in_i_2;
+    /* omega_i_dot_h_star = omega_i . h_star */
+    const jg_real omega_i_dot_h_star = h_star_in_i_0 * omega_i[0] + h_star_in_i_1 * omega_i[1] + h_star_in_i_2 *
+        omega_i[2];
     /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = f_star_in_i_0 * f_j_in_i_0 + f_star_in_i_1 * f_j_in_i_1 + f_star_in_i_2 *
+    const jg_real f_star_dot_f_j = f_star_in_i_1 * f_j_in_i_1 + f_star_in_i_0 * f_j_in_i_0 + f_star_in_i_2 *
         f_j_in_i_2;
     /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = f_star_in_i_0 * h_j_in_i_0 + f_star_in_i_1 * h_j_in_i_1 + f_star_in_i_2 *
+    const jg_real f_star_dot_h_j = f_star_in_i_1 * h_j_in_i_1 + f_star_in_i_0 * h_j_in_i_0 + f_star_in_i_2 *
         h_j_in_i_2;
-    /* omega_j_dot_h_star = omega_j . h_star */
-    const jg_real omega_j_dot_h_star = h_star_in_i_0 * omega_j_in_i_0 + h_star_in_i_1 * omega_j_in_i_1 +
-        h_star_in_i_2 * omega_j_in_i_2;
-    /* omega_i_dot_h_star = omega_i . h_star */
-    const jg_real omega_i_dot_h_star = omega_i[0] * h_star_in_i_0 + omega_i[1] * h_star_in_i_1 + omega_i[2] *
-        h_star_in_i_2;
     /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = h_star_in_i_0 * f_j_in_i_0 + h_star_in_i_1 * f_j_in_i_1 + h_star_in_i_2 *
+    const jg_real h_star_dot_f_j = h_star_in_i_1 * f_j_in_i_1 + h_star_in_i_0 * f_j_in_i_0 + h_star_in_i_2 *
         f_j_in_i_2;
     /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = h_star_in_i_0 * h_j_in_i_0 + h_star_in_i_1 * h_j_in_i_1 + h_star_in_i_2 *
+    const jg_real h_star_dot_h_j = h_star_in_i_1 * h_j_in_i_1 + h_star_in_i_0 * h_j_in_i_0 + h_star_in_i_2 *
         h_j_in_i_2;
     /* omega_j_dot_g_star = omega_j . g_star */
-    const jg_real omega_j_dot_g_star = g_star_in_i_0 * omega_j_in_i_0 + g_star_in_i_1 * omega_j_in_i_1 +
-        g_star_in_i_2 * omega_j_in_i_2;
+    const jg_real omega_j_dot_g_star = omega_j_in_i_1 * g_star_in_i_1 + omega_j_in_i_0 * g_star_in_i_0 +
+        omega_j_in_i_2 * g_star_in_i_2;
     /* omega_i_dot_g_star = omega_i . g_star */
-    const jg_real omega_i_dot_g_star = omega_i[0] * g_star_in_i_0 + omega_i[1] * g_star_in_i_1 + omega_i[2] *
-        g_star_in_i_2;
+    const jg_real omega_i_dot_g_star = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+        omega_i[2];
     /* g_star_dot_h_j = g_star . h_j */
-    const jg_real g_star_dot_h_j = g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
+    const jg_real g_star_dot_h_j = g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_0 * h_j_in_i_0 + g_star_in_i_2 *
         h_j_in_i_2;
     /* g_star_dot_f_j = g_star . f_j */
-    const jg_real g_star_dot_f_j = g_star_in_i_0 * f_j_in_i_0 + g_star_in_i_1 * f_j_in_i_1 + g_star_in_i_2 *
+    const jg_real g_star_dot_f_j = g_star_in_i_1 * f_j_in_i_1 + g_star_in_i_0 * f_j_in_i_0 + g_star_in_i_2 *
         f_j_in_i_2;
     /* g_j_in_star = g_j, axes of body star */
-    const jg_real g_j_in_star_1 = h_star_dot_h_j * f_star_dot_f_j - f_star_dot_h_j * h_star_dot_f_j;
-    const jg_real g_j_in_star_0 = g_star_dot_h_j * h_star_dot_f_j - h_star_dot_h_j * g_star_dot_f_j;
-    const jg_real g_j_in_star_2 = f_star_dot_h_j * g_star_dot_f_j - g_star_dot_h_j * f_star_dot_f_j;
+    const jg_real g_j_in_star_1 = h_star_dot_h_j * f_star_dot_f_j - h_star_dot_f_j * f_star_dot_h_j;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = omega_j_dot_f_star * omega_j_dot_f_star + omega_j_dot_g_star *
         omega_j_dot_g_star + omega_j_dot_h_star * omega_j_dot_h_star;
+    const jg_real g_j_in_star_0 = g_star_dot_h_j * h_star_dot_f_j - h_star_dot_h_j * g_star_dot_f_j;
     /* omega_i_dot_omega_i = omega_i . omega_i */
-    const jg_real omega_i_dot_omega_i = omega_i_dot_f_star * omega_i_dot_f_star + omega_i_dot_g_star *
-        omega_i_dot_g_star + omega_i_dot_h_star * omega_i_dot_h_star;
+    const jg_real omega_i_dot_omega_i = omega_i_dot_g_star * omega_i_dot_g_star + omega_i_dot_f_star *
+        omega_i_dot_f_star + omega_i_dot_h_star * omega_i_dot_h_star;
     /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i_dot_f_star * omega_j_dot_f_star + omega_i_dot_g_star *
-        omega_j_dot_g_star + omega_i_dot_h_star * omega_j_dot_h_star;
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j_dot_f_star * f_star_dot_f_j + omega_j_dot_g_star * g_star_dot_f_j +
-        omega_j_dot_h_star * h_star_dot_f_j;
+    const jg_real omega_i_dot_omega_j = omega_j_dot_g_star * omega_i_dot_g_star + omega_j_dot_f_star *
+        omega_i_dot_f_star + omega_j_dot_h_star * omega_i_dot_h_star;
+    const jg_real g_j_in_star_2 = g_star_dot_f_j * f_star_dot_h_j - g_star_dot_h_j * f_star_dot_f_j;
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = omega_j_dot_f_star * f_star_dot_h_j + omega_j_dot_g_star * g_star_dot_h_j +
         omega_j_dot_h_star * h_star_dot_h_j;
@@ -758,49 +743,50 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
     const jg_real t92 = omega_i_dot_omega_j * JG_REAL(2.0);
     const jg_real v_1_in_i_1 = omega_i_dot_omega_i * v_0_in_i_1;
     const jg_real v_1_in_i_2 = omega_i_dot_omega_i * v_0_in_i_2;
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = omega_j_dot_f_star * f_star_dot_f_j + omega_j_dot_g_star * g_star_dot_f_j +
+        omega_j_dot_h_star * h_star_dot_f_j;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = omega_i_dot_f_star * g_j_in_star_0 + omega_i_dot_g_star * g_j_in_star_1 +
         omega_i_dot_h_star * g_j_in_star_2;
-    const jg_real t96 = omega_i_dot_omega_i - t92 + omega_j_dot_omega_j;
+    const jg_real t97 = omega_i_dot_omega_i - t92 + omega_j_dot_omega_j;
     /* v_4_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_4_in_i_0 = t96 * s_j_in_i_0 + omega_j_in_i_0 * t52;
-    const jg_real v_4_in_i_1 = t96 * s_j_in_i_1 + omega_j_in_i_1 * t52;
-    const jg_real v_4_in_i_2 = t96 * s_j_in_i_2 + omega_j_in_i_2 * t52;
+    const jg_real v_4_in_i_0 = t97 * s_j_in_i_0 + omega_j_in_i_0 * t43;
+    const jg_real v_4_in_i_1 = t97 * s_j_in_i_1 + omega_j_in_i_1 * t43;
+    const jg_real v_4_in_i_2 = t97 * s_j_in_i_2 + omega_j_in_i_2 * t43;
     /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_6_in_i_0 = v_1_in_i_0 + v_4_in_i_0 - v_5_in_i_0;
-    const jg_real v_6_in_i_1 = v_1_in_i_1 + v_4_in_i_1 - v_5_in_i_1;
-    const jg_real v_6_in_i_2 = v_1_in_i_2 + v_4_in_i_2 - v_5_in_i_2;
+    const jg_real v_6_in_i_0 = v_4_in_i_0 + v_1_in_i_0 - v_5_in_i_0;
+    const jg_real v_6_in_i_1 = v_4_in_i_1 + v_1_in_i_1 - v_5_in_i_1;
+    const jg_real v_6_in_i_2 = v_4_in_i_2 + v_1_in_i_2 - v_5_in_i_2;
     /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
     const jg_real v_9_in_i_0 = v_6_in_i_0 + v_8_in_i_0;
-    gamma[0] = v_9_in_i_0;
     const jg_real v_9_in_i_1 = v_6_in_i_1 + v_8_in_i_1;
-    gamma[1] = v_9_in_i_1;
     const jg_real v_9_in_i_2 = v_6_in_i_2 + v_8_in_i_2;
+    gamma[0] = v_9_in_i_0;
+    gamma[1] = v_9_in_i_1;
     gamma[2] = v_9_in_i_2;
-    gamma[5] = alphadot[0] * (cosine_1 * (cosine_1 * alphadot[0] * g_j_in_star_0 + JG_REAL(2.0) * (omega_j_dot_h_j *
-        g_star_dot_f_j - g_star_dot_h_j * omega_j_dot_f_j) - JG_REAL(2.0) * (omega_i_dot_h_j * g_star_dot_f_j -
-        g_star_dot_h_j * omega_i_dot_f_j)) + sine_1 * (g_j_in_star_0 * t61 - JG_REAL(2.0) * (omega_j_dot_g_star *
-        g_j_in_star_0 - omega_j_dot_f_star * g_j_in_star_1) + JG_REAL(2.0) * (omega_i_dot_g_star * g_j_in_star_0 -
-        omega_i_dot_f_star * g_j_in_star_1))) + t96 * g_j_in_star_0 + omega_j_dot_f_star * (JG_REAL(2.0) *
+    gamma[3] = alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (f_star_dot_f_j * omega_j_dot_g_j - g_j_in_star_0 *
+        omega_j_dot_f_j) - (JG_REAL(2.0) * (f_star_dot_f_j * omega_i_dot_g_j - g_j_in_star_0 * omega_i_dot_f_j) +
+        h_star_dot_h_j * t62)) - sine_1 * t53 * f_star_dot_h_j) + g_star_dot_h_j * (omega_i_dot_omega_i + cosine_1 *
+        t65 * alphadot[0] - t92 + omega_j_dot_omega_j + t54) + omega_j_dot_g_star * (JG_REAL(2.0) * omega_i_dot_h_j
+        - omega_j_dot_h_j) + (h_star_dot_f_j * omega_i_dot_g_j - g_j_in_star_2 * omega_i_dot_f_j - (h_star_dot_f_j *
+        omega_j_dot_g_j - g_j_in_star_2 * omega_j_dot_f_j)) * t53 - omega_i_dot_g_star * omega_i_dot_h_j;
+    gamma[5] = alphadot[0] * (sine_1 * (g_j_in_star_0 * t62 - JG_REAL(2.0) * (omega_j_dot_g_star * g_j_in_star_0 -
+        omega_j_dot_f_star * g_j_in_star_1) + JG_REAL(2.0) * (omega_i_dot_g_star * g_j_in_star_0 -
+        omega_i_dot_f_star * g_j_in_star_1)) + cosine_1 * (JG_REAL(2.0) * (g_star_dot_f_j * omega_j_dot_h_j -
+        g_star_dot_h_j * omega_j_dot_f_j) + g_j_in_star_0 * t65 - JG_REAL(2.0) * (g_star_dot_f_j * omega_i_dot_h_j -
+        g_star_dot_h_j * omega_i_dot_f_j))) + t97 * g_j_in_star_0 + omega_j_dot_f_star * (JG_REAL(2.0) *
         omega_i_dot_g_j - omega_j_dot_g_j) - omega_i_dot_f_star * omega_i_dot_g_j;
-    gamma[3] = g_star_dot_h_j * (omega_i_dot_omega_i + cosine_1 * cosine_1 * alphadot[0] * alphadot[0] - t92 +
-        omega_j_dot_omega_j + t13) + alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (f_star_dot_f_j * omega_j_dot_g_j -
-        omega_j_dot_f_j * g_j_in_star_0) - (h_star_dot_h_j * t61 + JG_REAL(2.0) * (f_star_dot_f_j * omega_i_dot_g_j
-        - g_j_in_star_0 * omega_i_dot_f_j))) - sine_1 * JG_REAL(2.0) * alphadot[1] * f_star_dot_h_j) +
-        omega_j_dot_g_star * (JG_REAL(2.0) * omega_i_dot_h_j - omega_j_dot_h_j) + (h_star_dot_f_j * omega_i_dot_g_j
-        - g_j_in_star_2 * omega_i_dot_f_j - (h_star_dot_f_j * omega_j_dot_g_j - omega_j_dot_f_j * g_j_in_star_2)) *
-        t12 - omega_i_dot_g_star * omega_i_dot_h_j;
-    gamma[4] = -(alphadot[0] * (sine_1 * (alphadot[0] * (cosine_1 * g_star_dot_f_j - sine_1 * h_star_dot_f_j) +
-        JG_REAL(2.0) * (omega_j_dot_h_j * g_j_in_star_0 - f_star_dot_h_j * omega_j_dot_g_j - (omega_i_dot_h_j *
-        g_j_in_star_0 - f_star_dot_h_j * omega_i_dot_g_j))) + cosine_1 * JG_REAL(2.0) * alphadot[1] *
-        f_star_dot_f_j) - h_star_dot_f_j * (t96 + t13) + t12 * (omega_i_dot_h_j * g_j_in_star_1 - g_star_dot_h_j *
-        omega_i_dot_g_j - (omega_j_dot_h_j * g_j_in_star_1 - g_star_dot_h_j * omega_j_dot_g_j)) + omega_j_dot_h_star
-        * (omega_j_dot_f_j - JG_REAL(2.0) * omega_i_dot_f_j) + omega_i_dot_h_star * omega_i_dot_f_j);
+    gamma[4] = -(alphadot[0] * (sine_1 * (JG_REAL(2.0) * (g_j_in_star_0 * omega_j_dot_h_j - f_star_dot_h_j *
+        omega_j_dot_g_j - (g_j_in_star_0 * omega_i_dot_h_j - f_star_dot_h_j * omega_i_dot_g_j)) + alphadot[0] *
+        (cosine_1 * g_star_dot_f_j - sine_1 * h_star_dot_f_j)) + cosine_1 * t53 * f_star_dot_f_j) - h_star_dot_f_j *
+        (t97 + t54) + t53 * (g_j_in_star_1 * omega_i_dot_h_j - g_star_dot_h_j * omega_i_dot_g_j - (g_j_in_star_1 *
+        omega_j_dot_h_j - g_star_dot_h_j * omega_j_dot_g_j)) + omega_j_dot_h_star * (omega_j_dot_f_j - JG_REAL(2.0)
+        * omega_i_dot_f_j) + omega_i_dot_h_star * omega_i_dot_f_j);
 }
 
-void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_universal_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -816,38 +802,34 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
+    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
+    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
-    const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
-    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    /* omega_j_in_joint_j = omega_j, axes of joint j */
-    const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
+    const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
     /* v_i_in_j = v_i, axes of body j */
     const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
@@ -858,6 +840,9 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
+    /* omega_j_in_joint_j = omega_j, axes of joint j */
+    const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
     /* v_1_in_j = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_2 * e_ij_in_j_1 - omega_i_in_j_1 * e_ij_in_j_2;
     const jg_real v_1_in_j_1 = omega_i_in_j_0 * e_ij_in_j_2 - omega_i_in_j_2 * e_ij_in_j_0;
@@ -867,42 +852,40 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
         C_j[2];
     const jg_real omega_i_in_joint_j_1 = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 *
         C_j[5];
-    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
-        C_j[8];
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
     const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
+    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
+        C_j[8];
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
+    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
     const jg_real v_3_in_i_0 = A_ji_0 * v_3_in_j_0 + A_ji_1 * v_3_in_j_1 + A_ji_2 * v_3_in_j_2;
-    phi_q_v[0] = v_3_in_i_0;
     const jg_real v_3_in_i_1 = A_ji_3 * v_3_in_j_0 + A_ji_4 * v_3_in_j_1 + A_ji_5 * v_3_in_j_2;
-    phi_q_v[1] = v_3_in_i_1;
     const jg_real v_3_in_i_2 = A_ji_6 * v_3_in_j_0 + A_ji_7 * v_3_in_j_1 + A_ji_8 * v_3_in_j_2;
-    phi_q_v[2] = v_3_in_i_2;
+    /* H_02 =  */
+    const jg_real H_02 = sine_0 * sine_1;
+    const jg_real t50 = sine_1 * cosine_0;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1;
-    const jg_real t53 = sine_1 * cosine_0;
+    /* h_star_in_i = h_star, axes of body i */
+    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t50 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t50 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t50 * C_i[5] + cosine_1 * C_i[8];
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_2 = A_ji_2 * f_star_in_i_0 + A_ji_5 * f_star_in_i_1 + A_ji_8 * f_star_in_i_2;
     const jg_real f_star_in_j_1 = A_ji_1 * f_star_in_i_0 + A_ji_4 * f_star_in_i_1 + A_ji_7 * f_star_in_i_2;
     const jg_real f_star_in_j_0 = A_ji_0 * f_star_in_i_0 + A_ji_3 * f_star_in_i_1 + A_ji_6 * f_star_in_i_2;
-    /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t53 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t53 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t53 * C_i[5] + cosine_1 * C_i[8];
-    /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
-    /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = A_ji_1 * h_star_in_i_0 + A_ji_4 * h_star_in_i_1 + A_ji_7 * h_star_in_i_2;
     const jg_real h_star_in_j_2 = A_ji_2 * h_star_in_i_0 + A_ji_5 * h_star_in_i_1 + A_ji_8 * h_star_in_i_2;
     const jg_real h_star_in_j_0 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
+    /* f_star_dot_h_j = f_star . h_j */
+    const jg_real f_star_dot_h_j = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
+    /* f_star_dot_f_j = f_star . f_j */
+    const jg_real f_star_dot_f_j = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - h_star_in_j_2 * f_star_in_j_1;
     const jg_real g_star_in_j_1 = h_star_in_j_2 * f_star_in_j_0 - h_star_in_j_0 * f_star_in_j_2;
@@ -915,6 +898,9 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
     const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = g_star_in_j_0 * C_j[0] + g_star_in_j_1 * C_j[1] + g_star_in_j_2 * C_j[2];
+    phi_q_v[0] = v_3_in_i_0;
+    phi_q_v[1] = v_3_in_i_1;
+    phi_q_v[2] = v_3_in_i_2;
     phi_q_v[4] = omega_i_in_joint_j_1 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_dot_g_j + (sine_1 *
         alphadot[0] * f_star_dot_f_j - g_star_dot_f_j * alphadot[1]) - (h_star_dot_h_j * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * h_star_dot_g_j);
@@ -926,16 +912,13 @@ void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_re
         omega_i_in_joint_j_1) - alphadot[1] * h_star_dot_h_j));
 }
 
-void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_universal_parametric_phi_q_t_lambda(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *phi_q_t_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -944,29 +927,26 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     jg_sincos(alpha[0], &sine_1, &cosine_1);
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
-    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
+    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     /* v_1_in_j = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body j */
@@ -1003,12 +983,12 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - g_star_in_j_1 * h_star_in_j_0;
     /* h_j_dot_h_star = h_j . h_star */
     const jg_real h_j_dot_h_star = h_star_in_j_0 * C_j[6] + h_star_in_j_1 * C_j[7] + h_star_in_j_2 * C_j[8];
+    /* g_j_dot_h_star = g_j . h_star */
+    const jg_real g_j_dot_h_star = h_star_in_j_0 * C_j[3] + h_star_in_j_1 * C_j[4] + h_star_in_j_2 * C_j[5];
     /* f_j_dot_g_star = f_j . g_star */
     const jg_real f_j_dot_g_star = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
     /* g_j_dot_g_star = g_j . g_star */
     const jg_real g_j_dot_g_star = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
-    /* g_j_dot_h_star = g_j . h_star */
-    const jg_real g_j_dot_h_star = h_star_in_j_0 * C_j[3] + h_star_in_j_1 * C_j[4] + h_star_in_j_2 * C_j[5];
     const jg_real t51 = lambda[3] * h_j_dot_h_star;
     /* v_2_in_star = lambda_4 f_j x h_star, axes of body star */
     const jg_real v_2_in_star = lambda[4] * f_j_dot_g_star;
@@ -1016,7 +996,6 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real h_j_dot_f_star = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
     /* f_j_dot_f_star = f_j . f_star */
     const jg_real f_j_dot_f_star = C_j[0] * f_star_in_j_0 + C_j[1] * f_star_in_j_1 + C_j[2] * f_star_in_j_2;
-    phi_q_t_lambda[13] = t51 - v_2_in_star;
     /* v_3_in_joint_j = lambda_5 g_j x f_star, axes of joint j */
     const jg_real v_3_in_joint_j = lambda[5] * h_j_dot_f_star;
     /* v_4_in_star = lambda_3 h_j x g_star, axes of body star */
@@ -1035,15 +1014,18 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real v_3_in_j_2 = C_j[2] * v_3_in_joint_j - C_j[8] * t57;
     const jg_real v_2_in_j_2 = v_2_in_star * f_star_in_j_2 - g_star_in_j_2 * t58;
     const jg_real v_4_in_j_2 = h_star_in_j_2 * v_4_in_star_2 - f_star_in_j_2 * t51;
-    phi_q_t_lambda[12] = -(cosine_0 * (v_4_in_star_2 - lambda[5] * g_j_dot_g_star) + sine_0 * (lambda[5] *
-        g_j_dot_h_star - t58));
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_star + lambda_4 f_j x h_star + lambda_5 g_j x f_star, ... */
     const jg_real v_5_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_2_in_j_0 + v_3_in_j_0 + v_4_in_j_0;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[13] = t51 - v_2_in_star;
     phi_q_t_lambda[9] = v_5_in_j_0;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
-    phi_q_t_lambda[10] = v_5_in_j_1;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
-    phi_q_t_lambda[11] = v_5_in_j_2;
     /* v_6_in_j = r_j x lambda_0_1_2 + s_j x lambda_0_1_2 - r_i x lambda_0_1_2 + lambda_3 h_j x g_star + ... */
     const jg_real v_6_in_j_0 = v_1_in_j_0 + v_5_in_j_0;
     const jg_real v_6_in_j_1 = v_1_in_j_1 + v_5_in_j_1;
@@ -1052,16 +1034,18 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
     const jg_real v_6_in_i_0 = A_ji_0 * v_6_in_j_0 + A_ji_1 * v_6_in_j_1 + A_ji_2 * v_6_in_j_2;
     const jg_real v_6_in_i_1 = A_ji_3 * v_6_in_j_0 + A_ji_4 * v_6_in_j_1 + A_ji_5 * v_6_in_j_2;
     const jg_real v_6_in_i_2 = A_ji_6 * v_6_in_j_0 + A_ji_7 * v_6_in_j_1 + A_ji_8 * v_6_in_j_2;
+    phi_q_t_lambda[12] = -(cosine_0 * (v_4_in_star_2 - lambda[5] * g_j_dot_g_star) + sine_0 * (lambda[5] *
+        g_j_dot_h_star - t58));
+    phi_q_t_lambda[10] = v_5_in_j_1;
+    phi_q_t_lambda[11] = v_5_in_j_2;
     phi_q_t_lambda[3] = -v_6_in_i_0;
     phi_q_t_lambda[4] = -v_6_in_i_1;
     phi_q_t_lambda[5] = -v_6_in_i_2;
 }
 
-void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j, const jg_real *A_j,
+    const jg_real *alpha, const jg_real *geometry, const jg_real *velocity, const jg_real *lambda, jg_real *phi,
+    jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -1076,462 +1060,443 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
+    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    phi_q[22] = A_ji_4;
+    phi_q[26] = A_ji_8;
+    phi_q[25] = A_ji_5;
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q_t_lambda_q[2] = lambda[2];
     phi_q_t_lambda_q[0] = -lambda[2];
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
+    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
+    const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
+    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
+    phi_q[23] = A_ji_7;
+    phi_q[20] = A_ji_6;
+    phi_q[19] = A_ji_3;
+    phi_q[18] = A_ji_0;
+    phi_q[21] = A_ji_1;
+    phi_q[24] = A_ji_2;
+    phi_q[13] = e_ij_in_i_1;
+    phi_q[3] = e_ij_in_i_2;
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
+    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
+    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
+    const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi_q[4] = -e_ij_in_i_1;
+    phi_q[8] = -e_ij_in_i_2;
+    phi_q[9] = e_ij_in_i_0;
+    phi_q[27] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    phi_q[28] = A_ji_5 * s_j[1] - A_ji_4 * s_j[2];
+    phi[0] = d_ij_in_i_0;
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
+    phi_q[14] = -e_ij_in_i_0;
+    phi_q[29] = A_ji_8 * s_j[1] - A_ji_7 * s_j[2];
+    phi_q[33] = A_ji_0 * s_j[2] - s_j[0] * A_ji_2;
+    phi_q[34] = A_ji_3 * s_j[2] - A_ji_5 * s_j[0];
     phi_q_t_lambda_q[1] = lambda[1];
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
-    phi_q_t_lambda_q[4] = -lambda[1];
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    phi_q[22] = A_ji_4;
-    const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    phi_q[26] = A_ji_8;
-    const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    phi_q[23] = A_ji_7;
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    phi_q[20] = A_ji_6;
-    const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    phi_q[19] = A_ji_3;
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
-    const jg_real v_0_in_i_2 = v_0_world_0 * A_i[6] + v_0_world_1 * A_i[7] + v_0_world_2 * A_i[8];
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + s_j[1] * A_ji_7 + s_j[2] * A_ji_8;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    phi_q[3] = e_ij_in_i_2;
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
-    phi_q[13] = e_ij_in_i_1;
-    phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
-    const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
-    phi_q[8] = -e_ij_in_i_2;
-    const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    phi_q[4] = -e_ij_in_i_1;
-    phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    /* h_j_in_i = h_j, axes of body i */
+    phi_q[35] = A_ji_6 * s_j[2] - A_ji_8 * s_j[0];
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
-    phi_q[9] = e_ij_in_i_0;
     /* v_1_in_i = lambda_4 f_j, axes of body i */
     const jg_real v_1_in_i_1 = f_j_in_i_1 * lambda[4];
     /* v_2_in_i = lambda_5 g_j, axes of body i */
     const jg_real v_2_in_i_1 = g_j_in_i_1 * lambda[5];
-    const jg_real v_1_in_i_2 = f_j_in_i_2 * lambda[4];
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    const jg_real v_2_in_i_2 = g_j_in_i_2 * lambda[5];
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
-    phi_q[14] = -e_ij_in_i_0;
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real t41 = A_ji_6 * lambda[1] - A_ji_3 * lambda[2];
-    phi_q_t_lambda_q[9] = t41;
-    phi_q_t_lambda_q[39] = t41;
-    const jg_real t42 = A_ji_7 * lambda[1] - A_ji_4 * lambda[2];
-    phi_q_t_lambda_q[10] = t42;
-    phi_q_t_lambda_q[42] = t42;
-    const jg_real v_1_in_i_0 = f_j_in_i_0 * lambda[4];
-    const jg_real t44 = A_ji_8 * lambda[1] - A_ji_5 * lambda[2];
-    phi_q_t_lambda_q[11] = t44;
-    phi_q_t_lambda_q[45] = t44;
-    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
     /* v_3_in_i = lambda_3 h_j, axes of body i */
     const jg_real v_3_in_i_2 = h_j_in_i_2 * lambda[3];
+    const jg_real v_1_in_i_2 = f_j_in_i_2 * lambda[4];
     const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
+    const jg_real v_2_in_i_2 = g_j_in_i_2 * lambda[5];
+    const jg_real t43 = A_ji_6 * lambda[1] - A_ji_3 * lambda[2];
+    const jg_real t44 = A_ji_7 * lambda[1] - A_ji_4 * lambda[2];
+    phi_q_t_lambda_q[4] = -lambda[1];
+    phi_q[39] = s_j[0] * A_ji_1 - A_ji_0 * s_j[1];
+    phi_q[40] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    phi_q[41] = A_ji_7 * s_j[0] - A_ji_6 * s_j[1];
+    phi_q_t_lambda_q[9] = t43;
+    phi_q_t_lambda_q[39] = t43;
+    phi_q_t_lambda_q[10] = t44;
+    phi_q_t_lambda_q[42] = t44;
+    const jg_real t45 = A_ji_8 * lambda[1] - A_ji_5 * lambda[2];
+    const jg_real v_1_in_i_0 = f_j_in_i_0 * lambda[4];
+    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
     const jg_real v_3_in_i_0 = h_j_in_i_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
-    phi_q_t_lambda_q[71] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
-    phi_q_t_lambda_q[51] = lambda_0_1_2_in_j_2;
-    const jg_real t51 = A_ji_0 * lambda[2] - A_ji_6 * lambda[0];
-    phi_q_t_lambda_q[20] = t51;
-    phi_q_t_lambda_q[40] = t51;
     const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    phi_q_t_lambda_q[62] = lambda_0_1_2_in_j_0;
+    const jg_real t52 = A_ji_0 * lambda[2] - A_ji_6 * lambda[0];
     const jg_real t53 = A_ji_1 * lambda[2] - A_ji_7 * lambda[0];
+    phi_q_t_lambda_q[11] = t45;
+    phi_q_t_lambda_q[45] = t45;
+    phi_q_t_lambda_q[71] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[51] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[62] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[20] = t52;
+    phi_q_t_lambda_q[40] = t52;
     phi_q_t_lambda_q[21] = t53;
     phi_q_t_lambda_q[43] = t53;
     const jg_real t54 = A_ji_2 * lambda[2] - A_ji_8 * lambda[0];
+    const jg_real t55 = A_ji_3 * lambda[0] - A_ji_0 * lambda[1];
+    const jg_real t56 = A_ji_4 * lambda[0] - A_ji_1 * lambda[1];
     phi_q_t_lambda_q[22] = t54;
     phi_q_t_lambda_q[46] = t54;
-    const jg_real t55 = A_ji_3 * lambda[0] - A_ji_0 * lambda[1];
     phi_q_t_lambda_q[31] = t55;
     phi_q_t_lambda_q[41] = t55;
-    const jg_real t56 = A_ji_4 * lambda[0] - A_ji_1 * lambda[1];
-    phi_q_t_lambda_q[32] = t56;
-    phi_q_t_lambda_q[44] = t56;
-    const jg_real t57 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
-    phi_q_t_lambda_q[33] = t57;
-    phi_q_t_lambda_q[47] = t57;
     phi_q_t_lambda_q[52] = -lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[61] = -lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[72] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[32] = t56;
+    phi_q_t_lambda_q[44] = t56;
+    const jg_real t57 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
     /* v_18_in_i = 2 omega_i, axes of body i */
-    const jg_real v_18_in_i_0 = JG_REAL(2.0) * omega_i[0];
-    const jg_real v_18_in_i_1 = JG_REAL(2.0) * omega_i[1];
-    const jg_real v_18_in_i_2 = JG_REAL(2.0) * omega_i[2];
+    const jg_real v_18_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_18_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_18_in_i_2 = omega_i[2] * JG_REAL(2.0);
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = A_ji_0 * omega_j[0] + A_ji_1 * omega_j[1] + A_ji_2 * omega_j[2];
     const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
+    const jg_real omega_j_in_i_2 = A_ji_6 * omega_j[0] + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real t64 = alphadot[1] * alphadot[1];
     /* v_21_in_i = 2 omega_i - omega_j, axes of body i */
     const jg_real v_21_in_i_0 = v_18_in_i_0 - omega_j_in_i_0;
+    const jg_real t66 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     const jg_real v_21_in_i_1 = v_18_in_i_1 - omega_j_in_i_1;
-    const jg_real omega_j_in_i_2 = A_ji_6 * omega_j[0] + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
-    const jg_real t68 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
-    const jg_real v_21_in_i_2 = v_18_in_i_2 - omega_j_in_i_2;
-    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
-    /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    /* v_19_in_i = v_j - v_i, axes of body i */
-    const jg_real v_19_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real t75 = JG_REAL(2.0) * alphadot[1];
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_i[0] * omega_j_in_i_0 + omega_i[1] * omega_j_in_i_1 + omega_i[2] *
-        omega_j_in_i_2;
-    const jg_real v_19_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real v_19_in_i_0 = v_j_in_i_0 - v_i[0];
-    /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
-    const jg_real t80 = JG_REAL(2.0) * omega_i_dot_omega_j;
-    const jg_real t81 = s_j_in_i_0 * v_21_in_i_0 + s_j_in_i_1 * v_21_in_i_1 + s_j_in_i_2 * v_21_in_i_2;
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
-    /* v_20_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_20_in_i_0 = v_18_in_i_1 * v_19_in_i_2 - v_18_in_i_2 * v_19_in_i_1;
-    const jg_real v_20_in_i_1 = v_18_in_i_2 * v_19_in_i_0 - v_18_in_i_0 * v_19_in_i_2;
-    const jg_real v_20_in_i_2 = v_18_in_i_0 * v_19_in_i_1 - v_18_in_i_1 * v_19_in_i_0;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
-    const jg_real t87 = sine_1 * cosine_0;
+    const jg_real t69 = sine_1 * cosine_0;
     /* v_7_in_joint_j = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of joint j */
     const jg_real v_7_in_joint_j = sine_1 * lambda[4];
-    const jg_real t89 = cosine_1 * lambda[3];
+    /* f_star_in_i = f_star, axes of body i */
+    const jg_real f_star_in_i_0 = C_i[0] * cosine_0 + sine_0 * C_i[3];
+    const jg_real t72 = cosine_1 * lambda[3];
+    const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     /* v_16_in_star = sin(alpha_1) lambda_5 g_star + cos(alpha_1) lambda_5 h_star, axes of body star */
     const jg_real v_16_in_star_2 = cosine_1 * lambda[5];
-    const jg_real v_16_in_star_1 = sine_1 * lambda[5];
-    /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
-    const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real v_16_in_star_1 = sine_1 * lambda[5];
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t87 * C_i[3] + cosine_1 * C_i[6];
-    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t87 * C_i[4] + cosine_1 * C_i[7];
-    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t87 * C_i[5] + cosine_1 * C_i[8];
-    /* v_17_in_star = (cos(alpha_1) cos(alpha_1) lambda_5 + sin(alpha_1) sin(alpha_1) lambda_5) f_star, axes of ...
-        */
-    const jg_real v_17_in_star = sine_1 * v_16_in_star_1 + cosine_1 * v_16_in_star_2;
+    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t69 * C_i[3] + cosine_1 * C_i[6];
+    const jg_real h_star_in_i_1 = H_02 * C_i[1] - t69 * C_i[4] + cosine_1 * C_i[7];
+    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t69 * C_i[5] + cosine_1 * C_i[8];
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
         f_star_in_i_2;
-    phi[5] = f_star_dot_g_j;
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = f_j_in_i_0 * f_star_in_i_0 + f_j_in_i_1 * f_star_in_i_1 + f_j_in_i_2 *
         f_star_in_i_2;
     /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 *
-        f_star_in_i_2;
+    const jg_real f_star_dot_h_j = f_star_in_i_1 * h_j_in_i_1 + f_star_in_i_0 * h_j_in_i_0 + f_star_in_i_2 *
+        h_j_in_i_2;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = f_j_in_i_0 * h_star_in_i_0 + f_j_in_i_1 * h_star_in_i_1 + f_j_in_i_2 *
         h_star_in_i_2;
-    phi[4] = h_star_dot_f_j;
     /* h_star_dot_g_j = h_star . g_j */
     const jg_real h_star_dot_g_j = h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_2 *
         g_j_in_i_2;
-    phi_q[46] = sine_1 * f_star_dot_f_j;
-    /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = h_star_in_i_0 * h_j_in_i_0 + h_star_in_i_1 * h_j_in_i_1 + h_star_in_i_2 *
-        h_j_in_i_2;
-    phi_q[48] = h_star_dot_h_j;
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = h_star_in_i_2 * f_star_in_i_0 - h_star_in_i_0 * f_star_in_i_2;
-    const jg_real g_star_in_i_2 = h_star_in_i_0 * f_star_in_i_1 - h_star_in_i_1 * f_star_in_i_0;
+    /* h_star_dot_h_j = h_star . h_j */
+    const jg_real h_star_dot_h_j = h_star_in_i_1 * h_j_in_i_1 + h_star_in_i_0 * h_j_in_i_0 + h_star_in_i_2 *
+        h_j_in_i_2;
     /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
-    const jg_real f_star_cross_g_j_in_i_0 = h_j_in_i_0 * f_star_dot_f_j - f_j_in_i_0 * f_star_dot_h_j;
-    phi_q[7] = f_star_cross_g_j_in_i_0;
-    const jg_real f_star_cross_g_j_in_i_1 = h_j_in_i_1 * f_star_dot_f_j - f_j_in_i_1 * f_star_dot_h_j;
-    phi_q[12] = f_star_cross_g_j_in_i_1;
-    const jg_real f_star_cross_g_j_in_i_2 = h_j_in_i_2 * f_star_dot_f_j - f_j_in_i_2 * f_star_dot_h_j;
-    phi_q[17] = f_star_cross_g_j_in_i_2;
-    phi_q[32] = C_j[0] * f_star_dot_h_j - f_star_dot_f_j * C_j[6];
-    phi_q[38] = C_j[1] * f_star_dot_h_j - f_star_dot_f_j * C_j[7];
+    const jg_real f_star_cross_g_j_in_i_0 = f_star_dot_f_j * h_j_in_i_0 - f_j_in_i_0 * f_star_dot_h_j;
     /* g_star_in_joint_j = g_star, axes of joint j */
     const jg_real g_star_in_joint_j_2 = h_star_dot_f_j * f_star_dot_g_j - h_star_dot_g_j * f_star_dot_f_j;
+    phi_q_t_lambda_q[33] = t57;
+    phi_q_t_lambda_q[47] = t57;
+    phi[5] = f_star_dot_g_j;
+    phi[4] = h_star_dot_f_j;
+    phi_q[46] = sine_1 * f_star_dot_f_j;
+    phi_q[48] = h_star_dot_h_j;
+    phi_q[7] = f_star_cross_g_j_in_i_0;
     phi[3] = g_star_in_joint_j_2;
-    phi_q[44] = C_j[2] * f_star_dot_h_j - f_star_dot_f_j * C_j[8];
-    phi_q[45] = -(cosine_1 * f_star_dot_h_j);
-    const jg_real g_star_in_joint_j_1 = h_star_dot_h_j * f_star_dot_f_j - h_star_dot_f_j * f_star_dot_h_j;
-    const jg_real g_star_in_joint_j_0 = h_star_dot_g_j * f_star_dot_h_j - h_star_dot_h_j * f_star_dot_g_j;
+    const jg_real f_star_cross_g_j_in_i_1 = f_star_dot_f_j * h_j_in_i_1 - f_j_in_i_1 * f_star_dot_h_j;
+    const jg_real f_star_cross_g_j_in_i_2 = f_star_dot_f_j * h_j_in_i_2 - f_j_in_i_2 * f_star_dot_h_j;
+    const jg_real g_star_in_joint_j_1 = f_star_dot_f_j * h_star_dot_h_j - h_star_dot_f_j * f_star_dot_h_j;
+    const jg_real g_star_in_joint_j_0 = h_star_dot_g_j * f_star_dot_h_j - f_star_dot_g_j * h_star_dot_h_j;
     /* h_star_cross_f_j_in_i = h_star x f_j, axes of body i */
     const jg_real h_star_cross_f_j_in_i_0 = g_j_in_i_0 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_0;
-    phi_q[6] = h_star_cross_f_j_in_i_0;
     const jg_real h_star_cross_f_j_in_i_1 = g_j_in_i_1 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_1;
-    phi_q[11] = h_star_cross_f_j_in_i_1;
     const jg_real h_star_cross_f_j_in_i_2 = g_j_in_i_2 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_2;
+    phi_q[12] = f_star_cross_g_j_in_i_1;
+    phi_q[17] = f_star_cross_g_j_in_i_2;
+    phi_q[6] = h_star_cross_f_j_in_i_0;
+    phi_q[11] = h_star_cross_f_j_in_i_1;
     phi_q[16] = h_star_cross_f_j_in_i_2;
     phi_q[31] = h_star_dot_g_j * C_j[6] - C_j[3] * h_star_dot_h_j;
+    phi_q[32] = C_j[0] * f_star_dot_h_j - f_star_dot_f_j * C_j[6];
     phi_q[37] = h_star_dot_g_j * C_j[7] - C_j[4] * h_star_dot_h_j;
-    const jg_real g_star_in_i_0 = h_star_in_i_1 * f_star_in_i_2 - h_star_in_i_2 * f_star_in_i_1;
+    /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
+    const jg_real g_star_cross_h_j_in_i_0 = f_j_in_i_0 * g_star_in_joint_j_1 - g_j_in_i_0 * g_star_in_joint_j_0;
+    const jg_real g_star_cross_h_j_in_i_1 = f_j_in_i_1 * g_star_in_joint_j_1 - g_j_in_i_1 * g_star_in_joint_j_0;
+    const jg_real g_star_cross_h_j_in_i_2 = f_j_in_i_2 * g_star_in_joint_j_1 - g_j_in_i_2 * g_star_in_joint_j_0;
+    phi_q[38] = C_j[1] * f_star_dot_h_j - f_star_dot_f_j * C_j[7];
+    phi_q[5] = g_star_cross_h_j_in_i_0;
+    phi_q[10] = g_star_cross_h_j_in_i_1;
     phi_q[43] = h_star_dot_g_j * C_j[8] - C_j[5] * h_star_dot_h_j;
-    phi_q[49] = -g_star_in_joint_j_0;
+    phi_q[15] = g_star_cross_h_j_in_i_2;
+    phi_q[44] = C_j[2] * f_star_dot_h_j - f_star_dot_f_j * C_j[8];
+    phi_q[30] = C_j[3] * g_star_in_joint_j_0 - C_j[0] * g_star_in_joint_j_1;
+    phi_q[36] = C_j[4] * g_star_in_joint_j_0 - C_j[1] * g_star_in_joint_j_1;
+    const jg_real g_star_in_i_2 = h_star_in_i_0 * f_star_in_i_1 - h_star_in_i_1 * f_star_in_i_0;
     /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + h_star_in_i_1 * v_1_in_i_1 + f_star_in_i_1 * v_2_in_i_1 +
         v_3_in_i_1 * g_star_in_i_1;
-    /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
-    const jg_real g_star_cross_h_j_in_i_0 = f_j_in_i_0 * g_star_in_joint_j_1 - g_j_in_i_0 * g_star_in_joint_j_0;
-    phi_q[5] = g_star_cross_h_j_in_i_0;
-    const jg_real g_star_cross_h_j_in_i_1 = f_j_in_i_1 * g_star_in_joint_j_1 - g_j_in_i_1 * g_star_in_joint_j_0;
-    phi_q[10] = g_star_cross_h_j_in_i_1;
-    const jg_real g_star_cross_h_j_in_i_2 = f_j_in_i_2 * g_star_in_joint_j_1 - g_j_in_i_2 * g_star_in_joint_j_0;
-    phi_q[15] = g_star_cross_h_j_in_i_2;
-    phi_q[30] = C_j[3] * g_star_in_joint_j_0 - C_j[0] * g_star_in_joint_j_1;
-    phi_q[36] = C_j[4] * g_star_in_joint_j_0 - C_j[1] * g_star_in_joint_j_1;
-    phi_q[42] = C_j[5] * g_star_in_joint_j_0 - C_j[2] * g_star_in_joint_j_1;
-    phi_q[47] = cosine_1 * g_star_in_joint_j_1 - sine_1 * h_star_dot_g_j;
+    const jg_real g_star_in_i_0 = h_star_in_i_1 * f_star_in_i_2 - h_star_in_i_2 * f_star_in_i_1;
     const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + h_star_in_i_2 * v_1_in_i_2 + f_star_in_i_2 * v_2_in_i_2 +
         v_3_in_i_2 * g_star_in_i_2;
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + h_star_in_i_0 * v_1_in_i_1 + f_star_in_i_0 * v_2_in_i_1 +
-        v_3_in_i_1 * g_star_in_i_0;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + h_star_in_i_0 * v_1_in_i_2 + f_star_in_i_0 * v_2_in_i_2 +
-        v_3_in_i_2 * g_star_in_i_0;
-    phi_q_t_lambda_q[8] = M_0_i_i_6;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_0 = C_j[0] * f_star_dot_f_j + C_j[3] * f_star_dot_g_j + f_star_dot_h_j * C_j[6];
-    /* v_5_in_j = lambda_5 f_star, axes of body j */
-    const jg_real v_5_in_j_0 = lambda[5] * f_star_in_j_0;
-    /* v_13_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
-    const jg_real v_13_in_star_1 = f_star_dot_h_j * lambda[3];
+    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + h_star_in_i_0 * v_1_in_i_1 + f_star_in_i_0 * v_2_in_i_1 +
+        v_3_in_i_1 * g_star_in_i_0;
+    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + h_star_in_i_0 * v_1_in_i_2 + f_star_in_i_0 * v_2_in_i_2 +
+        v_3_in_i_2 * g_star_in_i_0;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_2 = C_j[2] * h_star_dot_f_j + C_j[5] * h_star_dot_g_j + h_star_dot_h_j * C_j[8];
-    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    /* v_7_in_star = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of body star */
-    const jg_real v_7_in_star_1 = g_star_in_joint_j_0 * v_7_in_joint_j - g_star_in_joint_j_2 * t89;
+    /* v_5_in_j = lambda_5 f_star, axes of body j */
+    const jg_real v_5_in_j_0 = lambda[5] * f_star_in_j_0;
     const jg_real f_star_in_j_2 = C_j[2] * f_star_dot_f_j + C_j[5] * f_star_dot_g_j + f_star_dot_h_j * C_j[8];
-    const jg_real v_13_in_star_2 = f_star_dot_f_j * lambda[4];
-    /* v_9_in_star = cos(alpha_1) lambda_5 g_star x g_j - sin(alpha_1) lambda_5 h_star x g_j, axes of body star */
-    const jg_real v_9_in_star = h_star_dot_g_j * v_16_in_star_2 + g_star_in_joint_j_1 * v_16_in_star_1;
     const jg_real h_star_in_j_0 = C_j[0] * h_star_dot_f_j + C_j[3] * h_star_dot_g_j + h_star_dot_h_j * C_j[6];
-    const jg_real f_star_in_j_1 = C_j[1] * f_star_dot_f_j + C_j[4] * f_star_dot_g_j + f_star_dot_h_j * C_j[7];
-    const jg_real v_7_in_star_2 = h_star_dot_f_j * v_7_in_joint_j - h_star_dot_h_j * t89;
     /* v_4_in_j = lambda_4 h_star, axes of body j */
     const jg_real v_4_in_j_2 = lambda[4] * h_star_in_j_2;
-    const jg_real h_star_in_j_1 = C_j[1] * h_star_dot_f_j + C_j[4] * h_star_dot_g_j + h_star_dot_h_j * C_j[7];
-    /* v_10_in_star = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_10_in_star_2 = v_7_in_star_1 - f_star_dot_g_j * v_16_in_star_2;
     const jg_real v_5_in_j_2 = lambda[5] * f_star_in_j_2;
-    const jg_real t139 = g_star_in_joint_j_2 * lambda[3] + h_star_dot_f_j * lambda[4];
+    const jg_real f_star_in_j_1 = C_j[1] * f_star_dot_f_j + C_j[4] * f_star_dot_g_j + f_star_dot_h_j * C_j[7];
+    /* v_7_in_star = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of body star */
+    const jg_real v_7_in_star_1 = g_star_in_joint_j_0 * v_7_in_joint_j - g_star_in_joint_j_2 * t72;
+    /* v_9_in_star = cos(alpha_1) lambda_5 g_star x g_j - sin(alpha_1) lambda_5 h_star x g_j, axes of body star */
+    const jg_real v_9_in_star = g_star_in_joint_j_1 * v_16_in_star_1 + h_star_dot_g_j * v_16_in_star_2;
+    const jg_real h_star_in_j_1 = C_j[1] * h_star_dot_f_j + C_j[4] * h_star_dot_g_j + h_star_dot_h_j * C_j[7];
     const jg_real v_4_in_j_0 = lambda[4] * h_star_in_j_0;
     const jg_real v_5_in_j_1 = lambda[5] * f_star_in_j_1;
-    const jg_real t142 = v_7_in_star_2 + f_star_dot_g_j * v_16_in_star_1;
-    const jg_real v_4_in_j_1 = lambda[4] * h_star_in_j_1;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
-    const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
-    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
+    const jg_real v_4_in_j_1 = lambda[4] * h_star_in_j_1;
     /* v_6_in_j = lambda_3 g_star, axes of body j */
     const jg_real v_6_in_j_1 = lambda[3] * g_star_in_j_1;
+    const jg_real g_star_in_j_2 = h_star_in_j_0 * f_star_in_j_1 - f_star_in_j_0 * h_star_in_j_1;
+    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - h_star_in_j_2 * f_star_in_j_1;
     const jg_real v_6_in_j_2 = lambda[3] * g_star_in_j_2;
     const jg_real v_6_in_j_0 = lambda[3] * g_star_in_j_0;
+    /* v_10_in_star = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_10_in_star_2 = v_7_in_star_1 - f_star_dot_g_j * v_16_in_star_2;
+    const jg_real v_7_in_star_2 = h_star_dot_f_j * v_7_in_joint_j - h_star_dot_h_j * t72;
+    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
+    const jg_real M_1_j_j_4 = C_j[1] * v_4_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[4] * v_5_in_j_1 + C_j[7] *
+        v_6_in_j_1;
+    const jg_real M_1_j_j_8 = C_j[2] * v_4_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + C_j[5] * v_5_in_j_2 + C_j[8] *
+        v_6_in_j_2;
+    const jg_real M_1_j_j_2 = C_j[0] * v_4_in_j_2 + s_j[0] * lambda_0_1_2_in_j_2 + C_j[3] * v_5_in_j_2 + C_j[6] *
+        v_6_in_j_2;
+    phi_q[49] = -g_star_in_joint_j_0;
+    phi_q[42] = C_j[5] * g_star_in_joint_j_0 - C_j[2] * g_star_in_joint_j_1;
+    phi_q[45] = -(cosine_1 * f_star_dot_h_j);
+    phi_q[47] = cosine_1 * g_star_in_joint_j_1 - sine_1 * h_star_dot_g_j;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    phi_q_t_lambda_q[8] = M_0_i_i_6;
+    phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
+    phi_q_t_lambda_q[55] = M_1_j_j_2;
+    const jg_real M_1_j_j_3 = C_j[1] * v_4_in_j_0 + s_j[1] * lambda_0_1_2_in_j_0 + C_j[4] * v_5_in_j_0 + C_j[7] *
+        v_6_in_j_0;
+    const jg_real M_1_j_j_6 = C_j[2] * v_4_in_j_0 + s_j[2] * lambda_0_1_2_in_j_0 + C_j[5] * v_5_in_j_0 + C_j[8] *
+        v_6_in_j_0;
+    const jg_real M_1_j_j_0 = C_j[0] * v_4_in_j_0 + s_j[0] * lambda_0_1_2_in_j_0 + C_j[3] * v_5_in_j_0 + C_j[6] *
+        v_6_in_j_0;
+    const jg_real M_1_j_j_1 = C_j[0] * v_4_in_j_1 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_5_in_j_1 + C_j[6] *
+        v_6_in_j_1;
+    const jg_real M_1_j_j_5 = C_j[1] * v_4_in_j_2 + s_j[1] * lambda_0_1_2_in_j_2 + C_j[4] * v_5_in_j_2 + C_j[7] *
+        v_6_in_j_2;
+    const jg_real M_1_j_j_7 = C_j[2] * v_4_in_j_1 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_5_in_j_1 + C_j[8] *
+        v_6_in_j_1;
+    /* v_13_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
+    const jg_real v_13_in_star_1 = f_star_dot_h_j * lambda[3];
+    const jg_real t137 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t138 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t139 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real t140 = v_7_in_star_2 + f_star_dot_g_j * v_16_in_star_1;
+    const jg_real t141 = g_star_in_joint_j_2 * lambda[3] + h_star_dot_f_j * lambda[4];
+    const jg_real v_13_in_star_2 = f_star_dot_f_j * lambda[4];
+    const jg_real t143 = A_ji_2 * t139 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
     /* v_10_in_i = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_10_in_i_0 = f_star_in_i_0 * v_9_in_star - g_star_in_i_0 * t142 + h_star_in_i_0 * v_10_in_star_2;
+    const jg_real v_10_in_i_0 = f_star_in_i_0 * v_9_in_star - g_star_in_i_0 * t140 + h_star_in_i_0 * v_10_in_star_2;
+    phi_q_t_lambda_q[63] = M_1_j_j_3;
+    phi_q_t_lambda_q[73] = M_1_j_j_6;
+    phi_q_t_lambda_q[54] = M_1_j_j_1;
+    phi_q_t_lambda_q[65] = M_1_j_j_5;
+    phi_q_t_lambda_q[74] = M_1_j_j_7;
+    phi_q_t_lambda_q[14] = t143;
+    phi_q_t_lambda_q[68] = t143;
     phi_q_t_lambda_q[15] = v_10_in_i_0;
     phi_q_t_lambda_q[78] = v_10_in_i_0;
     /* v_13_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t139 + h_star_in_i_0 *
+    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t141 + h_star_in_i_0 *
         v_13_in_star_2;
+    const jg_real t146 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t137 + A_ji_2 * M_1_j_j_6);
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_1_in_i_0 + f_star_in_i_1 * v_2_in_i_0 +
+        g_star_in_i_1 * v_3_in_i_0;
+    const jg_real t148 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t138 + A_ji_2 * M_1_j_j_7);
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_1_in_i_0 + f_star_in_i_0 * v_2_in_i_0 +
+        g_star_in_i_0 * v_3_in_i_0;
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + h_star_in_i_1 * v_1_in_i_2 + f_star_in_i_1 * v_2_in_i_2 +
+        g_star_in_i_1 * v_3_in_i_2;
     phi_q_t_lambda_q[16] = v_13_in_i_0;
     phi_q_t_lambda_q[86] = v_13_in_i_0;
-    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_4_in_j_1 + C_j[4] * v_5_in_j_1 + C_j[7] *
-        v_6_in_j_1;
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_4_in_j_2 + C_j[5] * v_5_in_j_2 + C_j[8] *
-        v_6_in_j_2;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_4_in_j_0 + C_j[4] * v_5_in_j_0 + C_j[7] *
-        v_6_in_j_0;
-    phi_q_t_lambda_q[63] = M_1_j_j_3;
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_4_in_j_0 + C_j[5] * v_5_in_j_0 + C_j[8] *
-        v_6_in_j_0;
-    phi_q_t_lambda_q[73] = M_1_j_j_6;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_4_in_j_0 + C_j[3] * v_5_in_j_0 + C_j[6] *
-        v_6_in_j_0;
-    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_4_in_j_1 + C_j[3] * v_5_in_j_1 + C_j[6] *
-        v_6_in_j_1;
-    phi_q_t_lambda_q[54] = M_1_j_j_1;
-    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_4_in_j_1 + C_j[5] * v_5_in_j_1 + C_j[8] *
-        v_6_in_j_1;
-    phi_q_t_lambda_q[74] = M_1_j_j_7;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_4_in_j_2 + C_j[3] * v_5_in_j_2 + C_j[6] *
-        v_6_in_j_2;
-    phi_q_t_lambda_q[55] = M_1_j_j_2;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_4_in_j_2 + C_j[4] * v_5_in_j_2 + C_j[7] *
-        v_6_in_j_2;
-    phi_q_t_lambda_q[65] = M_1_j_j_5;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_1_in_i_0 + f_star_in_i_1 * v_2_in_i_0 +
-        v_3_in_i_0 * g_star_in_i_1;
+    phi_q_t_lambda_q[12] = t146;
+    phi_q_t_lambda_q[48] = t146;
     phi_q_t_lambda_q[17] = M_0_i_i_1;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_1_in_i_0 + f_star_in_i_0 * v_2_in_i_0 +
-        v_3_in_i_0 * g_star_in_i_0;
-    const jg_real t163 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t164 = M_1_j_j_0 + M_1_j_j_8;
-    const jg_real t165 = M_1_j_j_0 + M_1_j_j_4;
-    phi_q_t_lambda_q[18] = -(M_0_i_i_0 + M_0_i_i_8);
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + h_star_in_i_1 * v_1_in_i_2 + f_star_in_i_1 * v_2_in_i_2 +
-        v_3_in_i_2 * g_star_in_i_1;
+    phi_q_t_lambda_q[13] = t148;
+    phi_q_t_lambda_q[58] = t148;
     phi_q_t_lambda_q[19] = M_0_i_i_7;
-    const jg_real v_10_in_i_1 = f_star_in_i_1 * v_9_in_star - g_star_in_i_1 * t142 + h_star_in_i_1 * v_10_in_star_2;
+    const jg_real t151 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t137 + A_ji_5 * M_1_j_j_6);
+    const jg_real t152 = A_ji_5 * t139 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    const jg_real t153 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t138 + A_ji_5 * M_1_j_j_7);
+    const jg_real v_10_in_i_1 = f_star_in_i_1 * v_9_in_star - g_star_in_i_1 * t140 + h_star_in_i_1 * v_10_in_star_2;
+    phi_q_t_lambda_q[23] = t151;
+    phi_q_t_lambda_q[49] = t151;
+    phi_q_t_lambda_q[18] = -(M_0_i_i_8 + M_0_i_i_0);
+    phi_q_t_lambda_q[25] = t152;
+    phi_q_t_lambda_q[69] = t152;
+    phi_q_t_lambda_q[24] = t153;
+    phi_q_t_lambda_q[59] = t153;
     phi_q_t_lambda_q[26] = v_10_in_i_1;
     phi_q_t_lambda_q[79] = v_10_in_i_1;
-    const jg_real t168 = A_ji_2 * t165 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
-    phi_q_t_lambda_q[14] = t168;
-    phi_q_t_lambda_q[68] = t168;
-    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t139 + h_star_in_i_1 *
+    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t141 + h_star_in_i_1 *
         v_13_in_star_2;
-    phi_q_t_lambda_q[27] = v_13_in_i_1;
-    phi_q_t_lambda_q[87] = v_13_in_i_1;
-    const jg_real t170 = A_ji_5 * t165 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[25] = t170;
-    phi_q_t_lambda_q[69] = t170;
-    phi_q_t_lambda_q[30] = -(M_0_i_i_0 + M_0_i_i_4);
-    const jg_real t171 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t163 + A_ji_2 * M_1_j_j_6);
-    phi_q_t_lambda_q[12] = t171;
-    phi_q_t_lambda_q[48] = t171;
-    const jg_real t172 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t163 + A_ji_5 * M_1_j_j_6);
-    phi_q_t_lambda_q[23] = t172;
-    phi_q_t_lambda_q[49] = t172;
-    const jg_real t173 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t164 + A_ji_2 * M_1_j_j_7);
-    phi_q_t_lambda_q[13] = t173;
-    phi_q_t_lambda_q[58] = t173;
-    const jg_real t174 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t164 + A_ji_5 * M_1_j_j_7);
-    phi_q_t_lambda_q[24] = t174;
-    phi_q_t_lambda_q[59] = t174;
-    phi_q_t_lambda_q[53] = -t163;
     const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + h_star_in_i_2 * v_1_in_i_0 + f_star_in_i_2 * v_2_in_i_0 +
-        v_3_in_i_0 * g_star_in_i_2;
-    phi_q_t_lambda_q[28] = M_0_i_i_2;
-    phi_q_t_lambda_q[64] = -t164;
+        g_star_in_i_2 * v_3_in_i_0;
     const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + h_star_in_i_2 * v_1_in_i_1 + f_star_in_i_2 * v_2_in_i_1 +
         v_3_in_i_1 * g_star_in_i_2;
+    const jg_real t158 = A_ji_8 * t139 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    phi_q_t_lambda_q[27] = v_13_in_i_1;
+    phi_q_t_lambda_q[87] = v_13_in_i_1;
+    phi_q_t_lambda_q[30] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[28] = M_0_i_i_2;
+    phi_q_t_lambda_q[53] = -t137;
     phi_q_t_lambda_q[29] = M_0_i_i_5;
-    const jg_real t177 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t163 + A_ji_8 * M_1_j_j_6);
-    phi_q_t_lambda_q[34] = t177;
-    phi_q_t_lambda_q[50] = t177;
-    const jg_real t178 = A_ji_8 * t165 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
-    phi_q_t_lambda_q[36] = t178;
-    phi_q_t_lambda_q[70] = t178;
-    const jg_real t179 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t164 + A_ji_8 * M_1_j_j_7);
-    phi_q_t_lambda_q[35] = t179;
-    phi_q_t_lambda_q[60] = t179;
-    const jg_real v_10_in_i_2 = f_star_in_i_2 * v_9_in_star - g_star_in_i_2 * t142 + h_star_in_i_2 * v_10_in_star_2;
+    phi_q_t_lambda_q[36] = t158;
+    phi_q_t_lambda_q[70] = t158;
+    const jg_real t159 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t137 + A_ji_8 * M_1_j_j_6);
+    const jg_real v_10_in_i_2 = f_star_in_i_2 * v_9_in_star - g_star_in_i_2 * t140 + h_star_in_i_2 * v_10_in_star_2;
+    const jg_real t161 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t138 + A_ji_8 * M_1_j_j_7);
+    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t141 + h_star_in_i_2 *
+        v_13_in_star_2;
+    phi_q_t_lambda_q[34] = t159;
+    phi_q_t_lambda_q[50] = t159;
+    phi_q_t_lambda_q[64] = -t138;
     phi_q_t_lambda_q[37] = v_10_in_i_2;
     phi_q_t_lambda_q[80] = v_10_in_i_2;
-    phi_q_t_lambda_q[75] = -t165;
-    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t139 + h_star_in_i_2 *
-        v_13_in_star_2;
+    phi_q_t_lambda_q[35] = t161;
+    phi_q_t_lambda_q[60] = t161;
     phi_q_t_lambda_q[38] = v_13_in_i_2;
     phi_q_t_lambda_q[88] = v_13_in_i_2;
+    /* v_10_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_10_in_j_0 = f_star_in_j_0 * v_9_in_star - g_star_in_j_0 * t140 + h_star_in_j_0 * v_10_in_star_2;
+    /* v_13_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
+    const jg_real v_13_in_j_0 = g_star_in_j_0 * v_13_in_star_1 - f_star_in_j_0 * t141 + h_star_in_j_0 *
+        v_13_in_star_2;
     /* v_14_in_star = cos(alpha_1) sin(alpha_1) lambda_4 f_j - cos(alpha_1) cos(alpha_1) lambda_3 h_j, axes of ...
         */
     const jg_real v_14_in_star_1 = cosine_1 * v_7_in_star_1;
-    /* v_10_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_10_in_j_0 = f_star_in_j_0 * v_9_in_star - g_star_in_j_0 * t142 + h_star_in_j_0 * v_10_in_star_2;
     /* v_15_in_star = sin(alpha_1) sin(alpha_1) lambda_4 f_j - cos(alpha_1) sin(alpha_1) lambda_3 h_j, axes of ...
         */
     const jg_real v_15_in_star_2 = sine_1 * v_7_in_star_2;
-    /* v_13_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_13_in_j_0 = g_star_in_j_0 * v_13_in_star_1 - f_star_in_j_0 * t139 + h_star_in_j_0 *
+    const jg_real t167 = -v_10_in_j_0;
+    const jg_real v_10_in_j_1 = f_star_in_j_1 * v_9_in_star - g_star_in_j_1 * t140 + h_star_in_j_1 * v_10_in_star_2;
+    const jg_real t169 = -v_13_in_j_0;
+    const jg_real v_13_in_j_1 = g_star_in_j_1 * v_13_in_star_1 - f_star_in_j_1 * t141 + h_star_in_j_1 *
         v_13_in_star_2;
-    phi_q_t_lambda_q[93] = -t139;
-    const jg_real v_10_in_j_1 = f_star_in_j_1 * v_9_in_star - g_star_in_j_1 * t142 + h_star_in_j_1 * v_10_in_star_2;
-    const jg_real t187 = -v_10_in_j_0;
-    phi_q_t_lambda_q[56] = t187;
-    phi_q_t_lambda_q[81] = t187;
-    const jg_real v_13_in_j_1 = g_star_in_j_1 * v_13_in_star_1 - f_star_in_j_1 * t139 + h_star_in_j_1 *
+    const jg_real v_10_in_j_2 = f_star_in_j_2 * v_9_in_star - g_star_in_j_2 * t140 + h_star_in_j_2 * v_10_in_star_2;
+    const jg_real t172 = -v_10_in_j_1;
+    phi_q_t_lambda_q[75] = -t139;
+    phi_q_t_lambda_q[56] = t167;
+    phi_q_t_lambda_q[81] = t167;
+    phi_q_t_lambda_q[57] = t169;
+    phi_q_t_lambda_q[89] = t169;
+    phi_q_t_lambda_q[93] = -t141;
+    phi_q_t_lambda_q[66] = t172;
+    phi_q_t_lambda_q[82] = t172;
+    /* v_17_in_star = (cos(alpha_1) cos(alpha_1) lambda_5 + sin(alpha_1) sin(alpha_1) lambda_5) f_star, axes of ...
+        */
+    const jg_real v_17_in_star = sine_1 * v_16_in_star_1 + cosine_1 * v_16_in_star_2;
+    const jg_real v_13_in_j_2 = g_star_in_j_2 * v_13_in_star_1 - f_star_in_j_2 * t141 + h_star_in_j_2 *
         v_13_in_star_2;
-    const jg_real t189 = -v_13_in_j_0;
-    phi_q_t_lambda_q[57] = t189;
-    phi_q_t_lambda_q[89] = t189;
-    const jg_real v_10_in_j_2 = f_star_in_j_2 * v_9_in_star - g_star_in_j_2 * t142 + h_star_in_j_2 * v_10_in_star_2;
-    const jg_real t191 = -v_10_in_j_1;
-    phi_q_t_lambda_q[66] = t191;
-    phi_q_t_lambda_q[82] = t191;
-    const jg_real v_13_in_j_2 = g_star_in_j_2 * v_13_in_star_1 - f_star_in_j_2 * t139 + h_star_in_j_2 *
-        v_13_in_star_2;
-    const jg_real t193 = -v_13_in_j_1;
-    phi_q_t_lambda_q[67] = t193;
-    phi_q_t_lambda_q[90] = t193;
-    const jg_real t194 = sine_1 * f_star_dot_h_j * lambda[3] + cosine_1 * f_star_dot_f_j * lambda[4];
-    phi_q_t_lambda_q[85] = t194;
-    phi_q_t_lambda_q[92] = t194;
-    const jg_real t195 = -v_10_in_j_2;
-    phi_q_t_lambda_q[76] = t195;
-    phi_q_t_lambda_q[83] = t195;
+    const jg_real t175 = sine_1 * v_13_in_star_1 + cosine_1 * v_13_in_star_2;
+    const jg_real t176 = -v_13_in_j_1;
+    const jg_real t177 = -v_10_in_j_2;
+    const jg_real t178 = -v_13_in_j_2;
+    phi_q_t_lambda_q[85] = t175;
+    phi_q_t_lambda_q[92] = t175;
+    phi_q_t_lambda_q[67] = t176;
+    phi_q_t_lambda_q[90] = t176;
+    phi_q_t_lambda_q[76] = t177;
+    phi_q_t_lambda_q[83] = t177;
+    phi_q_t_lambda_q[77] = t178;
+    phi_q_t_lambda_q[91] = t178;
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
+    const jg_real v_21_in_i_2 = v_18_in_i_2 - omega_j_in_i_2;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
         omega_j[2];
-    const jg_real t197 = -v_13_in_j_2;
-    phi_q_t_lambda_q[77] = t197;
-    phi_q_t_lambda_q[91] = t197;
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
+    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
+    const jg_real t184 = omega_i_dot_omega_j * JG_REAL(2.0);
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_i_0 * omega_j_in_i_0 + g_star_in_i_1 * omega_j_in_i_1 +
         g_star_in_i_2 * omega_j_in_i_2;
-    phi_q_t_lambda_q[84] = -(v_15_in_star_2 - v_14_in_star_1 + f_star_dot_g_j * v_17_in_star);
     /* h_star_dot_omega_j = h_star . omega_j */
     const jg_real h_star_dot_omega_j = h_star_in_j_0 * omega_j[0] + h_star_in_j_1 * omega_j[1] + h_star_in_j_2 *
         omega_j[2];
-    /* g_star_dot_omega_i = g_star . omega_i */
-    const jg_real g_star_dot_omega_i = g_star_in_joint_j_0 * f_j_dot_omega_i + g_star_in_joint_j_1 * g_j_dot_omega_i
-        + g_star_in_joint_j_2 * h_j_dot_omega_i;
-    /* h_star_dot_omega_i = h_star . omega_i */
-    const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
-        h_star_dot_h_j * h_j_dot_omega_i;
-    /* f_star_dot_omega_i = f_star . omega_i */
-    const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
-        omega_i[2];
+    /* v_19_in_i = v_j - v_i, axes of body i */
+    const jg_real v_19_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_19_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
+    const jg_real t190 = s_j_in_i_0 * v_21_in_i_0 + s_j_in_i_1 * v_21_in_i_1 + s_j_in_i_2 * v_21_in_i_2;
+    const jg_real v_19_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real t192 = alphadot[1] * alphadot[1];
+    /* v_20_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_20_in_i_0 = v_18_in_i_1 * v_19_in_i_2 - v_18_in_i_2 * v_19_in_i_1;
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_star_dot_f_j * f_star_dot_omega_j + g_star_in_joint_j_0 * g_star_dot_omega_j +
         h_star_dot_f_j * h_star_dot_omega_j;
@@ -1541,47 +1506,66 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = f_star_dot_h_j * f_star_dot_omega_j + g_star_in_joint_j_2 * g_star_dot_omega_j +
         h_star_dot_h_j * h_star_dot_omega_j;
+    const jg_real v_20_in_i_1 = v_18_in_i_2 * v_19_in_i_0 - v_18_in_i_0 * v_19_in_i_2;
+    const jg_real v_20_in_i_2 = v_18_in_i_0 * v_19_in_i_1 - v_18_in_i_1 * v_19_in_i_0;
+    /* f_j_dot_omega_i = f_j . omega_i */
+    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    /* g_j_dot_omega_i = g_j . omega_i */
+    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
         h_j_dot_omega_j * h_j_dot_omega_j;
-    const jg_real t207 = omega_i_dot_omega_i - t80 + omega_j_dot_omega_j;
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_1 * omega_i[1] + h_j_in_i_0 * omega_i[0] + h_j_in_i_2 * omega_i[2];
+    const jg_real t203 = JG_REAL(2.0) * alphadot[1];
+    const jg_real t204 = omega_i_dot_omega_i - t184 + omega_j_dot_omega_j;
+    /* f_star_dot_omega_i = f_star . omega_i */
+    const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
+        omega_i[2];
+    /* g_star_dot_omega_i = g_star . omega_i */
+    const jg_real g_star_dot_omega_i = g_star_in_joint_j_0 * f_j_dot_omega_i + g_star_in_joint_j_1 * g_j_dot_omega_i
+        + g_star_in_joint_j_2 * h_j_dot_omega_i;
+    /* h_star_dot_omega_i = h_star . omega_i */
+    const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
+        h_star_dot_h_j * h_j_dot_omega_i;
     /* v_22_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_22_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i + s_j_in_i_0 * t207 - omega_i[0] * t68 +
-        omega_j_in_i_0 * t81;
-    const jg_real v_22_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i + s_j_in_i_1 * t207 - omega_i[1] * t68 +
-        omega_j_in_i_1 * t81;
-    const jg_real v_22_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i + s_j_in_i_2 * t207 - omega_i[2] * t68 +
-        omega_j_in_i_2 * t81;
+    const jg_real v_22_in_i_0 = s_j_in_i_0 * t204 + v_0_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t66 +
+        omega_j_in_i_0 * t190;
+    const jg_real v_22_in_i_1 = s_j_in_i_1 * t204 + v_0_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t66 +
+        omega_j_in_i_1 * t190;
+    const jg_real v_22_in_i_2 = s_j_in_i_2 * t204 + v_0_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t66 +
+        omega_j_in_i_2 * t190;
     /* v_23_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_23_in_i_0 = v_20_in_i_0 + v_22_in_i_0;
+    const jg_real v_23_in_i_0 = v_22_in_i_0 + v_20_in_i_0;
+    const jg_real v_23_in_i_1 = v_22_in_i_1 + v_20_in_i_1;
+    const jg_real v_23_in_i_2 = v_22_in_i_2 + v_20_in_i_2;
+    phi_q_t_lambda_q[84] = -(v_15_in_star_2 - v_14_in_star_1 + f_star_dot_g_j * v_17_in_star);
     gamma[0] = v_23_in_i_0;
-    const jg_real v_23_in_i_1 = v_20_in_i_1 + v_22_in_i_1;
     gamma[1] = v_23_in_i_1;
-    const jg_real v_23_in_i_2 = v_20_in_i_2 + v_22_in_i_2;
     gamma[2] = v_23_in_i_2;
-    gamma[3] = g_star_in_joint_j_2 * (omega_i_dot_omega_i + cosine_1 * cosine_1 * alphadot[0] * alphadot[0] - t80 +
-        omega_j_dot_omega_j + t64) + alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (h_star_dot_h_j * g_star_dot_omega_j
-        - g_star_in_joint_j_2 * h_star_dot_omega_j) - (sine_1 * h_star_dot_h_j * alphadot[0] + JG_REAL(2.0) *
-        (h_star_dot_h_j * g_star_dot_omega_i - g_star_in_joint_j_2 * h_star_dot_omega_i))) - sine_1 * JG_REAL(2.0) *
-        f_star_dot_h_j * alphadot[1]) + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) +
-        (f_star_dot_h_j * g_star_dot_omega_j - g_star_in_joint_j_2 * f_star_dot_omega_j - (f_star_dot_h_j *
-        g_star_dot_omega_i - g_star_in_joint_j_2 * f_star_dot_omega_i)) * t75 - h_j_dot_omega_i *
+    gamma[3] = g_star_in_joint_j_2 * (omega_i_dot_omega_i + cosine_1 * cosine_1 * alphadot[0] * alphadot[0] - t184 +
+        omega_j_dot_omega_j + t192) + alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (h_star_dot_h_j * g_star_dot_omega_j
+        - g_star_in_joint_j_2 * h_star_dot_omega_j) - (JG_REAL(2.0) * (h_star_dot_h_j * g_star_dot_omega_i -
+        g_star_in_joint_j_2 * h_star_dot_omega_i) + sine_1 * h_star_dot_h_j * alphadot[0])) - sine_1 *
+        f_star_dot_h_j * JG_REAL(2.0) * alphadot[1]) + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i -
+        h_j_dot_omega_j) + (f_star_dot_h_j * g_star_dot_omega_j - g_star_in_joint_j_2 * f_star_dot_omega_j -
+        (f_star_dot_h_j * g_star_dot_omega_i - g_star_in_joint_j_2 * f_star_dot_omega_i)) * t203 - h_j_dot_omega_i *
         g_star_dot_omega_i;
-    gamma[4] = -(h_star_dot_f_j * (t80 - (omega_i_dot_omega_i + sine_1 * sine_1 * alphadot[0] * alphadot[0]) -
-        omega_j_dot_omega_j - t64) + alphadot[0] * (sine_1 * (cosine_1 * g_star_in_joint_j_0 * alphadot[0] +
-        JG_REAL(2.0) * (h_star_dot_f_j * g_star_dot_omega_j - g_star_in_joint_j_0 * h_star_dot_omega_j) -
-        JG_REAL(2.0) * (h_star_dot_f_j * g_star_dot_omega_i - g_star_in_joint_j_0 * h_star_dot_omega_i)) + cosine_1
-        * JG_REAL(2.0) * f_star_dot_f_j * alphadot[1]) + t75 * (h_star_dot_f_j * f_star_dot_omega_j - f_star_dot_f_j
+    gamma[4] = -(h_star_dot_f_j * (t184 - (omega_i_dot_omega_i + sine_1 * sine_1 * alphadot[0] * alphadot[0]) -
+        omega_j_dot_omega_j - t192) + alphadot[0] * (sine_1 * (JG_REAL(2.0) * (h_star_dot_f_j * g_star_dot_omega_j -
+        g_star_in_joint_j_0 * h_star_dot_omega_j) + cosine_1 * g_star_in_joint_j_0 * alphadot[0] - JG_REAL(2.0) *
+        (h_star_dot_f_j * g_star_dot_omega_i - g_star_in_joint_j_0 * h_star_dot_omega_i)) + cosine_1 *
+        f_star_dot_f_j * JG_REAL(2.0) * alphadot[1]) + t203 * (h_star_dot_f_j * f_star_dot_omega_j - f_star_dot_f_j
         * h_star_dot_omega_j - (h_star_dot_f_j * f_star_dot_omega_i - f_star_dot_f_j * h_star_dot_omega_i)) +
         h_star_dot_omega_j * (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) + f_j_dot_omega_i *
         h_star_dot_omega_i);
-    gamma[5] = alphadot[0] * (cosine_1 * (cosine_1 * f_star_dot_g_j * alphadot[0] + JG_REAL(2.0) * (h_star_dot_g_j *
-        f_star_dot_omega_j - f_star_dot_g_j * h_star_dot_omega_j) - JG_REAL(2.0) * (h_star_dot_g_j *
-        f_star_dot_omega_i - f_star_dot_g_j * h_star_dot_omega_i)) + sine_1 * (sine_1 * f_star_dot_g_j * alphadot[0]
-        - JG_REAL(2.0) * (f_star_dot_g_j * g_star_dot_omega_j - g_star_in_joint_j_1 * f_star_dot_omega_j) +
-        JG_REAL(2.0) * (f_star_dot_g_j * g_star_dot_omega_i - g_star_in_joint_j_1 * f_star_dot_omega_i))) +
-        f_star_dot_g_j * t207 + f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
-        g_j_dot_omega_i * f_star_dot_omega_i;
+    gamma[5] = f_star_dot_g_j * t204 + alphadot[0] * (sine_1 * (sine_1 * f_star_dot_g_j * alphadot[0] - JG_REAL(2.0)
+        * (f_star_dot_g_j * g_star_dot_omega_j - g_star_in_joint_j_1 * f_star_dot_omega_j) + JG_REAL(2.0) *
+        (f_star_dot_g_j * g_star_dot_omega_i - g_star_in_joint_j_1 * f_star_dot_omega_i)) + cosine_1 * (JG_REAL(2.0)
+        * (h_star_dot_g_j * f_star_dot_omega_j - f_star_dot_g_j * h_star_dot_omega_j) + cosine_1 * f_star_dot_g_j *
+        alphadot[0] - JG_REAL(2.0) * (h_star_dot_g_j * f_star_dot_omega_i - f_star_dot_g_j * h_star_dot_omega_i))) +
+        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - g_j_dot_omega_i *
+        f_star_dot_omega_i;
 }
 
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -4,10 +4,6 @@
  * joint universal, form parametric, rows regular, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/universal.h"
 
 const int *jg_universal_parametric_substituted_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_universal_parametric_substituted_phi_q_t_lambda_q_sparsity(void)
     return pattern;
 }
 
-void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_universal_parametric_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -56,11 +51,8 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
     const jg_real t17 = sine_1 * cosine_0;
@@ -88,40 +80,42 @@ void jg_universal_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, con
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    phi[5] = f_star_dot_g_j;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
-    phi[3] = g_star_dot_h_j;
     /* h_star_dot_f_j = h_star . f_j */
     const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[5] = f_star_dot_g_j;
+    phi[3] = g_star_dot_h_j;
     phi[4] = h_star_dot_f_j;
 }
 
-void jg_universal_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_universal_parametric_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry, jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q[3] = s_i[2];
-    phi_q[13] = s_i[1];
-    phi_q[4] = -s_i[1];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[3] = s_i[2];
+    phi_q[13] = s_i[1];
+    phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[9] = s_i[0];
     phi_q[14] = -s_i[0];
@@ -132,54 +126,54 @@ void jg_universal_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alp
     phi_q[37] = -C_j[4];
     phi_q[38] = -C_j[7];
     phi_q[42] = -C_j[2];
+    /* H_02 =  */
+    const jg_real H_02 = sine_0 * sine_1;
+    const jg_real t5 = cosine_0 * sine_1;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     phi_q[43] = -C_j[5];
     phi_q[44] = -C_j[8];
     phi_q[47] = JG_REAL(1.0);
     phi_q[45] = sine_1;
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1;
-    const jg_real t5 = cosine_0 * sine_1;
     phi_q[46] = cosine_1;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     phi_q[5] = f_j_in_i_0;
-    const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
     phi_q[15] = f_j_in_i_2;
-    const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
     phi_q[10] = f_j_in_i_1;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t5 + C_i[7] * cosine_1;
-    phi_q[12] = h_j_in_i_1;
     const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t5 + C_i[8] * cosine_1;
-    phi_q[17] = h_j_in_i_2;
     const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t5 + C_i[6] * cosine_1;
-    phi_q[7] = h_j_in_i_0;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
-    phi_q[6] = g_j_in_i_0;
     const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
-    phi_q[11] = g_j_in_i_1;
     const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    phi_q[16] = g_j_in_i_2;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_0 = C_j[0] * f_j_in_i_0 + C_j[3] * g_j_in_i_0 + C_j[6] * h_j_in_i_0;
-    phi_q[18] = A_ij_0;
     const jg_real A_ij_6 = f_j_in_i_0 * C_j[2] + g_j_in_i_0 * C_j[5] + h_j_in_i_0 * C_j[8];
+    phi_q[12] = h_j_in_i_1;
+    phi_q[17] = h_j_in_i_2;
+    phi_q[7] = h_j_in_i_0;
+    phi_q[6] = g_j_in_i_0;
+    phi_q[11] = g_j_in_i_1;
+    phi_q[16] = g_j_in_i_2;
+    phi_q[18] = A_ij_0;
     phi_q[24] = A_ij_6;
     const jg_real A_ij_1 = C_j[0] * f_j_in_i_1 + C_j[3] * g_j_in_i_1 + C_j[6] * h_j_in_i_1;
-    phi_q[19] = A_ij_1;
     const jg_real A_ij_2 = C_j[0] * f_j_in_i_2 + C_j[3] * g_j_in_i_2 + C_j[6] * h_j_in_i_2;
-    phi_q[20] = A_ij_2;
     const jg_real A_ij_7 = f_j_in_i_1 * C_j[2] + g_j_in_i_1 * C_j[5] + h_j_in_i_1 * C_j[8];
-    phi_q[25] = A_ij_7;
     const jg_real A_ij_8 = f_j_in_i_2 * C_j[2] + g_j_in_i_2 * C_j[5] + h_j_in_i_2 * C_j[8];
+    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
+    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
+    phi_q[19] = A_ij_1;
+    phi_q[20] = A_ij_2;
+    phi_q[25] = A_ij_7;
     phi_q[26] = A_ij_8;
     phi_q[33] = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
-    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
     phi_q[21] = A_ij_3;
-    const jg_real A_ij_4 = A_ij_0 * A_ij_8 - A_ij_2 * A_ij_6;
     phi_q[22] = A_ij_4;
-    const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_0 * A_ij_7;
     phi_q[23] = A_ij_5;
     phi_q[34] = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
     phi_q[35] = A_ij_2 * s_j[2] - A_ij_8 * s_j[0];
@@ -199,8 +193,8 @@ void jg_universal_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT 
     jg_scatter(jg_universal_parametric_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_universal_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_universal_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -215,42 +209,35 @@ void jg_universal_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_R
     const jg_real H_02 = sine_1 * sine_0;
     const jg_real t5 = sine_1 * cosine_0;
     const jg_real t6 = cosine_1 * lambda[3];
-    /* v_0_in_joint_j = (cos(alpha_1) lambda_4 - sin(alpha_1) lambda_5) f_j - cos(alpha_1) lambda_3 g_j + ... */
-    const jg_real v_0_in_joint_j_2 = sine_1 * lambda[3];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
     const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    /* v_0_in_joint_j = (cos(alpha_1) lambda_4 - sin(alpha_1) lambda_5) f_j - cos(alpha_1) lambda_3 g_j + ... */
     const jg_real v_0_in_joint_j_0 = cosine_1 * lambda[4] - sine_1 * lambda[5];
-    phi_q_t_lambda_q[18] = v_0_in_joint_j_0;
+    const jg_real v_0_in_joint_j_2 = sine_1 * lambda[3];
     const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t5 + cosine_1 * C_i[7];
     const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t5 + cosine_1 * C_i[8];
     const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t5 + cosine_1 * C_i[6];
-    /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_0 = f_j_in_i_0 * lambda[0] + f_j_in_i_1 * lambda[1] + f_j_in_i_2 *
-        lambda[2];
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
     const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
     const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    /* v_3_in_joint_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of joint j */
-    const jg_real v_3_in_joint_j_1 = cosine_1 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t20 = sine_1 * lambda_0_1_2_in_joint_j_0;
+    /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
+    const jg_real lambda_0_1_2_in_joint_j_0 = f_j_in_i_0 * lambda[0] + f_j_in_i_1 * lambda[1] + f_j_in_i_2 *
+        lambda[2];
     const jg_real lambda_0_1_2_in_joint_j_2 = h_j_in_i_0 * lambda[0] + h_j_in_i_1 * lambda[1] + h_j_in_i_2 *
         lambda[2];
-    phi_q_t_lambda_q[9] = lambda[4] * h_j_in_i_0 - lambda[5] * g_j_in_i_0;
-    phi_q_t_lambda_q[10] = lambda[4] * h_j_in_i_1 - lambda[5] * g_j_in_i_1;
+    /* v_3_in_joint_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of joint j */
+    const jg_real v_3_in_joint_j_1 = cosine_1 * lambda_0_1_2_in_joint_j_0;
+    const jg_real t21 = sine_1 * lambda_0_1_2_in_joint_j_0;
     /* v_0_in_i = (cos(alpha_1) lambda_4 - sin(alpha_1) lambda_5) f_j - cos(alpha_1) lambda_3 g_j + ... */
     const jg_real v_0_in_i_0 = v_0_in_joint_j_0 * f_j_in_i_0 - t6 * g_j_in_i_0 + v_0_in_joint_j_2 * h_j_in_i_0;
-    phi_q_t_lambda_q[11] = lambda[4] * h_j_in_i_2 - lambda[5] * g_j_in_i_2;
     const jg_real v_0_in_i_1 = v_0_in_joint_j_0 * f_j_in_i_1 - t6 * g_j_in_i_1 + v_0_in_joint_j_2 * h_j_in_i_1;
     const jg_real v_0_in_i_2 = v_0_in_joint_j_0 * f_j_in_i_2 - t6 * g_j_in_i_2 + v_0_in_joint_j_2 * h_j_in_i_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = g_j_in_i_0 * lambda[0] + g_j_in_i_1 * lambda[1] + g_j_in_i_2 *
         lambda[2];
-    phi_q_t_lambda_q[0] = -v_0_in_i_0;
-    phi_q_t_lambda_q[1] = -v_0_in_i_1;
-    phi_q_t_lambda_q[2] = -v_0_in_i_2;
     const jg_real v_3_in_joint_j_0 = sine_1 * lambda_0_1_2_in_joint_j_2 - cosine_1 * lambda_0_1_2_in_joint_j_1;
     /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
     const jg_real f_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[6] - lambda_0_1_2_in_joint_j_2 *
@@ -259,16 +246,23 @@ void jg_universal_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_R
         C_j[4];
     const jg_real f_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_1 * C_j[8] - lambda_0_1_2_in_joint_j_2 *
         C_j[5];
+    phi_q_t_lambda_q[18] = v_0_in_joint_j_0;
+    phi_q_t_lambda_q[9] = lambda[4] * h_j_in_i_0 - lambda[5] * g_j_in_i_0;
+    phi_q_t_lambda_q[10] = lambda[4] * h_j_in_i_1 - lambda[5] * g_j_in_i_1;
+    phi_q_t_lambda_q[11] = lambda[4] * h_j_in_i_2 - lambda[5] * g_j_in_i_2;
+    phi_q_t_lambda_q[0] = -v_0_in_i_0;
+    phi_q_t_lambda_q[1] = -v_0_in_i_1;
+    phi_q_t_lambda_q[2] = -v_0_in_i_2;
     phi_q_t_lambda_q[12] = -f_j_cross_lambda_0_1_2_in_j_0;
+    /* v_3_in_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of body j */
+    const jg_real v_3_in_j_0 = v_3_in_joint_j_0 * C_j[0] + v_3_in_joint_j_1 * C_j[3] - t21 * C_j[6];
+    const jg_real v_3_in_j_1 = v_3_in_joint_j_0 * C_j[1] + v_3_in_joint_j_1 * C_j[4] - t21 * C_j[7];
+    const jg_real v_3_in_j_2 = v_3_in_joint_j_0 * C_j[2] + v_3_in_joint_j_1 * C_j[5] - t21 * C_j[8];
     phi_q_t_lambda_q[13] = -f_j_cross_lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[14] = -f_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[15] = f_j_cross_lambda_0_1_2_in_j_1 * s_j[2] - f_j_cross_lambda_0_1_2_in_j_2 * s_j[1];
     phi_q_t_lambda_q[16] = f_j_cross_lambda_0_1_2_in_j_2 * s_j[0] - f_j_cross_lambda_0_1_2_in_j_0 * s_j[2];
     phi_q_t_lambda_q[17] = f_j_cross_lambda_0_1_2_in_j_0 * s_j[1] - f_j_cross_lambda_0_1_2_in_j_1 * s_j[0];
-    /* v_3_in_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of body j */
-    const jg_real v_3_in_j_0 = v_3_in_joint_j_0 * C_j[0] + v_3_in_joint_j_1 * C_j[3] - t20 * C_j[6];
-    const jg_real v_3_in_j_1 = v_3_in_joint_j_0 * C_j[1] + v_3_in_joint_j_1 * C_j[4] - t20 * C_j[7];
-    const jg_real v_3_in_j_2 = v_3_in_joint_j_0 * C_j[2] + v_3_in_joint_j_1 * C_j[5] - t20 * C_j[8];
     phi_q_t_lambda_q[3] = -v_3_in_j_0;
     phi_q_t_lambda_q[4] = -v_3_in_j_1;
     phi_q_t_lambda_q[5] = -v_3_in_j_2;
@@ -285,8 +279,8 @@ void jg_universal_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *J
     jg_scatter(jg_universal_parametric_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_universal_parametric_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -309,18 +303,18 @@ void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
     /* s_j_in_joint_j = s_j, axes of joint j */
     const jg_real s_j_in_joint_j_1 = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
     const jg_real s_j_in_joint_j_0 = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
-    const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
     /* v_0_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes
         ... */
     const jg_real v_0_in_joint_j_0 = alphadot[1] - omega_j_in_joint_j_0;
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     /* H_02 =  */
     const jg_real H_02 = sine_1 * sine_0;
     const jg_real t18 = sine_1 * cosine_0;
@@ -351,47 +345,47 @@ void jg_universal_parametric_substituted_gamma(const jg_real *JG_RESTRICT alpha,
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
     const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
-    /* omega_i_in_joint_j = omega_i, axes of joint j */
-    const jg_real omega_i_in_joint_j_0 = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 *
-        omega_i[2];
     /* v_3_in_joint_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_3_in_joint_j_1 = t29 * s_j_in_joint_j_1 - omega_j_in_joint_j_1 * t30;
     const jg_real v_3_in_joint_j_0 = t29 * s_j_in_joint_j_0 - omega_j_in_joint_j_0 * t30;
     const jg_real v_3_in_joint_j_2 = t29 * s_j_in_joint_j_2 - omega_j_in_joint_j_2 * t30;
     const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    const jg_real omega_i_in_joint_j_2 = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 *
-        omega_i[2];
     /* v_1_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
     const jg_real v_1_in_i_0 = v_1_in_joint_j_0 * f_j_in_i_0 + v_1_in_joint_j_1 * g_j_in_i_0 + v_1_in_joint_j_2 *
         h_j_in_i_0;
+    /* omega_i_in_joint_j = omega_i, axes of joint j */
+    const jg_real omega_i_in_joint_j_0 = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 *
+        omega_i[2];
     const jg_real v_1_in_i_1 = v_1_in_joint_j_0 * f_j_in_i_1 + v_1_in_joint_j_1 * g_j_in_i_1 + v_1_in_joint_j_2 *
         h_j_in_i_1;
-    const jg_real omega_i_in_joint_j_1 = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 *
-        omega_i[2];
     /* v_3_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_3_in_i_0 = f_j_in_i_0 * v_3_in_joint_j_0 + g_j_in_i_0 * v_3_in_joint_j_1 + h_j_in_i_0 *
         v_3_in_joint_j_2;
+    const jg_real omega_i_in_joint_j_1 = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 *
+        omega_i[2];
     const jg_real v_3_in_i_1 = f_j_in_i_1 * v_3_in_joint_j_0 + g_j_in_i_1 * v_3_in_joint_j_1 + h_j_in_i_1 *
         v_3_in_joint_j_2;
     const jg_real v_3_in_i_2 = f_j_in_i_2 * v_3_in_joint_j_0 + g_j_in_i_2 * v_3_in_joint_j_1 + h_j_in_i_2 *
         v_3_in_joint_j_2;
     const jg_real v_1_in_i_2 = v_1_in_joint_j_0 * f_j_in_i_2 + v_1_in_joint_j_1 * g_j_in_i_2 + v_1_in_joint_j_2 *
         h_j_in_i_2;
+    const jg_real omega_i_in_joint_j_2 = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 *
+        omega_i[2];
     /* v_4_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_1_in_i_0 + omega_i_cross_v_i_in_i_0);
-    gamma[0] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_1_in_i_1 + omega_i_cross_v_i_in_i_1);
-    gamma[1] = v_4_in_i_1;
-    gamma[3] = v_2_in_joint_j_1 * omega_i_in_joint_j_2 - v_6_in_joint_j * omega_i_in_joint_j_1;
-    gamma[5] = v_2_in_joint_j_1 * (alphadot[1] - omega_i_in_joint_j_0) + alphadot[1] * omega_i_in_joint_j_1;
     const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_1_in_i_2 + omega_i_cross_v_i_in_i_2);
+    gamma[0] = v_4_in_i_0;
+    gamma[1] = v_4_in_i_1;
+    gamma[5] = v_2_in_joint_j_1 * (alphadot[1] - omega_i_in_joint_j_0) + alphadot[1] * omega_i_in_joint_j_1;
     gamma[2] = v_4_in_i_2;
+    gamma[3] = v_2_in_joint_j_1 * omega_i_in_joint_j_2 - v_6_in_joint_j * omega_i_in_joint_j_1;
     gamma[4] = -(alphadot[1] * omega_i_in_joint_j_2 - v_6_in_joint_j * omega_i_in_joint_j_0 + alphadot[1] *
         v_6_in_joint_j);
 }
 
-void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_universal_parametric_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -412,25 +406,25 @@ void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alph
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
-    const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
+    /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
+    const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
     const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
-    /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    /* omega_j_dot_g_j = omega_j . g_j */
-    const jg_real omega_j_dot_g_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    /* omega_j_dot_f_j = omega_j . f_j */
+    const jg_real omega_j_dot_f_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    /* omega_j_dot_g_j = omega_j . g_j */
+    const jg_real omega_j_dot_g_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     /* H_02 =  */
@@ -450,10 +444,8 @@ void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alph
     const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
     const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
     const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    phi_q_v[3] = alphadot[1] - omega_j_dot_f_j + omega_i_dot_f_j;
     /* omega_i_dot_h_j = omega_i . h_j */
     const jg_real omega_i_dot_h_j = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
-    phi_q_v[5] = cosine_1 * alphadot[0] - omega_j_dot_h_j + omega_i_dot_h_j;
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = f_j_in_i_0 * s_j_cross_omega_j_in_joint_j_0 + g_j_in_i_0 *
         s_j_cross_omega_j_in_joint_j_1 + h_j_in_i_0 * s_j_cross_omega_j_in_joint_j_2;
@@ -470,30 +462,28 @@ void jg_universal_parametric_substituted_phi_q_v(const jg_real *JG_RESTRICT alph
         h_j_in_i_2;
     /* omega_i_dot_g_j = omega_i . g_j */
     const jg_real omega_i_dot_g_j = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
-    phi_q_v[4] = sine_1 * alphadot[0] - omega_j_dot_g_j + omega_i_dot_g_j;
     /* v_0_in_i = v_i - v_j - s_i x omega_i + s_j x omega_j, axes of body i */
     const jg_real v_0_in_i_0 = v_i[0] - v_j_in_i_0 - s_i_cross_omega_i_in_i_0 + s_j_cross_omega_j_in_i_0;
     const jg_real v_0_in_i_1 = v_i[1] - v_j_in_i_1 - s_i_cross_omega_i_in_i_1 + s_j_cross_omega_j_in_i_1;
     const jg_real v_0_in_i_2 = v_i[2] - v_j_in_i_2 - s_i_cross_omega_i_in_i_2 + s_j_cross_omega_j_in_i_2;
+    phi_q_v[3] = alphadot[1] - omega_j_dot_f_j + omega_i_dot_f_j;
+    phi_q_v[5] = cosine_1 * alphadot[0] - omega_j_dot_h_j + omega_i_dot_h_j;
+    phi_q_v[4] = sine_1 * alphadot[0] - omega_j_dot_g_j + omega_i_dot_g_j;
     phi_q_v[0] = -v_0_in_i_0;
     phi_q_v[1] = -v_0_in_i_1;
     phi_q_v[2] = -v_0_in_i_2;
 }
 
-void jg_universal_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_universal_parametric_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    phi_q_t_lambda[13] = lambda[3];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
@@ -517,7 +507,6 @@ void jg_universal_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRI
     const jg_real t16 = cosine_0 * sine_1;
     /* v_0_in_joint_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of joint i */
     const jg_real v_0_in_joint_i_2 = sine_1 * lambda[4] + cosine_1 * lambda[5];
-    phi_q_t_lambda[12] = v_0_in_joint_i_2;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_in_joint_i_0 + sine_0 *
         lambda_0_1_2_in_joint_i_1;
@@ -534,34 +523,37 @@ void jg_universal_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRI
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_in_joint_j_2 * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
         lambda_0_1_2_in_joint_j_2 * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_in_joint_j_2 * C_j[8];
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[13] = lambda[3];
+    phi_q_t_lambda[12] = v_0_in_joint_i_2;
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* v_1_in_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j - s_i x lambda_0_1_2, axes of body i */
     const jg_real v_1_in_i_0 = v_0_in_i_0 - s_i_cross_lambda_0_1_2_in_i_0;
-    phi_q_t_lambda[3] = v_1_in_i_0;
     const jg_real v_1_in_i_1 = v_0_in_i_1 - s_i_cross_lambda_0_1_2_in_i_1;
-    phi_q_t_lambda[4] = v_1_in_i_1;
     const jg_real v_1_in_i_2 = v_0_in_i_2 - s_i_cross_lambda_0_1_2_in_i_2;
-    phi_q_t_lambda[5] = v_1_in_i_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
+    phi_q_t_lambda[3] = v_1_in_i_0;
+    phi_q_t_lambda[4] = v_1_in_i_1;
+    phi_q_t_lambda[5] = v_1_in_i_2;
     phi_q_t_lambda[9] = s_j_cross_lambda_0_1_2_in_j_0 - v_0_in_j_0;
     phi_q_t_lambda[10] = s_j_cross_lambda_0_1_2_in_j_1 - v_0_in_j_1;
     phi_q_t_lambda[11] = s_j_cross_lambda_0_1_2_in_j_2 - v_0_in_j_2;
 }
 
-void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_universal_parametric_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -572,20 +564,22 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    phi_q[9] = s_i[0];
-    phi_q[13] = s_i[1];
-    phi_q[3] = s_i[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
+    phi_q[9] = s_i[0];
+    phi_q[13] = s_i[1];
+    phi_q[3] = s_i[2];
     phi_q[0] = JG_REAL(-1.0);
     phi_q[1] = JG_REAL(-1.0);
     phi_q[2] = JG_REAL(-1.0);
     phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     phi_q[14] = -s_i[0];
     phi_q[30] = -C_j[0];
     phi_q[31] = -C_j[3];
@@ -594,196 +588,190 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     phi_q[37] = -C_j[4];
     phi_q[38] = -C_j[7];
     phi_q[42] = -C_j[2];
-    phi_q[43] = -C_j[5];
-    phi_q[44] = -C_j[8];
-    phi_q[47] = JG_REAL(1.0);
-    /* s_j_world = s_j, world axes */
-    const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    phi_q[43] = -C_j[5];
+    phi_q[44] = -C_j[8];
+    phi_q[47] = JG_REAL(1.0);
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
     phi[2] = d_ij_in_i_2;
     phi_q[46] = cosine_0;
+    phi_q[45] = sine_0;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
     const jg_real t20 = sine_1 * cosine_0;
-    phi_q[45] = sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_1 * sine_0;
-    const jg_real t22 = cosine_1 * sine_0;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = cosine_1 * C_i[0] + sine_1 * C_i[3];
+    const jg_real t23 = cosine_1 * sine_0;
     const jg_real f_star_in_i_1 = cosine_1 * C_i[1] + sine_1 * C_i[4];
-    phi_q[10] = f_star_in_i_1;
-    const jg_real t25 = cosine_0 * lambda[3];
     const jg_real f_star_in_i_2 = cosine_1 * C_i[2] + sine_1 * C_i[5];
-    phi_q[15] = f_star_in_i_2;
-    const jg_real t27 = sine_0 * lambda[3];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = H_11 * C_i[3] - t20 * C_i[0] + sine_0 * C_i[6];
     const jg_real g_star_in_i_1 = H_11 * C_i[4] - t20 * C_i[1] + sine_0 * C_i[7];
-    phi_q[11] = g_star_in_i_1;
     const jg_real g_star_in_i_2 = H_11 * C_i[5] - t20 * C_i[2] + sine_0 * C_i[8];
-    phi_q[16] = g_star_in_i_2;
-    const jg_real t31 = cosine_0 * lambda[4] - sine_0 * lambda[5];
-    phi_q_t_lambda_q[18] = t31;
-    /* v_2_in_j = sin(alpha_1) g_j + cos(alpha_1) h_j, axes of body j */
-    const jg_real v_2_in_j_1 = sine_0 * C_j[4] + cosine_0 * C_j[7];
-    /* A_joint_j_i = turns i axes to joint j axes */
-    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - C_i[5] * t22 + cosine_0 * C_i[8];
-    phi_q[17] = A_joint_j_i_8;
     /* f_star_world = f_star, world axes */
     const jg_real f_star_world_0 = A_i[0] * f_star_in_i_0 + A_i[3] * f_star_in_i_1 + A_i[6] * f_star_in_i_2;
     const jg_real f_star_world_1 = A_i[1] * f_star_in_i_0 + A_i[4] * f_star_in_i_1 + A_i[7] * f_star_in_i_2;
-    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * t22 + cosine_0 * C_i[7];
-    phi_q[12] = A_joint_j_i_5;
     const jg_real f_star_world_2 = A_i[2] * f_star_in_i_0 + A_i[5] * f_star_in_i_1 + A_i[8] * f_star_in_i_2;
     /* g_star_world = g_star, world axes */
     const jg_real g_star_world_0 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
     const jg_real g_star_world_1 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
-    const jg_real A_joint_j_i_2 = g_star_in_i_2 * f_star_in_i_1 - g_star_in_i_1 * f_star_in_i_2;
-    phi_q[7] = A_joint_j_i_2;
+    /* A_joint_j_i = turns i axes to joint j axes */
+    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - C_i[5] * t23 + cosine_0 * C_i[8];
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
+    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * t23 + cosine_0 * C_i[7];
+    const jg_real A_joint_j_i_2 = g_star_in_i_2 * f_star_in_i_1 - g_star_in_i_1 * f_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
-    const jg_real A_joint_j_i_0 = g_star_in_i_1 * A_joint_j_i_8 - g_star_in_i_2 * A_joint_j_i_5;
-    phi_q[5] = A_joint_j_i_0;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    const jg_real A_joint_j_i_1 = f_star_in_i_2 * A_joint_j_i_5 - f_star_in_i_1 * A_joint_j_i_8;
-    phi_q[6] = A_joint_j_i_1;
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = f_star_in_i_1 * C_j[1] + g_star_in_i_1 * C_j[4] + C_j[7] * A_joint_j_i_5;
-    phi_q[22] = A_ji_4;
-    const jg_real A_ji_8 = f_star_in_i_2 * C_j[2] + g_star_in_i_2 * C_j[5] + C_j[8] * A_joint_j_i_8;
-    phi_q[26] = A_ji_8;
     const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
-    const jg_real A_ji_5 = f_star_in_i_1 * C_j[2] + g_star_in_i_1 * C_j[5] + C_j[8] * A_joint_j_i_5;
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_7 = f_star_in_i_2 * C_j[1] + g_star_in_i_2 * C_j[4] + C_j[7] * A_joint_j_i_8;
-    phi_q[23] = A_ji_7;
+    const jg_real A_joint_j_i_0 = g_star_in_i_1 * A_joint_j_i_8 - g_star_in_i_2 * A_joint_j_i_5;
+    phi_q[10] = f_star_in_i_1;
+    phi_q[15] = f_star_in_i_2;
+    phi_q[11] = g_star_in_i_1;
+    phi_q[16] = g_star_in_i_2;
+    phi_q[17] = A_joint_j_i_8;
+    phi_q[12] = A_joint_j_i_5;
+    phi_q[7] = A_joint_j_i_2;
+    phi_q[5] = A_joint_j_i_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    const jg_real A_ji_3 = f_star_in_i_1 * C_j[0] + g_star_in_i_1 * C_j[3] + C_j[6] * A_joint_j_i_5;
-    phi_q[19] = A_ji_3;
-    const jg_real A_ji_6 = f_star_in_i_2 * C_j[0] + g_star_in_i_2 * C_j[3] + C_j[6] * A_joint_j_i_8;
-    phi_q[20] = A_ji_6;
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
-    phi[5] = f_star_dot_g_j;
-    /* v_0_in_i = (cos(alpha_1) lambda_4 - sin(alpha_1) lambda_5) f_j - cos(alpha_1) lambda_3 g_j + ... */
-    const jg_real v_0_in_i_0 = A_joint_j_i_0 * t31 - A_joint_j_i_1 * t25 + A_joint_j_i_2 * t27;
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
+    const jg_real A_joint_j_i_1 = f_star_in_i_2 * A_joint_j_i_5 - f_star_in_i_1 * A_joint_j_i_8;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = f_star_in_i_1 * C_j[1] + g_star_in_i_1 * C_j[4] + C_j[7] * A_joint_j_i_5;
+    const jg_real A_ji_8 = f_star_in_i_2 * C_j[2] + g_star_in_i_2 * C_j[5] + C_j[8] * A_joint_j_i_8;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = g_star_in_j_2 * f_star_in_j_1 - g_star_in_j_1 * f_star_in_j_2;
     const jg_real h_star_in_j_1 = g_star_in_j_0 * f_star_in_j_2 - g_star_in_j_2 * f_star_in_j_0;
     const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - g_star_in_j_0 * f_star_in_j_1;
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    phi_q_t_lambda_q[0] = -v_0_in_i_0;
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
+    const jg_real A_ji_5 = f_star_in_i_1 * C_j[2] + g_star_in_i_1 * C_j[5] + C_j[8] * A_joint_j_i_5;
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = g_star_in_j_0 * C_j[6] + g_star_in_j_1 * C_j[7] + g_star_in_j_2 * C_j[8];
+    const jg_real A_ji_7 = f_star_in_i_2 * C_j[1] + g_star_in_i_2 * C_j[4] + C_j[7] * A_joint_j_i_8;
+    const jg_real A_ji_3 = f_star_in_i_1 * C_j[0] + g_star_in_i_1 * C_j[3] + C_j[6] * A_joint_j_i_5;
+    phi_q[6] = A_joint_j_i_1;
+    phi_q[22] = A_ji_4;
+    phi_q[26] = A_ji_8;
+    phi[5] = f_star_dot_g_j;
+    phi_q[25] = A_ji_5;
     phi[3] = g_star_dot_h_j;
+    phi_q[23] = A_ji_7;
+    phi_q[19] = A_ji_3;
+    const jg_real t56 = cosine_0 * lambda[4] - sine_0 * lambda[5];
+    const jg_real t57 = cosine_0 * lambda[3];
+    const jg_real t58 = sine_0 * lambda[3];
+    const jg_real A_ji_6 = f_star_in_i_2 * C_j[0] + g_star_in_i_2 * C_j[3] + C_j[6] * A_joint_j_i_8;
+    /* h_star_dot_f_j = h_star . f_j */
+    const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    phi_q_t_lambda_q[18] = t56;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    phi_q[20] = A_ji_6;
+    phi[4] = h_star_dot_f_j;
+    phi_q[18] = A_ji_0;
+    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    const jg_real v_0_in_i_1 = f_star_in_i_1 * t31 - g_star_in_i_1 * t25 + A_joint_j_i_5 * t27;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
+    /* v_0_in_i = (cos(alpha_1) lambda_4 - sin(alpha_1) lambda_5) f_j - cos(alpha_1) lambda_3 g_j + ... */
+    const jg_real v_0_in_i_0 = A_joint_j_i_0 * t56 - A_joint_j_i_1 * t57 + A_joint_j_i_2 * t58;
+    const jg_real v_0_in_i_1 = f_star_in_i_1 * t56 - g_star_in_i_1 * t57 + A_joint_j_i_5 * t58;
+    /* v_2_in_j = sin(alpha_1) g_j + cos(alpha_1) h_j, axes of body j */
+    const jg_real v_2_in_j_1 = sine_0 * C_j[4] + cosine_0 * C_j[7];
+    phi_q[21] = A_ji_1;
     phi_q[24] = A_ji_2;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    phi_q_t_lambda_q[1] = -v_0_in_i_1;
-    const jg_real v_2_in_j_2 = sine_0 * C_j[5] + cosine_0 * C_j[8];
-    /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
-    phi[4] = h_star_dot_f_j;
+    phi_q_t_lambda_q[0] = -v_0_in_i_0;
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    const jg_real v_0_in_i_2 = f_star_in_i_2 * t31 - g_star_in_i_2 * t25 + A_joint_j_i_8 * t27;
-    const jg_real v_2_in_j_0 = sine_0 * C_j[3] + cosine_0 * C_j[6];
-    const jg_real t70 = sine_0 * alphadot[0];
-    /* v_11_in_joint_j = cos(alpha_1) alphadot_0 g_j - sin(alpha_1) alphadot_0 h_j, axes of joint j */
-    const jg_real v_11_in_joint_j_1 = cosine_0 * alphadot[0];
-    phi_q_t_lambda_q[9] = A_joint_j_i_2 * lambda[4] - A_joint_j_i_1 * lambda[5];
+    const jg_real v_0_in_i_2 = f_star_in_i_2 * t56 - g_star_in_i_2 * t57 + A_joint_j_i_8 * t58;
+    const jg_real v_2_in_j_2 = sine_0 * C_j[5] + cosine_0 * C_j[8];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    phi_q_t_lambda_q[10] = A_joint_j_i_5 * lambda[4] - g_star_in_i_1 * lambda[5];
-    phi_q_t_lambda_q[2] = -v_0_in_i_2;
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
-    phi_q_t_lambda_q[11] = A_joint_j_i_8 * lambda[4] - g_star_in_i_2 * lambda[5];
-    /* omega_i_in_joint_j = omega_i, axes of joint j */
-    const jg_real omega_i_in_joint_j_2 = A_joint_j_i_2 * omega_i[0] + A_joint_j_i_5 * omega_i[1] + A_joint_j_i_8 *
-        omega_i[2];
-    const jg_real omega_i_in_joint_j_1 = A_joint_j_i_1 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
-        omega_i[2];
+    const jg_real t71 = sine_0 * alphadot[0];
+    const jg_real v_2_in_j_0 = sine_0 * C_j[3] + cosine_0 * C_j[6];
+    /* v_11_in_joint_j = cos(alpha_1) alphadot_0 g_j - sin(alpha_1) alphadot_0 h_j, axes of joint j */
+    const jg_real v_11_in_joint_j_1 = cosine_0 * alphadot[0];
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* v_3_in_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of body j */
     const jg_real v_3_in_j_0 = lambda_0_1_2_in_j_2 * v_2_in_j_1 - lambda_0_1_2_in_j_1 * v_2_in_j_2;
-    const jg_real v_3_in_j_1 = lambda_0_1_2_in_j_0 * v_2_in_j_2 - lambda_0_1_2_in_j_2 * v_2_in_j_0;
-    const jg_real v_3_in_j_2 = lambda_0_1_2_in_j_1 * v_2_in_j_0 - lambda_0_1_2_in_j_0 * v_2_in_j_1;
     /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
     const jg_real f_j_cross_lambda_0_1_2_in_j_0 = C_j[1] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_1;
+    const jg_real v_3_in_j_1 = lambda_0_1_2_in_j_0 * v_2_in_j_2 - lambda_0_1_2_in_j_2 * v_2_in_j_0;
+    const jg_real v_3_in_j_2 = lambda_0_1_2_in_j_1 * v_2_in_j_0 - lambda_0_1_2_in_j_0 * v_2_in_j_1;
     const jg_real f_j_cross_lambda_0_1_2_in_j_1 = C_j[2] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_j_cross_lambda_0_1_2_in_j_2 = C_j[0] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_0;
     /* v_6_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j, axes of body j */
-    const jg_real v_6_in_j_0 = C_j[0] * alphadot[1] + C_j[3] * t70 + C_j[6] * v_11_in_joint_j_1;
-    const jg_real v_6_in_j_1 = C_j[1] * alphadot[1] + C_j[4] * t70 + C_j[7] * v_11_in_joint_j_1;
-    const jg_real v_6_in_j_2 = C_j[2] * alphadot[1] + C_j[5] * t70 + C_j[8] * v_11_in_joint_j_1;
+    const jg_real v_6_in_j_0 = C_j[0] * alphadot[1] + C_j[3] * t71 + C_j[6] * v_11_in_joint_j_1;
+    const jg_real v_6_in_j_1 = C_j[1] * alphadot[1] + C_j[4] * t71 + C_j[7] * v_11_in_joint_j_1;
+    phi_q_t_lambda_q[1] = -v_0_in_i_1;
+    phi_q_t_lambda_q[2] = -v_0_in_i_2;
+    phi_q_t_lambda_q[9] = A_joint_j_i_2 * lambda[4] - A_joint_j_i_1 * lambda[5];
+    phi_q_t_lambda_q[10] = A_joint_j_i_5 * lambda[4] - g_star_in_i_1 * lambda[5];
+    phi_q_t_lambda_q[11] = A_joint_j_i_8 * lambda[4] - g_star_in_i_2 * lambda[5];
     phi_q_t_lambda_q[3] = -v_3_in_j_0;
-    phi_q_t_lambda_q[4] = -v_3_in_j_1;
-    phi_q_t_lambda_q[5] = -v_3_in_j_2;
     phi_q_t_lambda_q[12] = -f_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[4] = -v_3_in_j_1;
+    const jg_real v_6_in_j_2 = C_j[2] * alphadot[1] + C_j[5] * t71 + C_j[8] * v_11_in_joint_j_1;
+    /* v_7_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes ... */
+    const jg_real v_7_in_j_1 = v_6_in_j_1 - omega_j[1];
+    phi_q_t_lambda_q[5] = -v_3_in_j_2;
     phi_q_t_lambda_q[13] = -f_j_cross_lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[14] = -f_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[6] = s_j[2] * v_3_in_j_1 - s_j[1] * v_3_in_j_2;
     phi_q_t_lambda_q[7] = s_j[0] * v_3_in_j_2 - s_j[2] * v_3_in_j_0;
     phi_q_t_lambda_q[8] = s_j[1] * v_3_in_j_0 - s_j[0] * v_3_in_j_1;
-    /* v_7_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes ... */
-    const jg_real v_7_in_j_1 = v_6_in_j_1 - omega_j[1];
-    const jg_real v_7_in_j_2 = v_6_in_j_2 - omega_j[2];
     phi_q_t_lambda_q[15] = s_j[2] * f_j_cross_lambda_0_1_2_in_j_1 - s_j[1] * f_j_cross_lambda_0_1_2_in_j_2;
-    const jg_real v_7_in_j_0 = v_6_in_j_0 - omega_j[0];
     phi_q_t_lambda_q[16] = s_j[0] * f_j_cross_lambda_0_1_2_in_j_2 - s_j[2] * f_j_cross_lambda_0_1_2_in_j_0;
-    gamma[3] = t70 * omega_i_in_joint_j_2 - v_11_in_joint_j_1 * omega_i_in_joint_j_1;
-    phi_q_t_lambda_q[17] = s_j[1] * f_j_cross_lambda_0_1_2_in_j_0 - s_j[0] * f_j_cross_lambda_0_1_2_in_j_1;
-    const jg_real omega_i_in_joint_j_0 = A_joint_j_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
+    const jg_real v_7_in_j_0 = v_6_in_j_0 - omega_j[0];
+    const jg_real v_7_in_j_2 = v_6_in_j_2 - omega_j[2];
+    const jg_real t87 = v_6_in_j_0 * omega_j[0] + v_6_in_j_1 * omega_j[1] + v_6_in_j_2 * omega_j[2];
+    /* omega_i_in_joint_j = omega_i, axes of joint j */
+    const jg_real omega_i_in_joint_j_2 = A_joint_j_i_2 * omega_i[0] + A_joint_j_i_5 * omega_i[1] + A_joint_j_i_8 *
         omega_i[2];
-    const jg_real t90 = alphadot[1] - omega_i_in_joint_j_0;
-    const jg_real t91 = v_6_in_j_0 * omega_j[0] + v_6_in_j_1 * omega_j[1] + v_6_in_j_2 * omega_j[2];
-    const jg_real t92 = s_j[0] * v_6_in_j_0 + s_j[1] * v_6_in_j_1 + s_j[2] * v_6_in_j_2;
+    const jg_real t89 = s_j[0] * v_6_in_j_0 + s_j[1] * v_6_in_j_1 + s_j[2] * v_6_in_j_2;
     /* v_8_in_j = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
+    const jg_real v_8_in_j_2 = v_j[1] * v_7_in_j_0 - v_j[0] * v_7_in_j_1;
     const jg_real v_8_in_j_0 = v_j[2] * v_7_in_j_1 - v_j[1] * v_7_in_j_2;
     const jg_real v_8_in_j_1 = v_j[0] * v_7_in_j_2 - v_j[2] * v_7_in_j_0;
-    const jg_real v_8_in_j_2 = v_j[1] * v_7_in_j_0 - v_j[0] * v_7_in_j_1;
-    gamma[5] = t70 * t90 + alphadot[1] * omega_i_in_joint_j_1;
+    const jg_real omega_i_in_joint_j_1 = A_joint_j_i_1 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+        omega_i[2];
     /* v_9_in_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_9_in_j_0 = s_j[0] * t91 - omega_j[0] * t92;
-    const jg_real v_9_in_j_1 = s_j[1] * t91 - omega_j[1] * t92;
-    const jg_real v_9_in_j_2 = s_j[2] * t91 - omega_j[2] * t92;
-    gamma[4] = -(v_11_in_joint_j_1 * t90 + alphadot[1] * omega_i_in_joint_j_2);
+    const jg_real v_9_in_j_0 = s_j[0] * t87 - omega_j[0] * t89;
+    const jg_real v_9_in_j_1 = s_j[1] * t87 - omega_j[1] * t89;
+    const jg_real v_9_in_j_2 = s_j[2] * t87 - omega_j[2] * t89;
+    const jg_real omega_i_in_joint_j_0 = A_joint_j_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
+        omega_i[2];
     /* v_8_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
     const jg_real v_8_in_i_0 = A_ji_0 * v_8_in_j_0 + A_ji_1 * v_8_in_j_1 + A_ji_2 * v_8_in_j_2;
+    const jg_real t99 = alphadot[1] - omega_i_in_joint_j_0;
     const jg_real v_8_in_i_1 = A_ji_3 * v_8_in_j_0 + A_ji_4 * v_8_in_j_1 + A_ji_5 * v_8_in_j_2;
     const jg_real v_8_in_i_2 = A_ji_6 * v_8_in_j_0 + A_ji_7 * v_8_in_j_1 + A_ji_8 * v_8_in_j_2;
     /* v_9_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
@@ -792,11 +780,15 @@ void jg_universal_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, con
     const jg_real v_9_in_i_2 = A_ji_6 * v_9_in_j_0 + A_ji_7 * v_9_in_j_1 + A_ji_8 * v_9_in_j_2;
     /* v_10_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_10_in_i_0 = v_9_in_i_0 - (v_8_in_i_0 + omega_i_cross_v_i_in_i_0);
-    gamma[0] = v_10_in_i_0;
     const jg_real v_10_in_i_1 = v_9_in_i_1 - (v_8_in_i_1 + omega_i_cross_v_i_in_i_1);
-    gamma[1] = v_10_in_i_1;
     const jg_real v_10_in_i_2 = v_9_in_i_2 - (v_8_in_i_2 + omega_i_cross_v_i_in_i_2);
+    phi_q_t_lambda_q[17] = s_j[1] * f_j_cross_lambda_0_1_2_in_j_0 - s_j[0] * f_j_cross_lambda_0_1_2_in_j_1;
+    gamma[3] = t71 * omega_i_in_joint_j_2 - v_11_in_joint_j_1 * omega_i_in_joint_j_1;
+    gamma[0] = v_10_in_i_0;
+    gamma[5] = t71 * t99 + alphadot[1] * omega_i_in_joint_j_1;
+    gamma[1] = v_10_in_i_1;
     gamma[2] = v_10_in_i_2;
+    gamma[4] = -(v_11_in_joint_j_1 * t99 + alphadot[1] * omega_i_in_joint_j_2);
 }
 
 void jg_universal_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

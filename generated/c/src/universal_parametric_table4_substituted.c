@@ -4,10 +4,6 @@
  * joint universal, form parametric, rows table4, derivative substituted, variation body, real double
  * specification SHA-256 2a130cd9c32ad7fd1c9f2e8c6fdd9716b122f978045b3c3e80dfe8f1971938ff
  */
-#if defined(__GNUC__) && !defined(__clang__)
-/* Neighbouring entries are rarely ready together: pairing them in vector registers costs more than it saves. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
 #include "jointgen/universal.h"
 
 const int *jg_universal_parametric_table4_substituted_phi_q_sparsity(void)
@@ -28,9 +24,8 @@ const int *jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(
     return pattern;
 }
 
-void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi)
+void jg_universal_parametric_table4_substituted_phi(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *phi)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -40,125 +35,125 @@ void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    phi[3] = h_i_dot_f_j;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    phi[2] = d_ij_in_i_2;
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_j_world_0 * f_i_world_0 + f_j_world_1 * f_i_world_1 + f_j_world_2 * f_i_world_2;
     /* h_i_dot_h_j = h_i . h_j */
     const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
+    phi[2] = d_ij_in_i_2;
+    phi[3] = h_i_dot_f_j;
     phi[4] = f_i_dot_f_j - jg_cos(alpha[0]);
     phi[5] = h_i_dot_h_j - jg_cos(alpha[1]);
 }
 
-void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT phi_q)
+void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *alpha, const jg_real *geometry,
+    jg_real *phi_q)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q[3] = s_i[2];
-    phi_q[13] = s_i[1];
-    phi_q[4] = -s_i[1];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    phi_q[3] = s_i[2];
+    phi_q[13] = s_i[1];
+    phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[9] = s_i[0];
+    const jg_real t4 = cosine_0 * sine_1;
+    /* H_02 =  */
+    const jg_real H_02 = sine_0 * sine_1;
+    const jg_real t6 = sine_0 * cosine_1;
     phi_q[14] = -s_i[0];
     phi_q[45] = sine_0;
     phi_q[6] = sine_0 * C_i[6];
     phi_q[46] = sine_1;
-    const jg_real t4 = cosine_0 * sine_1;
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1;
     phi_q[11] = sine_0 * C_i[7];
     phi_q[16] = sine_0 * C_i[8];
-    const jg_real t6 = sine_0 * cosine_1;
-    /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_1;
     phi_q[5] = cosine_0 * C_i[3] - sine_0 * C_i[0];
     phi_q[10] = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    phi_q[15] = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    const jg_real t7 = cosine_1 * C_j[4];
+    const jg_real t8 = cosine_1 * C_j[5];
     /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_5 = C_j[4] * sine_1 + C_j[7] * cosine_1;
-    phi_q[7] = t4 * C_i[0] + H_02 * C_i[3];
-    phi_q[12] = t4 * C_i[1] + H_02 * C_i[4];
-    phi_q[17] = t4 * C_i[2] + H_02 * C_i[5];
+    const jg_real A_joint_i_j_5 = sine_1 * C_j[4] + cosine_1 * C_j[7];
+    const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - t6 * C_j[4] + H_02 * C_j[7];
     const jg_real A_joint_i_j_8 = sine_1 * C_j[5] + cosine_1 * C_j[8];
+    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - t6 * C_j[5] + H_02 * C_j[8];
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = sine_1 * C_j[6] - cosine_1 * C_j[3];
+    const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * t7 - t4 * C_j[7];
+    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * t8 - t4 * C_j[8];
+    const jg_real f_j_cross_h_i_in_j_1 = sine_1 * C_j[7] - t7;
+    phi_q[15] = cosine_0 * C_i[5] - sine_0 * C_i[2];
+    phi_q[7] = C_i[0] * t4 + C_i[3] * H_02;
+    phi_q[12] = t4 * C_i[1] + H_02 * C_i[4];
+    phi_q[17] = t4 * C_i[2] + H_02 * C_i[5];
     phi_q[30] = f_j_cross_h_i_in_j_0;
-    const jg_real A_joint_i_j_3 = C_j[1] * cosine_0 - C_j[4] * t6 + C_j[7] * H_02;
-    const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + C_j[4] * H_11 - C_j[7] * t4;
-    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - t6 * C_j[5] + H_02 * C_j[8];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + H_11 * C_j[5] - t4 * C_j[8];
     phi_q[32] = -(sine_1 * C_j[0]);
-    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * sine_1 - C_j[4] * cosine_1;
-    phi_q[36] = f_j_cross_h_i_in_j_1;
     phi_q[31] = -(H_02 * C_j[3] + t6 * C_j[6]);
-    phi_q[38] = -(C_j[1] * sine_1);
-    const jg_real f_j_cross_h_i_in_j_2 = sine_1 * C_j[8] - cosine_1 * C_j[5];
-    phi_q[42] = f_j_cross_h_i_in_j_2;
-    phi_q[37] = -(C_j[4] * H_02 + C_j[7] * t6);
-    phi_q[43] = -(H_02 * C_j[5] + t6 * C_j[8]);
-    phi_q[44] = -(sine_1 * C_j[2]);
+    phi_q[36] = f_j_cross_h_i_in_j_1;
+    const jg_real f_j_cross_h_i_in_j_2 = sine_1 * C_j[8] - t8;
     /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = A_joint_i_j_3 * C_i[1] + A_joint_i_j_4 * C_i[4] + A_joint_i_j_5 * C_i[7];
+    const jg_real A_ij_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * A_joint_i_j_5;
+    const jg_real A_ij_5 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * A_joint_i_j_5;
+    const jg_real A_ij_3 = C_i[0] * A_joint_i_j_3 + C_i[3] * A_joint_i_j_4 + C_i[6] * A_joint_i_j_5;
+    phi_q[38] = -(sine_1 * C_j[1]);
+    phi_q[42] = f_j_cross_h_i_in_j_2;
     phi_q[22] = A_ij_4;
-    const jg_real A_ij_5 = A_joint_i_j_3 * C_i[2] + A_joint_i_j_4 * C_i[5] + A_joint_i_j_5 * C_i[8];
     phi_q[23] = A_ij_5;
-    const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * A_joint_i_j_8;
-    phi_q[26] = A_ij_8;
-    const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * A_joint_i_j_8;
-    phi_q[25] = A_ij_7;
-    const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * A_joint_i_j_8;
-    phi_q[24] = A_ij_6;
-    const jg_real A_ij_3 = A_joint_i_j_3 * C_i[0] + A_joint_i_j_4 * C_i[3] + A_joint_i_j_5 * C_i[6];
     phi_q[21] = A_ij_3;
+    phi_q[44] = -(sine_1 * C_j[2]);
+    phi_q[37] = -(H_02 * C_j[4] + t6 * C_j[7]);
+    phi_q[43] = -(H_02 * C_j[5] + t6 * C_j[8]);
+    const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * A_joint_i_j_8;
+    const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * A_joint_i_j_8;
+    const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * A_joint_i_j_8;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    phi_q[26] = A_ij_8;
+    phi_q[25] = A_ij_7;
+    phi_q[24] = A_ij_6;
     phi_q[18] = A_ij_0;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
     phi_q[19] = A_ij_1;
-    const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
     phi_q[20] = A_ij_2;
     phi_q[27] = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
     phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
@@ -179,8 +174,8 @@ void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RE
     jg_scatter(jg_universal_parametric_table4_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
+void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -205,72 +200,72 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
     const jg_real h_j_cross_f_i_in_joint_i_2 = cosine_1 * sine_0;
     const jg_real t13 = lambda[3] * sine_0;
-    const jg_real t14 = sine_0 * lambda[5];
+    /* H_02 =  */
+    const jg_real H_02 = sine_0 * sine_1;
     /* g_j_cross_h_i_in_joint_i = g_j x h_i, axes of joint i */
     const jg_real g_j_cross_h_i_in_joint_i_1 = cosine_0 * sine_1;
-    /* H_02 =  */
-    const jg_real H_02 = sine_1 * sine_0;
-    const jg_real t17 = cosine_1 * lambda[4];
-    phi_q_t_lambda_q[9] = t17;
-    /* v_2_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
-    const jg_real v_2_in_joint_j = cosine_0 * lambda[5];
-    phi_q_t_lambda_q[19] = v_2_in_joint_j;
+    const jg_real t16 = cosine_1 * lambda[4];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = cosine_1 * lambda_0_1_2_in_joint_i_0 + sine_1 *
         lambda_0_1_2_in_joint_i_1;
-    const jg_real t20 = sine_0 * s_j_in_joint_j_1 + cosine_0 * s_j_in_joint_j_2;
-    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_2_in_joint_i_0 = cosine_1 * v_2_in_joint_j;
-    const jg_real v_2_in_joint_i_1 = sine_1 * v_2_in_joint_j;
+    /* v_2_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
+    const jg_real v_2_in_joint_j = cosine_0 * lambda[5];
     /* v_4_in_joint_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of joint j */
     const jg_real v_4_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t24 = sine_0 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t25 = lambda_0_1_2_in_joint_j_0 * s_j_in_joint_j_0;
-    const jg_real t26 = lambda_0_1_2_in_joint_j_0 * t20;
-    const jg_real t27 = lambda[4] * (cosine_0 * H_11 + sine_0 * h_j_cross_f_i_in_joint_i_2);
+    const jg_real t20 = sine_0 * lambda_0_1_2_in_joint_j_0;
+    const jg_real t21 = lambda_0_1_2_in_joint_j_0 * s_j_in_joint_j_0;
     /* v_0_in_joint_i = cos(alpha_1) lambda_3 g_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + sin(alpha_1) lambda_5
         ... */
-    const jg_real v_0_in_joint_i_0 = t10 * H_11 + h_j_cross_f_i_in_joint_i_2 * t13 + sine_1 * t14;
-    const jg_real v_0_in_joint_i_1 = t10 * g_j_cross_h_i_in_joint_i_1 + H_02 * t13 - cosine_1 * t14;
+    const jg_real v_0_in_joint_i_0 = t10 * H_11 + h_j_cross_f_i_in_joint_i_2 * t13 + lambda[5] * H_02;
+    const jg_real t23 = (cosine_0 * H_11 + sine_0 * h_j_cross_f_i_in_joint_i_2) * lambda[4];
+    const jg_real t24 = sine_0 * s_j_in_joint_j_1 + cosine_0 * s_j_in_joint_j_2;
+    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_2_in_joint_i_0 = cosine_1 * v_2_in_joint_j;
+    const jg_real v_0_in_joint_i_1 = t10 * g_j_cross_h_i_in_joint_i_1 + t13 * H_02 - h_j_cross_f_i_in_joint_i_2 *
+        lambda[5];
+    const jg_real v_2_in_joint_i_1 = sine_1 * v_2_in_joint_j;
     const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - h_j_cross_f_i_in_joint_i_2 *
         lambda_0_1_2_in_joint_i_1 + cosine_0 * lambda_0_1_2_in_joint_i_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - g_j_cross_h_i_in_joint_i_1 *
         lambda_0_1_2_in_joint_i_0 + sine_0 * lambda_0_1_2_in_joint_i_2;
+    const jg_real t30 = lambda_0_1_2_in_joint_j_0 * t24;
+    const jg_real v_4_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_j_2 - cosine_0 * lambda_0_1_2_in_joint_j_1;
+    /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
+    const jg_real s_j_dot_lambda_0_1_2 = t21 + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_1 +
+        lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_2;
     /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
     const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i_0 + C_i[3] * v_2_in_joint_i_1;
-    phi_q_t_lambda_q[10] = v_2_in_i_0;
     const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i_0 + C_i[4] * v_2_in_joint_i_1;
-    phi_q_t_lambda_q[11] = v_2_in_i_1;
     const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i_0 + C_i[5] * v_2_in_joint_i_1;
+    phi_q_t_lambda_q[9] = t16;
+    phi_q_t_lambda_q[19] = v_2_in_joint_j;
+    phi_q_t_lambda_q[0] = t23 * C_i[6] - (v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3]);
+    phi_q_t_lambda_q[1] = t23 * C_i[7] - (v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4]);
+    phi_q_t_lambda_q[2] = t23 * C_i[8] - (v_0_in_joint_i_0 * C_i[2] + v_0_in_joint_i_1 * C_i[5]);
+    phi_q_t_lambda_q[10] = v_2_in_i_0;
+    phi_q_t_lambda_q[11] = v_2_in_i_1;
     phi_q_t_lambda_q[12] = v_2_in_i_2;
-    const jg_real v_4_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_j_2 - cosine_0 * lambda_0_1_2_in_joint_j_1;
-    phi_q_t_lambda_q[0] = t27 * C_i[6] - (v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3]);
-    phi_q_t_lambda_q[1] = t27 * C_i[7] - (v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4]);
-    phi_q_t_lambda_q[2] = t27 * C_i[8] - (v_0_in_joint_i_0 * C_i[2] + v_0_in_joint_i_1 * C_i[5]);
+    const jg_real t36 = s_j_dot_lambda_0_1_2 + t16;
+    /* v_6_in_joint_j = (cos(alpha_1) lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_4 - sin(alpha_1) ... */
+    const jg_real v_6_in_joint_j = s_j_dot_lambda_0_1_2 + v_2_in_joint_j - t21;
+    const jg_real t38 = t13 - g_j_cross_h_i_in_joint_i_1 * lambda[4] + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_0;
+    const jg_real t39 = t10 + H_02 * lambda[4] + lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_0;
+    /* v_5_in_joint_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
+    const jg_real v_5_in_joint_j_2 = cosine_0 * t36 - lambda_0_1_2_in_joint_j_2 * t24;
+    const jg_real v_5_in_joint_j_1 = sine_0 * t36 - lambda_0_1_2_in_joint_j_1 * t24;
     phi_q_t_lambda_q[13] = lambda_0_1_2_in_joint_j_2 * C_j[3] - lambda_0_1_2_in_joint_j_1 * C_j[6];
-    /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
-    const jg_real s_j_dot_lambda_0_1_2 = t25 + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_1 +
-        lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_2;
+    phi_q_t_lambda_q[3] = t20 * C_j[6] - (v_4_in_joint_j_0 * C_j[0] + v_4_in_joint_j_1 * C_j[3]);
+    phi_q_t_lambda_q[4] = t20 * C_j[7] - (v_4_in_joint_j_0 * C_j[1] + v_4_in_joint_j_1 * C_j[4]);
+    phi_q_t_lambda_q[5] = t20 * C_j[8] - (v_4_in_joint_j_0 * C_j[2] + v_4_in_joint_j_1 * C_j[5]);
     phi_q_t_lambda_q[14] = lambda_0_1_2_in_joint_j_2 * C_j[4] - lambda_0_1_2_in_joint_j_1 * C_j[7];
     phi_q_t_lambda_q[15] = lambda_0_1_2_in_joint_j_2 * C_j[5] - lambda_0_1_2_in_joint_j_1 * C_j[8];
-    const jg_real t37 = t13 - g_j_cross_h_i_in_joint_i_1 * lambda[4] + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_0;
-    const jg_real t38 = t10 + H_02 * lambda[4] + lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_0;
-    const jg_real t39 = s_j_dot_lambda_0_1_2 + t17;
-    phi_q_t_lambda_q[3] = t24 * C_j[6] - (v_4_in_joint_j_0 * C_j[0] + v_4_in_joint_j_1 * C_j[3]);
-    phi_q_t_lambda_q[4] = t24 * C_j[7] - (v_4_in_joint_j_0 * C_j[1] + v_4_in_joint_j_1 * C_j[4]);
-    phi_q_t_lambda_q[5] = t24 * C_j[8] - (v_4_in_joint_j_0 * C_j[2] + v_4_in_joint_j_1 * C_j[5]);
-    /* v_6_in_joint_j = (cos(alpha_1) lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_4 - sin(alpha_1) ... */
-    const jg_real v_6_in_joint_j = v_2_in_joint_j + s_j_dot_lambda_0_1_2 - t25;
-    /* v_5_in_joint_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
-    const jg_real v_5_in_joint_j_2 = cosine_0 * t39 - lambda_0_1_2_in_joint_j_2 * t20;
-    const jg_real v_5_in_joint_j_1 = sine_0 * t39 - lambda_0_1_2_in_joint_j_1 * t20;
-    phi_q_t_lambda_q[16] = C_j[6] * t38 - (C_j[0] * v_6_in_joint_j - C_j[3] * t37);
-    phi_q_t_lambda_q[17] = C_j[7] * t38 - (C_j[1] * v_6_in_joint_j - C_j[4] * t37);
-    phi_q_t_lambda_q[18] = C_j[8] * t38 - (C_j[2] * v_6_in_joint_j - C_j[5] * t37);
+    phi_q_t_lambda_q[16] = C_j[6] * t39 - (C_j[0] * v_6_in_joint_j - C_j[3] * t38);
+    phi_q_t_lambda_q[17] = C_j[7] * t39 - (C_j[1] * v_6_in_joint_j - C_j[4] * t38);
     /* v_5_in_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
-    const jg_real v_5_in_j_0 = C_j[3] * v_5_in_joint_j_1 - C_j[0] * t26 + C_j[6] * v_5_in_joint_j_2;
-    const jg_real v_5_in_j_1 = C_j[4] * v_5_in_joint_j_1 - C_j[1] * t26 + C_j[7] * v_5_in_joint_j_2;
-    const jg_real v_5_in_j_2 = C_j[5] * v_5_in_joint_j_1 - C_j[2] * t26 + C_j[8] * v_5_in_joint_j_2;
+    const jg_real v_5_in_j_0 = C_j[3] * v_5_in_joint_j_1 - C_j[0] * t30 + C_j[6] * v_5_in_joint_j_2;
+    const jg_real v_5_in_j_1 = C_j[4] * v_5_in_joint_j_1 - C_j[1] * t30 + C_j[7] * v_5_in_joint_j_2;
+    const jg_real v_5_in_j_2 = C_j[5] * v_5_in_joint_j_1 - C_j[2] * t30 + C_j[8] * v_5_in_joint_j_2;
+    phi_q_t_lambda_q[18] = C_j[8] * t39 - (C_j[2] * v_6_in_joint_j - C_j[5] * t38);
     phi_q_t_lambda_q[6] = -v_5_in_j_0;
     phi_q_t_lambda_q[7] = -v_5_in_j_1;
     phi_q_t_lambda_q[8] = -v_5_in_j_2;
@@ -284,8 +279,8 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_
     jg_scatter(jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(), phi_q_t_lambda_q_nz, phi_q_t_lambda_q);
 }
 
-void jg_universal_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT gamma)
+void jg_universal_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *gamma)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -310,18 +305,18 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT
     /* s_j_in_joint_j = s_j, axes of joint j */
     const jg_real s_j_in_joint_j_0 = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
     const jg_real s_j_in_joint_j_1 = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
-    const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
     /* v_0_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes
         ... */
     const jg_real v_0_in_joint_j_0 = alphadot[1] - f_j_dot_omega_j;
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
+    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
@@ -356,40 +351,40 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT
     /* v_1_in_joint_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ...
         */
     const jg_real v_1_in_joint_i_2 = sine_0 * v_1_in_joint_j_1 + cosine_0 * v_1_in_joint_j_2;
+    /* v_3_in_joint_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
+    const jg_real v_3_in_joint_i_2 = sine_0 * v_3_in_joint_j_1 + cosine_0 * v_3_in_joint_j_2;
     const jg_real v_1_in_joint_i_0 = v_1_in_joint_j_0 * cosine_1 - v_1_in_joint_j_1 * t22 + v_1_in_joint_j_2 * H_02;
     const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_0 * sine_1 + v_1_in_joint_j_1 * H_11 - v_1_in_joint_j_2 *
         v_6_in_joint_j_1;
-    /* v_3_in_joint_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_3_in_joint_i_2 = sine_0 * v_3_in_joint_j_1 + cosine_0 * v_3_in_joint_j_2;
     const jg_real v_3_in_joint_i_0 = cosine_1 * v_3_in_joint_j_0 - t22 * v_3_in_joint_j_1 + H_02 * v_3_in_joint_j_2;
     const jg_real v_3_in_joint_i_1 = sine_1 * v_3_in_joint_j_0 + H_11 * v_3_in_joint_j_1 - v_6_in_joint_j_1 *
         v_3_in_joint_j_2;
-    gamma[3] = -(cosine_0 * (alphadot[1] * h_j_dot_omega_j - alphadot[0] * t30) + sine_0 * (alphadot[1] *
-        g_j_dot_omega_j - alphadot[0] * (H_02 * omega_i_in_joint_i_1 + v_6_in_joint_j_1 * omega_i_in_joint_i_0)));
-    gamma[5] = -(alphadot[1] * (t30 + cosine_0 * v_0_in_joint_j_0) + v_2_in_joint_j_1 * (cosine_1 *
-        omega_i_in_joint_i_1 - sine_1 * omega_i_in_joint_i_0));
     /* v_1_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
     const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + v_1_in_joint_i_1 * C_i[3] + v_1_in_joint_i_2 * C_i[6];
     const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + v_1_in_joint_i_1 * C_i[4] + v_1_in_joint_i_2 * C_i[7];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_i_2 * C_i[8];
-    gamma[4] = alphadot[0] * (g_j_dot_omega_j * v_6_in_joint_j_1 + h_j_dot_omega_j * H_11) - omega_i_in_joint_i_2 *
-        (cosine_0 * H_11 + sine_0 * v_6_in_joint_j_1) * alphadot[0] - alphadot[1] * (h_j_dot_omega_j * H_02 -
-        g_j_dot_omega_j * t22) - alphadot[0] * cosine_1 * alphadot[0];
     /* v_3_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1 + C_i[6] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1 + C_i[7] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1 + C_i[8] * v_3_in_joint_i_2;
+    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_i_2 * C_i[8];
     /* v_4_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_1_in_i_0 + omega_i_cross_v_i_in_i_0);
-    gamma[0] = v_4_in_i_0;
     const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_1_in_i_1 + omega_i_cross_v_i_in_i_1);
-    gamma[1] = v_4_in_i_1;
     const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_1_in_i_2 + omega_i_cross_v_i_in_i_2);
+    gamma[3] = -(cosine_0 * (alphadot[1] * h_j_dot_omega_j - alphadot[0] * t30) + sine_0 * (alphadot[1] *
+        g_j_dot_omega_j - alphadot[0] * (H_02 * omega_i_in_joint_i_1 + v_6_in_joint_j_1 * omega_i_in_joint_i_0)));
+    gamma[4] = alphadot[0] * (g_j_dot_omega_j * v_6_in_joint_j_1 + h_j_dot_omega_j * H_11) - omega_i_in_joint_i_2 *
+        (cosine_0 * H_11 + sine_0 * v_6_in_joint_j_1) * alphadot[0] - alphadot[1] * (h_j_dot_omega_j * H_02 -
+        g_j_dot_omega_j * t22) - alphadot[0] * cosine_1 * alphadot[0];
+    gamma[0] = v_4_in_i_0;
+    gamma[1] = v_4_in_i_1;
+    gamma[5] = -(alphadot[1] * (t30 + cosine_0 * v_0_in_joint_j_0) + v_2_in_joint_j_1 * (cosine_1 *
+        omega_i_in_joint_i_1 - sine_1 * omega_i_in_joint_i_0));
     gamma[2] = v_4_in_i_2;
 }
 
-void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT phi_q_v)
+void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *velocity, jg_real *phi_q_v)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -412,21 +407,21 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRI
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
+    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
     const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
-    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
-    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
-    /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
     /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
     const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    /* omega_i_in_joint_i = omega_i, axes of joint i */
+    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_2 = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
@@ -444,18 +439,12 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRI
         s_j_cross_omega_j_in_joint_j_2;
     /* v_j_in_joint_i = v_j, axes of joint i */
     const jg_real v_j_in_joint_i_2 = v_j_in_joint_j_1 * sine_1 + v_j_in_joint_j_2 * cosine_1;
-    phi_q_v[3] = cosine_0 * omega_i_in_joint_i_1 - sine_0 * omega_i_in_joint_i_0 + (sine_1 * omega_j_in_joint_j_2 -
-        cosine_1 * omega_j_in_joint_j_1);
     const jg_real s_j_cross_omega_j_in_joint_i_0 = cosine_0 * s_j_cross_omega_j_in_joint_j_0 - t22 *
         s_j_cross_omega_j_in_joint_j_1 + H_02 * s_j_cross_omega_j_in_joint_j_2;
     const jg_real v_j_in_joint_i_0 = v_j_in_joint_j_0 * cosine_0 - v_j_in_joint_j_1 * t22 + v_j_in_joint_j_2 * H_02;
     const jg_real s_j_cross_omega_j_in_joint_i_1 = sine_0 * s_j_cross_omega_j_in_joint_j_0 + H_11 *
         s_j_cross_omega_j_in_joint_j_1 - t25 * s_j_cross_omega_j_in_joint_j_2;
     const jg_real v_j_in_joint_i_1 = v_j_in_joint_j_0 * sine_0 + v_j_in_joint_j_1 * H_11 - v_j_in_joint_j_2 * t25;
-    phi_q_v[4] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot[0] - (t22 * omega_j_in_joint_j_2 + H_02 *
-        omega_j_in_joint_j_1);
-    phi_q_v[5] = H_02 * omega_i_in_joint_i_1 + t25 * omega_i_in_joint_i_0 + sine_1 * alphadot[1] - sine_1 *
-        omega_j_in_joint_j_0;
     /* s_j_cross_omega_j_in_i = s_j x omega_j, axes of body i */
     const jg_real s_j_cross_omega_j_in_i_0 = C_i[0] * s_j_cross_omega_j_in_joint_i_0 + C_i[3] *
         s_j_cross_omega_j_in_joint_i_1 + C_i[6] * s_j_cross_omega_j_in_joint_i_2;
@@ -471,21 +460,24 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRI
     const jg_real v_0_in_i_0 = v_i[0] - v_j_in_i_0 - s_i_cross_omega_i_in_i_0 + s_j_cross_omega_j_in_i_0;
     const jg_real v_0_in_i_1 = v_i[1] - v_j_in_i_1 - s_i_cross_omega_i_in_i_1 + s_j_cross_omega_j_in_i_1;
     const jg_real v_0_in_i_2 = v_i[2] - v_j_in_i_2 - s_i_cross_omega_i_in_i_2 + s_j_cross_omega_j_in_i_2;
+    phi_q_v[3] = cosine_0 * omega_i_in_joint_i_1 - sine_0 * omega_i_in_joint_i_0 + (sine_1 * omega_j_in_joint_j_2 -
+        cosine_1 * omega_j_in_joint_j_1);
+    phi_q_v[4] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot[0] - (t22 * omega_j_in_joint_j_2 + H_02 *
+        omega_j_in_joint_j_1);
+    phi_q_v[5] = H_02 * omega_i_in_joint_i_1 + t25 * omega_i_in_joint_i_0 + sine_1 * alphadot[1] - sine_1 *
+        omega_j_in_joint_j_0;
     phi_q_v[0] = -v_0_in_i_0;
     phi_q_v[1] = -v_0_in_i_1;
     phi_q_v[2] = -v_0_in_i_2;
 }
 
-void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda)
+void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, const jg_real *geometry,
+    const jg_real *lambda, jg_real *phi_q_t_lambda)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    phi_q_t_lambda[0] = -lambda[0];
-    phi_q_t_lambda[1] = -lambda[1];
-    phi_q_t_lambda[2] = -lambda[2];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -504,65 +496,66 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
     const jg_real v_0_in_joint_i = sine_0 * lambda[3];
     const jg_real t11 = lambda[3] * cosine_0;
     const jg_real t12 = sine_0 * lambda[4];
-    phi_q_t_lambda[12] = t12;
     const jg_real t13 = sine_1 * lambda[5];
-    phi_q_t_lambda[13] = t13;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
     const jg_real t15 = sine_0 * cosine_1;
-    /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1;
-    const jg_real t17 = cosine_0 * t13;
-    const jg_real t18 = sine_0 * t13;
+    const jg_real t16 = cosine_0 * t13;
+    const jg_real t17 = sine_0 * t13;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_in_joint_i_0 + sine_0 *
         lambda_0_1_2_in_joint_i_1;
-    /* v_0_in_joint_j = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of joint j */
-    const jg_real v_0_in_joint_j_2 = lambda[3] * sine_1 - lambda[4] * t15;
+    /* H_02 =  */
+    const jg_real H_02 = sine_0 * sine_1;
     /* v_0_in_i = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of body i */
     const jg_real v_0_in_i_0 = v_0_in_joint_i * C_i[0] - t11 * C_i[3] - t12 * C_i[6];
-    const jg_real t22 = lambda[4] * H_02 + lambda[3] * cosine_1;
     const jg_real v_0_in_i_1 = v_0_in_joint_i * C_i[1] - t11 * C_i[4] - t12 * C_i[7];
     const jg_real v_0_in_i_2 = v_0_in_joint_i * C_i[2] - t11 * C_i[5] - t12 * C_i[8];
     const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - t15 * lambda_0_1_2_in_joint_i_0 +
         sine_1 * lambda_0_1_2_in_joint_i_2;
+    /* v_0_in_joint_j = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of joint j */
+    const jg_real v_0_in_joint_j_2 = lambda[3] * sine_1 - lambda[4] * t15;
+    const jg_real t25 = lambda[4] * H_02 + lambda[3] * cosine_1;
+    phi_q_t_lambda[0] = -lambda[0];
+    phi_q_t_lambda[1] = -lambda[1];
+    phi_q_t_lambda[2] = -lambda[2];
+    phi_q_t_lambda[12] = t12;
+    phi_q_t_lambda[13] = t13;
+    phi_q_t_lambda[3] = C_i[0] * t16 + C_i[3] * t17 - (v_0_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
+    phi_q_t_lambda[4] = C_i[1] * t16 + C_i[4] * t17 - (v_0_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
+    phi_q_t_lambda[5] = C_i[2] * t16 + C_i[5] * t17 - (v_0_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
     const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - cosine_0 * sine_1 *
         lambda_0_1_2_in_joint_i_1 + cosine_1 * lambda_0_1_2_in_joint_i_2;
-    phi_q_t_lambda[3] = C_i[0] * t17 + C_i[3] * t18 - (v_0_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
-    phi_q_t_lambda[4] = C_i[1] * t17 + C_i[4] * t18 - (v_0_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
     /* v_0_in_j = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of body j */
-    const jg_real v_0_in_j_0 = C_j[6] * v_0_in_joint_j_2 - C_j[3] * t22;
-    const jg_real v_0_in_j_1 = C_j[7] * v_0_in_joint_j_2 - C_j[4] * t22;
-    const jg_real v_0_in_j_2 = C_j[8] * v_0_in_joint_j_2 - C_j[5] * t22;
-    phi_q_t_lambda[5] = C_i[2] * t17 + C_i[5] * t18 - (v_0_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
+    const jg_real v_0_in_j_0 = C_j[6] * v_0_in_joint_j_2 - C_j[3] * t25;
+    const jg_real v_0_in_j_1 = C_j[7] * v_0_in_joint_j_2 - C_j[4] * t25;
+    const jg_real v_0_in_j_2 = C_j[8] * v_0_in_joint_j_2 - C_j[5] * t25;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_in_joint_j_2 * C_j[6];
-    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
         lambda_0_1_2_in_joint_j_2 * C_j[7];
-    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_in_joint_j_2 * C_j[8];
-    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     /* v_3_in_j = lambda_4 f_j x f_i + lambda_3 f_j x h_i + lambda_5 h_j x h_i + s_j x lambda_0_1_2, axes of ... */
-    const jg_real v_3_in_j_2 = v_0_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - t13 * C_j[2];
-    phi_q_t_lambda[11] = v_3_in_j_2;
     const jg_real v_3_in_j_0 = v_0_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 - t13 * C_j[0];
-    phi_q_t_lambda[9] = v_3_in_j_0;
     const jg_real v_3_in_j_1 = v_0_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 - t13 * C_j[1];
+    const jg_real v_3_in_j_2 = v_0_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - t13 * C_j[2];
+    phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
+    phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
+    phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
+    phi_q_t_lambda[9] = v_3_in_j_0;
     phi_q_t_lambda[10] = v_3_in_j_1;
+    phi_q_t_lambda[11] = v_3_in_j_2;
 }
 
-void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT phi, jg_real *JG_RESTRICT phi_q, jg_real *JG_RESTRICT phi_q_t_lambda_q,
-    jg_real *JG_RESTRICT gamma)
+void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    const jg_real *lambda, jg_real *phi, jg_real *phi_q, jg_real *phi_q_t_lambda_q, jg_real *gamma)
 {
     const jg_real *const s_i = geometry;
     const jg_real *const C_i = geometry + 3;
@@ -573,58 +566,55 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
-    phi_q[9] = s_i[0];
-    phi_q[13] = s_i[1];
-    phi_q[3] = s_i[2];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    jg_real sine_1;
-    jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    phi_q[0] = JG_REAL(-1.0);
-    phi_q[1] = JG_REAL(-1.0);
-    phi_q[2] = JG_REAL(-1.0);
-    phi_q[4] = -s_i[1];
-    phi_q[8] = -s_i[2];
-    phi_q[14] = -s_i[0];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_0 = e_ij_world_0 * A_i[0] + e_ij_world_1 * A_i[1] + e_ij_world_2 * A_i[2];
     const jg_real e_ij_in_i_1 = e_ij_world_0 * A_i[3] + e_ij_world_1 * A_i[4] + e_ij_world_2 * A_i[5];
     const jg_real e_ij_in_i_2 = e_ij_world_0 * A_i[6] + e_ij_world_1 * A_i[7] + e_ij_world_2 * A_i[8];
-    /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
-    phi[3] = h_i_dot_f_j;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    phi[0] = d_ij_in_i_0;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    phi[1] = d_ij_in_i_1;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    /* h_i_dot_f_j = h_i . f_j */
+    const jg_real h_i_dot_f_j = h_i_world_0 * f_j_world_0 + h_i_world_1 * f_j_world_1 + h_i_world_2 * f_j_world_2;
+    jg_real sine_1;
+    jg_real cosine_1;
+    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    phi_q[9] = s_i[0];
+    phi_q[13] = s_i[1];
+    phi_q[3] = s_i[2];
+    phi[0] = d_ij_in_i_0;
+    phi[1] = d_ij_in_i_1;
     phi[2] = d_ij_in_i_2;
+    phi[3] = h_i_dot_f_j;
+    phi_q[0] = JG_REAL(-1.0);
+    phi_q[1] = JG_REAL(-1.0);
+    phi_q[2] = JG_REAL(-1.0);
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_j_world_0 * f_i_world_0 + f_j_world_1 * f_i_world_1 + f_j_world_2 * f_i_world_2;
@@ -634,209 +624,216 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
     const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
     /* s_j_dot_f_j = s_j . f_j */
     const jg_real s_j_dot_f_j = s_j[0] * C_j[0] + s_j[1] * C_j[1] + s_j[2] * C_j[2];
-    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
-    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
     /* h_i_dot_h_j = h_i . h_j */
     const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
+    const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
     /* v_10_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes
         ... */
     const jg_real v_10_in_joint_j_0 = alphadot[1] - f_j_dot_omega_j;
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    phi_q[4] = -s_i[1];
+    phi_q[8] = -s_i[2];
+    phi_q[14] = -s_i[0];
     phi[4] = f_i_dot_f_j - cosine_0;
     phi_q[45] = sine_0;
     phi_q[6] = C_i[6] * sine_0;
     phi_q[11] = C_i[7] * sine_0;
     phi_q[16] = C_i[8] * sine_0;
     const jg_real t44 = cosine_0 * lambda[4];
-    phi_q_t_lambda_q[9] = t44;
-    phi_q[5] = cosine_0 * C_i[3] - C_i[0] * sine_0;
-    phi_q[10] = cosine_0 * C_i[4] - C_i[1] * sine_0;
-    /* A_joint_j_i = turns i axes to joint j axes */
-    const jg_real A_joint_j_i_3 = cosine_0 * C_i[1] + C_i[4] * sine_0;
-    phi_q[15] = cosine_0 * C_i[5] - C_i[2] * sine_0;
-    const jg_real A_joint_j_i_6 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    phi[5] = h_i_dot_h_j - cosine_1;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
     /* g_j_cross_h_i_in_joint_i = g_j x h_i, axes of joint i */
     const jg_real g_j_cross_h_i_in_joint_i_1 = cosine_1 * sine_0;
-    phi_q[46] = sine_1;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     /* v_15_in_joint_j = cos(alpha_0) sin(alpha_1) g_j + cos(alpha_0) cos(alpha_1) h_j, axes of joint j */
     const jg_real v_15_in_joint_j_1 = cosine_0 * sine_1;
+    /* A_joint_j_i = turns i axes to joint j axes */
+    const jg_real A_joint_j_i_3 = C_i[1] * cosine_0 + sine_0 * C_i[4];
+    const jg_real A_joint_j_i_6 = C_i[2] * cosine_0 + sine_0 * C_i[5];
+    phi_q[5] = cosine_0 * C_i[3] - C_i[0] * sine_0;
+    phi_q_t_lambda_q[9] = t44;
+    phi_q[10] = cosine_0 * C_i[4] - C_i[1] * sine_0;
+    phi[5] = h_i_dot_h_j - cosine_1;
+    phi_q[46] = sine_1;
+    phi_q[15] = cosine_0 * C_i[5] - C_i[2] * sine_0;
     phi_q[12] = sine_1 * A_joint_j_i_3;
     phi_q[17] = sine_1 * A_joint_j_i_6;
+    const jg_real A_joint_j_i_4 = H_11 * C_i[4] - C_i[1] * g_j_cross_h_i_in_joint_i_1 + C_i[7] * sine_1;
+    const jg_real A_joint_j_i_7 = H_11 * C_i[5] - C_i[2] * g_j_cross_h_i_in_joint_i_1 + C_i[8] * sine_1;
+    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - v_15_in_joint_j_1 * C_i[5] + C_i[8] * cosine_1;
+    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * v_15_in_joint_j_1 + C_i[7] * cosine_1;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[6] * sine_1 - cosine_1 * C_j[3];
+    const jg_real A_joint_j_i_0 = A_joint_j_i_4 * A_joint_j_i_8 - A_joint_j_i_5 * A_joint_j_i_7;
+    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * sine_1 - cosine_1 * C_j[4];
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = C_j[1] * A_joint_j_i_3 + A_joint_j_i_4 * C_j[4] + C_j[7] * A_joint_j_i_5;
+    const jg_real A_ji_5 = C_j[2] * A_joint_j_i_3 + A_joint_j_i_4 * C_j[5] + C_j[8] * A_joint_j_i_5;
+    const jg_real A_ji_8 = C_j[2] * A_joint_j_i_6 + A_joint_j_i_7 * C_j[5] + C_j[8] * A_joint_j_i_8;
     phi_q[30] = f_j_cross_h_i_in_j_0;
     phi_q[32] = -(C_j[0] * sine_1);
-    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * sine_1 - cosine_1 * C_j[4];
+    phi_q[31] = -(H_02 * C_j[3] + C_j[6] * g_j_cross_h_i_in_joint_i_1);
     phi_q[36] = f_j_cross_h_i_in_j_1;
-    const jg_real t53 = sine_1 * lambda[3];
-    const jg_real A_joint_j_i_4 = C_i[4] * H_11 - C_i[1] * g_j_cross_h_i_in_joint_i_1 + C_i[7] * sine_1;
-    const jg_real A_joint_j_i_7 = H_11 * C_i[5] - C_i[2] * g_j_cross_h_i_in_joint_i_1 + C_i[8] * sine_1;
     phi_q[38] = -(C_j[1] * sine_1);
-    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - v_15_in_joint_j_1 * C_i[5] + C_i[8] * cosine_1;
+    phi_q[22] = A_ji_4;
+    phi_q[25] = A_ji_5;
+    phi_q[26] = A_ji_8;
+    const jg_real A_ji_7 = C_j[1] * A_joint_j_i_6 + A_joint_j_i_7 * C_j[4] + C_j[7] * A_joint_j_i_8;
+    const jg_real A_ji_3 = C_j[0] * A_joint_j_i_3 + A_joint_j_i_4 * C_j[3] + C_j[6] * A_joint_j_i_5;
+    const jg_real A_ji_6 = C_j[0] * A_joint_j_i_6 + A_joint_j_i_7 * C_j[3] + C_j[6] * A_joint_j_i_8;
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    phi_q[23] = A_ji_7;
+    phi_q[7] = sine_1 * A_joint_j_i_0;
+    phi_q[37] = -(H_02 * C_j[4] + C_j[7] * g_j_cross_h_i_in_joint_i_1);
+    phi_q[19] = A_ji_3;
+    phi_q[20] = A_ji_6;
+    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    phi_q[18] = A_ji_0;
+    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    const jg_real f_j_cross_h_i_in_j_2 = C_j[8] * sine_1 - cosine_1 * C_j[5];
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    const jg_real t68 = sine_1 * lambda[3];
     /* v_0_in_joint_j = sin(alpha_1) lambda_5 f_j + cos(alpha_1) lambda_3 g_j - sin(alpha_1) lambda_3 h_j, axes of
         ... */
     const jg_real v_0_in_joint_j_1 = cosine_1 * lambda[3];
-    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * v_15_in_joint_j_1 + C_i[7] * cosine_1;
-    const jg_real f_j_cross_h_i_in_j_2 = C_j[8] * sine_1 - cosine_1 * C_j[5];
     phi_q[42] = f_j_cross_h_i_in_j_2;
-    const jg_real v_0_in_joint_j_0 = sine_1 * lambda[5];
-    phi_q[31] = -(H_02 * C_j[3] + C_j[6] * g_j_cross_h_i_in_joint_i_1);
-    phi_q[44] = -(C_j[2] * sine_1);
-    phi_q[37] = -(H_02 * C_j[4] + C_j[7] * g_j_cross_h_i_in_joint_i_1);
+    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    phi_q[21] = A_ji_1;
+    phi_q[24] = A_ji_2;
+    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     phi_q[43] = -(H_02 * C_j[5] + C_j[8] * g_j_cross_h_i_in_joint_i_1);
-    const jg_real A_joint_j_i_0 = A_joint_j_i_4 * A_joint_j_i_8 - A_joint_j_i_5 * A_joint_j_i_7;
+    const jg_real v_0_in_joint_j_0 = sine_1 * lambda[5];
+    const jg_real A_joint_j_i_1 = A_joint_j_i_5 * A_joint_j_i_6 - A_joint_j_i_8 * A_joint_j_i_3;
     /* v_1_in_joint_j = sin(alpha_1) lambda_5 f_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + cos(alpha_1) lambda_3
         ... */
     const jg_real v_1_in_joint_j_2 = sine_1 * v_0_in_joint_j_0;
-    /* A_ji = turns i axes to j axes */
-    const jg_real A_ji_4 = C_j[1] * A_joint_j_i_3 + A_joint_j_i_4 * C_j[4] + C_j[7] * A_joint_j_i_5;
-    phi_q[22] = A_ji_4;
-    const jg_real A_ji_5 = C_j[2] * A_joint_j_i_3 + A_joint_j_i_4 * C_j[5] + C_j[8] * A_joint_j_i_5;
-    phi_q[25] = A_ji_5;
-    const jg_real A_ji_8 = C_j[2] * A_joint_j_i_6 + C_j[5] * A_joint_j_i_7 + C_j[8] * A_joint_j_i_8;
-    phi_q[26] = A_ji_8;
-    const jg_real A_ji_7 = C_j[1] * A_joint_j_i_6 + C_j[4] * A_joint_j_i_7 + C_j[7] * A_joint_j_i_8;
-    phi_q[23] = A_ji_7;
-    const jg_real v_1_in_joint_j_0 = sine_1 * t53 + cosine_1 * v_0_in_joint_j_1;
-    phi_q[7] = sine_1 * A_joint_j_i_0;
-    const jg_real A_joint_j_i_1 = A_joint_j_i_5 * A_joint_j_i_6 - A_joint_j_i_3 * A_joint_j_i_8;
-    const jg_real t69 = cosine_1 * v_0_in_joint_j_0 + v_15_in_joint_j_1 * lambda[4];
-    const jg_real A_ji_3 = C_j[0] * A_joint_j_i_3 + A_joint_j_i_4 * C_j[3] + C_j[6] * A_joint_j_i_5;
-    phi_q[19] = A_ji_3;
-    const jg_real A_joint_j_i_2 = A_joint_j_i_3 * A_joint_j_i_7 - A_joint_j_i_4 * A_joint_j_i_6;
-    const jg_real A_ji_6 = C_j[0] * A_joint_j_i_6 + C_j[3] * A_joint_j_i_7 + C_j[6] * A_joint_j_i_8;
-    phi_q[20] = A_ji_6;
+    const jg_real v_1_in_joint_j_0 = sine_1 * t68 + cosine_1 * v_0_in_joint_j_1;
+    const jg_real A_joint_j_i_2 = A_joint_j_i_7 * A_joint_j_i_3 - A_joint_j_i_4 * A_joint_j_i_6;
+    const jg_real t75 = sine_1 * C_j[5];
+    const jg_real t76 = C_j[8] * cosine_1;
+    const jg_real t77 = cosine_1 * v_0_in_joint_j_0 + v_15_in_joint_j_1 * lambda[4];
     /* v_4_in_joint_j = sin(alpha_1) lambda_5 f_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + cos(alpha_1) lambda_4
         ... */
     const jg_real v_4_in_joint_j_2 = v_1_in_joint_j_2 - H_11 * lambda[4];
+    const jg_real t79 = sine_1 * C_j[4];
+    const jg_real t80 = C_j[7] * cosine_1;
     /* v_6_in_j = sin(alpha_1) g_j + cos(alpha_1) h_j, axes of body j */
-    const jg_real v_6_in_j_2 = sine_1 * C_j[5] + cosine_1 * C_j[8];
-    phi_q[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
-    phi_q[18] = A_ji_0;
-    phi_q[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    phi_q[21] = A_ji_1;
-    const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    phi_q[24] = A_ji_2;
-    phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    const jg_real v_6_in_j_1 = sine_1 * C_j[4] + cosine_1 * C_j[7];
-    const jg_real v_6_in_j_0 = sine_1 * C_j[3] + cosine_1 * C_j[6];
-    /* v_4_in_i = sin(alpha_1) lambda_5 f_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + cos(alpha_1) lambda_4 ... */
-    const jg_real v_4_in_i_0 = A_joint_j_i_0 * v_1_in_joint_j_0 - A_joint_j_i_1 * t69 + A_joint_j_i_2 *
-        v_4_in_joint_j_2;
-    const jg_real v_4_in_i_1 = A_joint_j_i_3 * v_1_in_joint_j_0 - A_joint_j_i_4 * t69 + A_joint_j_i_5 *
-        v_4_in_joint_j_2;
+    const jg_real v_6_in_j_2 = t75 + t76;
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
+    const jg_real t83 = sine_1 * C_j[3];
+    const jg_real t84 = C_j[6] * cosine_1;
+    const jg_real v_6_in_j_1 = t79 + t80;
+    const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
+    const jg_real v_6_in_j_0 = t83 + t84;
     /* v_5_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
     const jg_real v_5_in_joint_j = cosine_1 * lambda[5];
-    phi_q_t_lambda_q[19] = v_5_in_joint_j;
+    /* v_4_in_i = sin(alpha_1) lambda_5 f_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + cos(alpha_1) lambda_4 ... */
+    const jg_real v_4_in_i_0 = A_joint_j_i_0 * v_1_in_joint_j_0 - A_joint_j_i_1 * t77 + A_joint_j_i_2 *
+        v_4_in_joint_j_2;
+    const jg_real v_4_in_i_1 = A_joint_j_i_3 * v_1_in_joint_j_0 - A_joint_j_i_4 * t77 + A_joint_j_i_5 *
+        v_4_in_joint_j_2;
+    const jg_real v_4_in_i_2 = A_joint_j_i_6 * v_1_in_joint_j_0 - A_joint_j_i_7 * t77 + A_joint_j_i_8 *
+        v_4_in_joint_j_2;
+    const jg_real t92 = cosine_1 * s_j_dot_h_j + sine_1 * s_j_dot_g_j;
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
+    /* v_5_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_5_in_i_0 = A_joint_j_i_0 * v_5_in_joint_j;
+    phi_q[44] = -(C_j[2] * sine_1);
     phi_q[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     phi_q[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     phi_q[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    const jg_real v_4_in_i_2 = A_joint_j_i_6 * v_1_in_joint_j_0 - A_joint_j_i_7 * t69 + A_joint_j_i_8 *
-        v_4_in_joint_j_2;
+    phi_q_t_lambda_q[19] = v_5_in_joint_j;
+    phi_q_t_lambda_q[0] = -v_4_in_i_0;
+    phi_q_t_lambda_q[1] = -v_4_in_i_1;
+    phi_q_t_lambda_q[10] = v_5_in_i_0;
+    const jg_real v_5_in_i_1 = A_joint_j_i_3 * v_5_in_joint_j;
+    const jg_real v_5_in_i_2 = A_joint_j_i_6 * v_5_in_joint_j;
+    const jg_real t97 = t68 - g_j_cross_h_i_in_joint_i_1 * lambda[4];
+    phi_q_t_lambda_q[2] = -v_4_in_i_2;
+    phi_q_t_lambda_q[11] = v_5_in_i_1;
+    phi_q_t_lambda_q[12] = v_5_in_i_2;
+    phi_q_t_lambda_q[3] = lambda_0_1_2_in_j_1 * v_6_in_j_2 - lambda_0_1_2_in_j_2 * v_6_in_j_1;
+    phi_q_t_lambda_q[13] = C_j[2] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[4] = lambda_0_1_2_in_j_2 * v_6_in_j_0 - v_6_in_j_2 * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[5] = v_6_in_j_1 * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_1 * v_6_in_j_0;
+    phi_q_t_lambda_q[14] = C_j[0] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_0;
+    const jg_real t98 = v_0_in_joint_j_1 + H_02 * lambda[4];
     /* v_12_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j, axes of joint j
         */
     const jg_real v_12_in_joint_j_1 = sine_1 * alphadot[0];
-    phi_q_t_lambda_q[0] = -v_4_in_i_0;
     const jg_real v_12_in_joint_j_2 = cosine_1 * alphadot[0];
-    phi_q_t_lambda_q[1] = -v_4_in_i_1;
-    const jg_real t86 = cosine_1 * s_j_dot_h_j + sine_1 * s_j_dot_g_j;
-    /* v_5_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_5_in_i_0 = A_joint_j_i_0 * v_5_in_joint_j;
-    phi_q_t_lambda_q[10] = v_5_in_i_0;
-    const jg_real v_5_in_i_1 = A_joint_j_i_3 * v_5_in_joint_j;
-    phi_q_t_lambda_q[11] = v_5_in_i_1;
-    const jg_real v_5_in_i_2 = A_joint_j_i_6 * v_5_in_joint_j;
-    phi_q_t_lambda_q[12] = v_5_in_i_2;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
-    phi_q_t_lambda_q[2] = -v_4_in_i_2;
-    const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
-    const jg_real t92 = t53 - g_j_cross_h_i_in_joint_i_1 * lambda[4];
-    const jg_real t93 = v_0_in_joint_j_1 + H_02 * lambda[4];
-    const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
-    const jg_real v_10_in_joint_j_1 = v_12_in_joint_j_1 - g_j_dot_omega_j;
-    const jg_real v_10_in_joint_j_2 = v_12_in_joint_j_2 - h_j_dot_omega_j;
-    const jg_real t97 = H_11 * omega_i_in_joint_i_0 + g_j_cross_h_i_in_joint_i_1 * omega_i_in_joint_i_1;
-    phi_q_t_lambda_q[3] = lambda_0_1_2_in_j_1 * v_6_in_j_2 - lambda_0_1_2_in_j_2 * v_6_in_j_1;
-    phi_q_t_lambda_q[4] = lambda_0_1_2_in_j_2 * v_6_in_j_0 - lambda_0_1_2_in_j_0 * v_6_in_j_2;
-    phi_q_t_lambda_q[5] = lambda_0_1_2_in_j_0 * v_6_in_j_1 - lambda_0_1_2_in_j_1 * v_6_in_j_0;
-    phi_q_t_lambda_q[13] = C_j[2] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[14] = C_j[0] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[15] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
-    const jg_real t99 = alphadot[1] * f_j_dot_omega_j + v_12_in_joint_j_1 * g_j_dot_omega_j + v_12_in_joint_j_2 *
-        h_j_dot_omega_j;
-    const jg_real t100 = s_j_dot_f_j * alphadot[1] + s_j_dot_g_j * v_12_in_joint_j_1 + s_j_dot_h_j *
+    const jg_real v_10_in_joint_j_1 = v_12_in_joint_j_1 - g_j_dot_omega_j;
+    const jg_real t103 = s_j_dot_lambda_0_1_2 + t44;
+    const jg_real t104 = s_j_dot_lambda_0_1_2 + v_5_in_joint_j;
+    const jg_real v_10_in_joint_j_2 = v_12_in_joint_j_2 - h_j_dot_omega_j;
+    const jg_real t106 = H_11 * omega_i_in_joint_i_0 + g_j_cross_h_i_in_joint_i_1 * omega_i_in_joint_i_1;
+    const jg_real t107 = f_j_dot_omega_j * alphadot[1] + g_j_dot_omega_j * v_12_in_joint_j_1 + h_j_dot_omega_j *
         v_12_in_joint_j_2;
-    const jg_real t101 = s_j_dot_lambda_0_1_2 + t44;
-    const jg_real t102 = v_5_in_joint_j + s_j_dot_lambda_0_1_2;
+    const jg_real t108 = s_j_dot_f_j * alphadot[1] + s_j_dot_g_j * v_12_in_joint_j_1 + s_j_dot_h_j *
+        v_12_in_joint_j_2;
     /* v_10_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes ... */
     const jg_real v_10_in_j_1 = C_j[1] * v_10_in_joint_j_0 + C_j[4] * v_10_in_joint_j_1 + C_j[7] *
         v_10_in_joint_j_2;
-    const jg_real t104 = sine_1 * t101;
-    const jg_real t105 = cosine_1 * t101;
+    /* v_13_in_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
+    const jg_real v_13_in_j_0 = s_j[0] * t107 - omega_j[0] * t108;
+    const jg_real v_13_in_j_1 = s_j[1] * t107 - omega_j[1] * t108;
+    const jg_real v_13_in_j_2 = s_j[2] * t107 - omega_j[2] * t108;
     const jg_real v_10_in_j_2 = C_j[2] * v_10_in_joint_j_0 + C_j[5] * v_10_in_joint_j_1 + C_j[8] *
         v_10_in_joint_j_2;
     const jg_real v_10_in_j_0 = C_j[0] * v_10_in_joint_j_0 + C_j[3] * v_10_in_joint_j_1 + C_j[6] *
         v_10_in_joint_j_2;
-    /* v_13_in_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_13_in_j_0 = s_j[0] * t99 - omega_j[0] * t100;
-    const jg_real v_13_in_j_1 = s_j[1] * t99 - omega_j[1] * t100;
-    const jg_real v_13_in_j_2 = s_j[2] * t99 - omega_j[2] * t100;
     /* v_11_in_j = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
-    const jg_real v_11_in_j_0 = v_j[2] * v_10_in_j_1 - v_j[1] * v_10_in_j_2;
-    const jg_real v_11_in_j_1 = v_j[0] * v_10_in_j_2 - v_j[2] * v_10_in_j_0;
-    const jg_real v_11_in_j_2 = v_j[1] * v_10_in_j_0 - v_j[0] * v_10_in_j_1;
-    phi_q_t_lambda_q[6] = lambda_0_1_2_in_j_0 * t86 - (C_j[3] * t104 + C_j[6] * t105);
-    phi_q_t_lambda_q[7] = lambda_0_1_2_in_j_1 * t86 - (C_j[4] * t104 + C_j[7] * t105);
-    phi_q_t_lambda_q[8] = lambda_0_1_2_in_j_2 * t86 - (C_j[5] * t104 + C_j[8] * t105);
-    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t102 - C_j[3] * t92 - C_j[6] * t93);
-    phi_q_t_lambda_q[17] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t102 - C_j[4] * t92 - C_j[7] * t93);
-    phi_q_t_lambda_q[18] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t102 - C_j[5] * t92 - C_j[8] * t93);
+    const jg_real v_11_in_j_0 = v_10_in_j_1 * v_j[2] - v_10_in_j_2 * v_j[1];
     /* v_13_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_13_in_i_0 = A_ji_0 * v_13_in_j_0 + A_ji_1 * v_13_in_j_1 + A_ji_2 * v_13_in_j_2;
     const jg_real v_13_in_i_1 = A_ji_3 * v_13_in_j_0 + A_ji_4 * v_13_in_j_1 + A_ji_5 * v_13_in_j_2;
-    gamma[3] = cosine_1 * (alphadot[0] * t97 - alphadot[1] * h_j_dot_omega_j) + sine_1 * (alphadot[0] *
-        (v_15_in_joint_j_1 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1) - alphadot[1] * g_j_dot_omega_j);
     const jg_real v_13_in_i_2 = A_ji_6 * v_13_in_j_0 + A_ji_7 * v_13_in_j_1 + A_ji_8 * v_13_in_j_2;
+    const jg_real v_11_in_j_1 = v_10_in_j_2 * v_j[0] - v_j[2] * v_10_in_j_0;
+    const jg_real v_11_in_j_2 = v_j[1] * v_10_in_j_0 - v_10_in_j_1 * v_j[0];
+    phi_q_t_lambda_q[15] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[6] = lambda_0_1_2_in_j_0 * t92 - (t83 * t103 + t84 * t103);
+    phi_q_t_lambda_q[7] = lambda_0_1_2_in_j_1 * t92 - (t79 * t103 + t80 * t103);
+    phi_q_t_lambda_q[8] = lambda_0_1_2_in_j_2 * t92 - (t75 * t103 + t76 * t103);
+    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t104 - C_j[3] * t97 - C_j[6] * t98);
+    phi_q_t_lambda_q[17] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t104 - C_j[4] * t97 - C_j[7] * t98);
+    phi_q_t_lambda_q[18] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t104 - C_j[5] * t97 - C_j[8] * t98);
+    gamma[3] = cosine_1 * (alphadot[0] * t106 - alphadot[1] * h_j_dot_omega_j) + sine_1 * (alphadot[0] *
+        (v_15_in_joint_j_1 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1) - alphadot[1] * g_j_dot_omega_j);
     /* v_11_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
     const jg_real v_11_in_i_0 = A_ji_0 * v_11_in_j_0 + A_ji_1 * v_11_in_j_1 + A_ji_2 * v_11_in_j_2;
     const jg_real v_11_in_i_1 = A_ji_3 * v_11_in_j_0 + A_ji_4 * v_11_in_j_1 + A_ji_5 * v_11_in_j_2;
     const jg_real v_11_in_i_2 = A_ji_6 * v_11_in_j_0 + A_ji_7 * v_11_in_j_1 + A_ji_8 * v_11_in_j_2;
+    /* v_14_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
+    const jg_real v_14_in_i_0 = v_13_in_i_0 - (v_11_in_i_0 + omega_i_cross_v_i_in_i_0);
+    const jg_real v_14_in_i_1 = v_13_in_i_1 - (v_11_in_i_1 + omega_i_cross_v_i_in_i_1);
+    const jg_real v_14_in_i_2 = v_13_in_i_2 - (v_11_in_i_2 + omega_i_cross_v_i_in_i_2);
     gamma[5] = v_12_in_joint_j_1 * (sine_0 * omega_i_in_joint_i_0 - cosine_0 * omega_i_in_joint_i_1) - alphadot[1] *
-        (t97 + cosine_1 * v_10_in_joint_j_0);
+        (t106 + cosine_1 * v_10_in_joint_j_0);
     gamma[4] = alphadot[0] * (v_15_in_joint_j_1 * g_j_dot_omega_j + H_11 * h_j_dot_omega_j) - (cosine_1 * H_11 +
         sine_1 * v_15_in_joint_j_1) * omega_i_in_joint_i_2 * alphadot[0] - alphadot[1] * (H_02 * h_j_dot_omega_j -
         g_j_cross_h_i_in_joint_i_1 * g_j_dot_omega_j) - cosine_0 * alphadot[0] * alphadot[0];
-    /* v_14_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_14_in_i_0 = v_13_in_i_0 - (v_11_in_i_0 + omega_i_cross_v_i_in_i_0);
     gamma[0] = v_14_in_i_0;
-    const jg_real v_14_in_i_1 = v_13_in_i_1 - (v_11_in_i_1 + omega_i_cross_v_i_in_i_1);
     gamma[1] = v_14_in_i_1;
-    const jg_real v_14_in_i_2 = v_13_in_i_2 - (v_11_in_i_2 + omega_i_cross_v_i_in_i_2);
     gamma[2] = v_14_in_i_2;
 }
 

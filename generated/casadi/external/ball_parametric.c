@@ -46,17 +46,12 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -79,7 +74,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t15 = A_j[0] * g_star_in_i_0;
     const jg_real t16 = A_j[3] * g_star_in_i_0;
     const jg_real t17 = A_j[6] * g_star_in_i_0;
-    jac_phi_A_i[1] = C_j[6] * t15 + C_j[7] * t16 + C_j[8] * t17;
     const jg_real g_star_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
     const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
     /* g_star_world = g_star, world axes */
@@ -88,7 +82,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    jac_phi_geometry[47] = g_star_in_j_2;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
     /* H_10 =  */
@@ -104,113 +97,120 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real f_star_world_2 = A_i[2] * f_star_in_i_0 + A_i[5] * f_star_in_i_1 + A_i[8] * f_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_A_i[1] = C_j[6] * t15 + C_j[7] * t16 + C_j[8] * t17;
+    jac_phi_geometry[47] = g_star_in_j_2;
     jac_phi_geometry[43] = f_star_in_j_1;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
-    jac_phi_geometry[46] = g_star_in_j_1;
     const jg_real t35 = A_j[6] * f_star_in_i_0;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    jac_phi_geometry[44] = f_star_in_j_2;
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
-    jac_phi_geometry[45] = g_star_in_j_0;
     const jg_real t38 = A_j[0] * f_star_in_i_0;
     const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    jac_phi_geometry[46] = g_star_in_j_1;
+    jac_phi_geometry[44] = f_star_in_j_2;
+    jac_phi_geometry[45] = g_star_in_j_0;
     jac_phi_geometry[42] = f_star_in_j_0;
     jac_phi_A_i[2] = C_j[0] * (t17 * f_star_in_j_1 + t27 * g_star_in_j_2 - (t16 * f_star_in_j_2 + t35 *
         g_star_in_j_1)) + C_j[1] * (t15 * f_star_in_j_2 + t35 * g_star_in_j_0 - (t17 * f_star_in_j_0 + t38 *
         g_star_in_j_2)) + C_j[2] * (t16 * f_star_in_j_0 + t38 * g_star_in_j_1 - (t15 * f_star_in_j_1 + t27 *
         g_star_in_j_0));
     jac_phi_A_i[3] = C_j[4] * t27 + C_j[3] * t38 + C_j[5] * t35;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t43 = A_j[1] * g_star_in_i_0;
     const jg_real t44 = A_j[4] * g_star_in_i_0;
     const jg_real t45 = A_j[7] * g_star_in_i_0;
-    jac_phi_A_i[5] = C_j[6] * t43 + C_j[7] * t44 + C_j[8] * t45;
     const jg_real t46 = A_j[4] * f_star_in_i_0;
     const jg_real t47 = A_j[7] * f_star_in_i_0;
     const jg_real t48 = A_j[1] * f_star_in_i_0;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real t52 = A_j[2] * g_star_in_i_0;
+    const jg_real t53 = A_j[5] * g_star_in_i_0;
+    const jg_real t54 = A_j[8] * g_star_in_i_0;
+    const jg_real t55 = A_j[5] * f_star_in_i_0;
+    const jg_real t56 = A_j[8] * f_star_in_i_0;
+    const jg_real t57 = A_j[2] * f_star_in_i_0;
+    jac_phi_A_i[5] = C_j[6] * t43 + C_j[7] * t44 + C_j[8] * t45;
     jac_phi_A_i[6] = C_j[0] * (t45 * f_star_in_j_1 + t46 * g_star_in_j_2 - (t44 * f_star_in_j_2 + t47 *
         g_star_in_j_1)) + C_j[1] * (t43 * f_star_in_j_2 + t47 * g_star_in_j_0 - (t45 * f_star_in_j_0 + t48 *
         g_star_in_j_2)) + C_j[2] * (t44 * f_star_in_j_0 + t48 * g_star_in_j_1 - (t43 * f_star_in_j_1 + t46 *
         g_star_in_j_0));
     jac_phi_A_i[7] = C_j[4] * t46 + C_j[3] * t48 + C_j[5] * t47;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t52 = A_j[2] * g_star_in_i_0;
-    const jg_real t53 = A_j[5] * g_star_in_i_0;
-    const jg_real t54 = A_j[8] * g_star_in_i_0;
     jac_phi_A_i[9] = C_j[6] * t52 + C_j[7] * t53 + C_j[8] * t54;
-    const jg_real t55 = A_j[5] * f_star_in_i_0;
-    const jg_real t56 = A_j[8] * f_star_in_i_0;
-    const jg_real t57 = A_j[2] * f_star_in_i_0;
     jac_phi_A_i[10] = C_j[0] * (t54 * f_star_in_j_1 + t55 * g_star_in_j_2 - (t53 * f_star_in_j_2 + t56 *
         g_star_in_j_1)) + C_j[1] * (t52 * f_star_in_j_2 + t56 * g_star_in_j_0 - (t54 * f_star_in_j_0 + t57 *
         g_star_in_j_2)) + C_j[2] * (t53 * f_star_in_j_0 + t57 * g_star_in_j_1 - (t52 * f_star_in_j_1 + t55 *
         g_star_in_j_0));
-    jac_phi_A_i[11] = C_j[4] * t55 + C_j[3] * t57 + C_j[5] * t56;
     const jg_real t58 = A_j[0] * g_star_in_i_1;
     const jg_real t59 = A_j[3] * g_star_in_i_1;
     const jg_real t60 = A_j[6] * g_star_in_i_1;
-    jac_phi_A_i[13] = C_j[6] * t58 + C_j[7] * t59 + C_j[8] * t60;
     const jg_real t61 = A_j[3] * f_star_in_i_1;
     const jg_real t62 = A_j[6] * f_star_in_i_1;
     const jg_real t63 = A_j[0] * f_star_in_i_1;
+    const jg_real t64 = A_j[1] * g_star_in_i_1;
+    const jg_real t65 = A_j[4] * g_star_in_i_1;
+    const jg_real t66 = A_j[7] * g_star_in_i_1;
+    const jg_real t67 = A_j[4] * f_star_in_i_1;
+    const jg_real t68 = A_j[7] * f_star_in_i_1;
+    const jg_real t69 = A_j[1] * f_star_in_i_1;
+    const jg_real t70 = A_j[2] * g_star_in_i_1;
+    const jg_real t71 = A_j[5] * g_star_in_i_1;
+    const jg_real t72 = A_j[8] * g_star_in_i_1;
+    jac_phi_A_i[11] = C_j[4] * t55 + C_j[3] * t57 + C_j[5] * t56;
+    jac_phi_A_i[13] = C_j[6] * t58 + C_j[7] * t59 + C_j[8] * t60;
     jac_phi_A_i[14] = C_j[0] * (t60 * f_star_in_j_1 + t61 * g_star_in_j_2 - (t59 * f_star_in_j_2 + t62 *
         g_star_in_j_1)) + C_j[1] * (t58 * f_star_in_j_2 + t62 * g_star_in_j_0 - (t60 * f_star_in_j_0 + t63 *
         g_star_in_j_2)) + C_j[2] * (t59 * f_star_in_j_0 + t63 * g_star_in_j_1 - (t58 * f_star_in_j_1 + t61 *
         g_star_in_j_0));
     jac_phi_A_i[15] = C_j[4] * t61 + C_j[3] * t63 + C_j[5] * t62;
-    const jg_real t64 = A_j[1] * g_star_in_i_1;
-    const jg_real t65 = A_j[4] * g_star_in_i_1;
-    const jg_real t66 = A_j[7] * g_star_in_i_1;
     jac_phi_A_i[17] = C_j[6] * t64 + C_j[7] * t65 + C_j[8] * t66;
-    const jg_real t67 = A_j[4] * f_star_in_i_1;
-    const jg_real t68 = A_j[7] * f_star_in_i_1;
-    const jg_real t69 = A_j[1] * f_star_in_i_1;
     jac_phi_A_i[18] = C_j[0] * (t66 * f_star_in_j_1 + t67 * g_star_in_j_2 - (t65 * f_star_in_j_2 + t68 *
         g_star_in_j_1)) + C_j[1] * (t64 * f_star_in_j_2 + t68 * g_star_in_j_0 - (t66 * f_star_in_j_0 + t69 *
         g_star_in_j_2)) + C_j[2] * (t65 * f_star_in_j_0 + t69 * g_star_in_j_1 - (t64 * f_star_in_j_1 + t67 *
         g_star_in_j_0));
     jac_phi_A_i[19] = C_j[4] * t67 + C_j[3] * t69 + C_j[5] * t68;
-    const jg_real t70 = A_j[2] * g_star_in_i_1;
-    const jg_real t71 = A_j[5] * g_star_in_i_1;
-    const jg_real t72 = A_j[8] * g_star_in_i_1;
     jac_phi_A_i[21] = C_j[6] * t70 + C_j[7] * t71 + C_j[8] * t72;
     const jg_real t73 = A_j[5] * f_star_in_i_1;
     const jg_real t74 = A_j[8] * f_star_in_i_1;
     const jg_real t75 = A_j[2] * f_star_in_i_1;
+    const jg_real t76 = A_j[0] * g_star_in_i_2;
+    const jg_real t77 = A_j[3] * g_star_in_i_2;
+    const jg_real t78 = A_j[6] * g_star_in_i_2;
+    const jg_real t79 = A_j[3] * f_star_in_i_2;
+    const jg_real t80 = A_j[6] * f_star_in_i_2;
+    const jg_real t81 = A_j[0] * f_star_in_i_2;
+    const jg_real t82 = A_j[1] * g_star_in_i_2;
+    const jg_real t83 = A_j[4] * g_star_in_i_2;
+    const jg_real t84 = A_j[7] * g_star_in_i_2;
+    const jg_real t85 = A_j[4] * f_star_in_i_2;
+    const jg_real t86 = A_j[7] * f_star_in_i_2;
+    const jg_real t87 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[22] = C_j[0] * (t72 * f_star_in_j_1 + t73 * g_star_in_j_2 - (t71 * f_star_in_j_2 + t74 *
         g_star_in_j_1)) + C_j[1] * (t70 * f_star_in_j_2 + t74 * g_star_in_j_0 - (t72 * f_star_in_j_0 + t75 *
         g_star_in_j_2)) + C_j[2] * (t71 * f_star_in_j_0 + t75 * g_star_in_j_1 - (t70 * f_star_in_j_1 + t73 *
         g_star_in_j_0));
     jac_phi_A_i[23] = C_j[4] * t73 + C_j[3] * t75 + C_j[5] * t74;
-    const jg_real t76 = A_j[0] * g_star_in_i_2;
-    const jg_real t77 = A_j[3] * g_star_in_i_2;
-    const jg_real t78 = A_j[6] * g_star_in_i_2;
     jac_phi_A_i[25] = C_j[6] * t76 + C_j[7] * t77 + C_j[8] * t78;
-    const jg_real t79 = A_j[3] * f_star_in_i_2;
-    const jg_real t80 = A_j[6] * f_star_in_i_2;
-    const jg_real t81 = A_j[0] * f_star_in_i_2;
     jac_phi_A_i[26] = C_j[0] * (t78 * f_star_in_j_1 + t79 * g_star_in_j_2 - (t77 * f_star_in_j_2 + t80 *
         g_star_in_j_1)) + C_j[1] * (t76 * f_star_in_j_2 + t80 * g_star_in_j_0 - (t78 * f_star_in_j_0 + t81 *
         g_star_in_j_2)) + C_j[2] * (t77 * f_star_in_j_0 + t81 * g_star_in_j_1 - (t76 * f_star_in_j_1 + t79 *
         g_star_in_j_0));
     jac_phi_A_i[27] = C_j[4] * t79 + C_j[3] * t81 + C_j[5] * t80;
-    const jg_real t82 = A_j[1] * g_star_in_i_2;
-    const jg_real t83 = A_j[4] * g_star_in_i_2;
-    const jg_real t84 = A_j[7] * g_star_in_i_2;
     jac_phi_A_i[29] = C_j[6] * t82 + C_j[7] * t83 + C_j[8] * t84;
-    const jg_real t85 = A_j[4] * f_star_in_i_2;
-    const jg_real t86 = A_j[7] * f_star_in_i_2;
-    const jg_real t87 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[30] = C_j[0] * (t84 * f_star_in_j_1 + t85 * g_star_in_j_2 - (t83 * f_star_in_j_2 + t86 *
         g_star_in_j_1)) + C_j[1] * (t82 * f_star_in_j_2 + t86 * g_star_in_j_0 - (t84 * f_star_in_j_0 + t87 *
         g_star_in_j_2)) + C_j[2] * (t83 * f_star_in_j_0 + t87 * g_star_in_j_1 - (t82 * f_star_in_j_1 + t85 *
@@ -219,10 +219,12 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t88 = A_j[2] * g_star_in_i_2;
     const jg_real t89 = A_j[5] * g_star_in_i_2;
     const jg_real t90 = A_j[8] * g_star_in_i_2;
-    jac_phi_A_i[33] = C_j[6] * t88 + C_j[7] * t89 + C_j[8] * t90;
     const jg_real t91 = A_j[5] * f_star_in_i_2;
     const jg_real t92 = A_j[8] * f_star_in_i_2;
     const jg_real t93 = A_j[2] * f_star_in_i_2;
+    const jg_real t94 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
+    const jg_real t95 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
+    jac_phi_A_i[33] = C_j[6] * t88 + C_j[7] * t89 + C_j[8] * t90;
     jac_phi_A_i[34] = C_j[0] * (t90 * f_star_in_j_1 + t91 * g_star_in_j_2 - (t89 * f_star_in_j_2 + t92 *
         g_star_in_j_1)) + C_j[1] * (t88 * f_star_in_j_2 + t92 * g_star_in_j_0 - (t90 * f_star_in_j_0 + t93 *
         g_star_in_j_2)) + C_j[2] * (t89 * f_star_in_j_0 + t93 * g_star_in_j_1 - (t88 * f_star_in_j_1 + t91 *
@@ -232,45 +234,43 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = C_j[6] * g_star_world_0;
-    const jg_real t94 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
-    const jg_real t95 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
     jac_phi_A_j[4] = -(C_j[1] * t94 + C_j[2] * t95);
+    const jg_real t96 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
+    const jg_real t97 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[5] = C_j[3] * f_star_world_0;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_j[6] * g_star_world_1;
-    const jg_real t96 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
-    const jg_real t97 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[10] = -(C_j[1] * t96 + C_j[2] * t97);
     jac_phi_A_j[11] = C_j[3] * f_star_world_1;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
+    const jg_real t98 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
+    const jg_real t99 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = C_j[6] * g_star_world_2;
-    const jg_real t98 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
-    const jg_real t99 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[16] = -(C_j[1] * t98 + C_j[2] * t99);
     jac_phi_A_j[17] = C_j[3] * f_star_world_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     const jg_real t100 = f_star_world_0 * g_star_in_j_0 - g_star_world_0 * f_star_in_j_0;
+    const jg_real t101 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
+    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     jac_phi_A_j[22] = C_j[0] * t94 - C_j[2] * t100;
     jac_phi_A_j[23] = C_j[4] * f_star_world_0;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = C_j[7] * g_star_world_1;
-    const jg_real t101 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
     jac_phi_A_j[28] = C_j[0] * t96 - C_j[2] * t101;
+    const jg_real t102 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[29] = C_j[4] * f_star_world_1;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
     jac_phi_A_j[33] = C_j[7] * g_star_world_2;
-    const jg_real t102 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[34] = C_j[0] * t98 - C_j[2] * t102;
     jac_phi_A_j[35] = C_j[4] * f_star_world_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
@@ -290,7 +290,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_A_j[50] = s_j[2] * A_i[8];
     jac_phi_A_j[51] = C_j[8] * g_star_world_2;
     jac_phi_A_j[52] = C_j[0] * t99 + C_j[1] * t102;
-    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
     const jg_real t103 = C_i[3] * H_01 - C_i[0] * H_11;
     const jg_real t104 = C_i[4] * H_01 - C_i[1] * H_11;
     const jg_real t105 = C_i[5] * H_01 - C_i[2] * H_11;
@@ -300,7 +299,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t109 = A_j[0] * t106 + A_j[1] * t107 + A_j[2] * t108;
     const jg_real t110 = A_j[3] * t106 + A_j[4] * t107 + A_j[5] * t108;
     const jg_real t111 = A_j[6] * t106 + A_j[7] * t107 + A_j[8] * t108;
-    jac_phi_alpha[0] = C_j[6] * t109 + C_j[7] * t110 + C_j[8] * t111;
     const jg_real t112 = C_i[3] * H_00 - C_i[0] * H_10;
     const jg_real t113 = C_i[4] * H_00 - C_i[1] * H_10;
     const jg_real t114 = C_i[5] * H_00 - C_i[2] * H_10;
@@ -310,11 +308,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t118 = A_j[3] * t115 + A_j[4] * t116 + A_j[5] * t117;
     const jg_real t119 = A_j[6] * t115 + A_j[7] * t116 + A_j[8] * t117;
     const jg_real t120 = A_j[0] * t115 + A_j[1] * t116 + A_j[2] * t117;
-    jac_phi_alpha[1] = C_j[0] * (f_star_in_j_1 * t111 + t118 * g_star_in_j_2 - (f_star_in_j_2 * t110 + t119 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t109 + t119 * g_star_in_j_0 - (f_star_in_j_0 * t111 + t120 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t110 + t120 * g_star_in_j_1 - (f_star_in_j_1 * t109 + t118 *
-        g_star_in_j_0));
-    jac_phi_alpha[2] = C_j[4] * t118 + C_j[3] * t120 + C_j[5] * t119;
     const jg_real t121 = H_00 * sine_2;
     const jg_real t122 = sine_2 * H_10;
     const jg_real t123 = sine_1 * sine_2;
@@ -327,7 +320,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t130 = A_j[0] * t127 + A_j[1] * t128 + A_j[2] * t129;
     const jg_real t131 = A_j[3] * t127 + A_j[4] * t128 + A_j[5] * t129;
     const jg_real t132 = A_j[6] * t127 + A_j[7] * t128 + A_j[8] * t129;
-    jac_phi_alpha[3] = C_j[6] * t130 + C_j[7] * t131 + C_j[8] * t132;
     const jg_real t133 = C_i[0] * t7 + C_i[3] * t11 + C_i[6] * cosine_1;
     const jg_real t134 = C_i[1] * t7 + C_i[4] * t11 + C_i[7] * cosine_1;
     const jg_real t135 = C_i[2] * t7 + C_i[5] * t11 + C_i[8] * cosine_1;
@@ -337,11 +329,6 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t139 = A_j[3] * t136 + A_j[4] * t137 + A_j[5] * t138;
     const jg_real t140 = A_j[6] * t136 + A_j[7] * t137 + A_j[8] * t138;
     const jg_real t141 = A_j[0] * t136 + A_j[1] * t137 + A_j[2] * t138;
-    jac_phi_alpha[4] = C_j[0] * (f_star_in_j_1 * t132 - t139 * g_star_in_j_2 - (f_star_in_j_2 * t131 - t140 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t130 - t140 * g_star_in_j_0 - (f_star_in_j_0 * t132 - t141 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t131 - t141 * g_star_in_j_1 - (f_star_in_j_1 * t130 - t139 *
-        g_star_in_j_0));
-    jac_phi_alpha[5] = -(C_j[4] * t139 + C_j[3] * t141 + C_j[5] * t140);
     const jg_real t142 = sine_0 * sine_2 + t7 * cosine_2;
     const jg_real t143 = t11 * cosine_2 - cosine_0 * sine_2;
     const jg_real t144 = cosine_1 * cosine_2;
@@ -354,36 +341,49 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t151 = A_j[0] * t148 + A_j[1] * t149 + A_j[2] * t150;
     const jg_real t152 = A_j[3] * t148 + A_j[4] * t149 + A_j[5] * t150;
     const jg_real t153 = A_j[6] * t148 + A_j[7] * t149 + A_j[8] * t150;
+    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
+    jac_phi_alpha[0] = C_j[6] * t109 + C_j[7] * t110 + C_j[8] * t111;
+    jac_phi_alpha[1] = C_j[0] * (f_star_in_j_1 * t111 + t118 * g_star_in_j_2 - (f_star_in_j_2 * t110 + t119 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t109 + t119 * g_star_in_j_0 - (t111 * f_star_in_j_0 +
+        g_star_in_j_2 * t120)) + C_j[2] * (t110 * f_star_in_j_0 + g_star_in_j_1 * t120 - (f_star_in_j_1 * t109 +
+        t118 * g_star_in_j_0));
+    jac_phi_alpha[2] = C_j[4] * t118 + C_j[3] * t120 + C_j[5] * t119;
+    jac_phi_alpha[3] = C_j[6] * t130 + C_j[7] * t131 + C_j[8] * t132;
+    jac_phi_alpha[4] = C_j[0] * (f_star_in_j_1 * t132 - t139 * g_star_in_j_2 - (f_star_in_j_2 * t131 - t140 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t130 - t140 * g_star_in_j_0 - (t132 * f_star_in_j_0 -
+        g_star_in_j_2 * t141)) + C_j[2] * (t131 * f_star_in_j_0 - g_star_in_j_1 * t141 - (f_star_in_j_1 * t130 -
+        t139 * g_star_in_j_0));
+    jac_phi_alpha[5] = -(C_j[4] * t139 + C_j[3] * t141 + C_j[5] * t140);
     jac_phi_alpha[6] = C_j[6] * t151 + C_j[7] * t152 + C_j[8] * t153;
-    jac_phi_alpha[7] = C_j[0] * (f_star_in_j_1 * t153 - f_star_in_j_2 * t152) + C_j[1] * (f_star_in_j_2 * t151 -
-        f_star_in_j_0 * t153) + C_j[2] * (f_star_in_j_0 * t152 - f_star_in_j_1 * t151);
-    jac_phi_geometry[0] = JG_REAL(-1.0);
-    jac_phi_geometry[1] = JG_REAL(-1.0);
-    jac_phi_geometry[2] = JG_REAL(-1.0);
     const jg_real t154 = A_i[0] * H_01;
     const jg_real t155 = A_i[1] * H_01;
     const jg_real t156 = A_i[2] * H_01;
     const jg_real t157 = A_j[0] * t154 + A_j[1] * t155 + A_j[2] * t156;
     const jg_real t158 = A_j[3] * t154 + A_j[4] * t155 + A_j[5] * t156;
     const jg_real t159 = A_j[6] * t154 + A_j[7] * t155 + A_j[8] * t156;
-    jac_phi_geometry[3] = C_j[6] * t157 + C_j[7] * t158 + C_j[8] * t159;
     const jg_real t160 = A_i[0] * H_00;
     const jg_real t161 = A_i[1] * H_00;
     const jg_real t162 = A_i[2] * H_00;
     const jg_real t163 = A_j[3] * t160 + A_j[4] * t161 + A_j[5] * t162;
     const jg_real t164 = A_j[6] * t160 + A_j[7] * t161 + A_j[8] * t162;
     const jg_real t165 = A_j[0] * t160 + A_j[1] * t161 + A_j[2] * t162;
-    jac_phi_geometry[4] = C_j[0] * (f_star_in_j_1 * t159 + t163 * g_star_in_j_2 - (f_star_in_j_2 * t158 + t164 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t157 + t164 * g_star_in_j_0 - (f_star_in_j_0 * t159 + t165 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t158 + t165 * g_star_in_j_1 - (f_star_in_j_1 * t157 + t163 *
-        g_star_in_j_0));
-    jac_phi_geometry[5] = C_j[4] * t163 + C_j[3] * t165 + C_j[5] * t164;
     const jg_real t166 = A_i[3] * H_01;
     const jg_real t167 = A_i[4] * H_01;
     const jg_real t168 = A_i[5] * H_01;
     const jg_real t169 = A_j[0] * t166 + A_j[1] * t167 + A_j[2] * t168;
     const jg_real t170 = A_j[3] * t166 + A_j[4] * t167 + A_j[5] * t168;
     const jg_real t171 = A_j[6] * t166 + A_j[7] * t167 + A_j[8] * t168;
+    jac_phi_alpha[7] = C_j[0] * (f_star_in_j_1 * t153 - f_star_in_j_2 * t152) + C_j[1] * (f_star_in_j_2 * t151 -
+        t153 * f_star_in_j_0) + C_j[2] * (t152 * f_star_in_j_0 - f_star_in_j_1 * t151);
+    jac_phi_geometry[0] = JG_REAL(-1.0);
+    jac_phi_geometry[1] = JG_REAL(-1.0);
+    jac_phi_geometry[2] = JG_REAL(-1.0);
+    jac_phi_geometry[3] = C_j[6] * t157 + C_j[7] * t158 + C_j[8] * t159;
+    jac_phi_geometry[4] = C_j[0] * (f_star_in_j_1 * t159 + t163 * g_star_in_j_2 - (f_star_in_j_2 * t158 + t164 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t157 + t164 * g_star_in_j_0 - (t159 * f_star_in_j_0 +
+        g_star_in_j_2 * t165)) + C_j[2] * (t158 * f_star_in_j_0 + g_star_in_j_1 * t165 - (f_star_in_j_1 * t157 +
+        t163 * g_star_in_j_0));
+    jac_phi_geometry[5] = C_j[4] * t163 + C_j[3] * t165 + C_j[5] * t164;
     jac_phi_geometry[6] = C_j[6] * t169 + C_j[7] * t170 + C_j[8] * t171;
     const jg_real t172 = A_i[3] * H_00;
     const jg_real t173 = A_i[4] * H_00;
@@ -391,46 +391,46 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t175 = A_j[3] * t172 + A_j[4] * t173 + A_j[5] * t174;
     const jg_real t176 = A_j[6] * t172 + A_j[7] * t173 + A_j[8] * t174;
     const jg_real t177 = A_j[0] * t172 + A_j[1] * t173 + A_j[2] * t174;
-    jac_phi_geometry[7] = C_j[0] * (f_star_in_j_1 * t171 + t175 * g_star_in_j_2 - (f_star_in_j_2 * t170 + t176 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t169 + t176 * g_star_in_j_0 - (f_star_in_j_0 * t171 + t177 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t170 + t177 * g_star_in_j_1 - (f_star_in_j_1 * t169 + t175 *
-        g_star_in_j_0));
-    jac_phi_geometry[8] = C_j[4] * t175 + C_j[3] * t177 + C_j[5] * t176;
     const jg_real t178 = A_i[6] * H_01;
     const jg_real t179 = A_i[7] * H_01;
     const jg_real t180 = A_i[8] * H_01;
     const jg_real t181 = A_j[0] * t178 + A_j[1] * t179 + A_j[2] * t180;
     const jg_real t182 = A_j[3] * t178 + A_j[4] * t179 + A_j[5] * t180;
     const jg_real t183 = A_j[6] * t178 + A_j[7] * t179 + A_j[8] * t180;
-    jac_phi_geometry[9] = C_j[6] * t181 + C_j[7] * t182 + C_j[8] * t183;
     const jg_real t184 = A_i[6] * H_00;
     const jg_real t185 = A_i[7] * H_00;
     const jg_real t186 = A_i[8] * H_00;
     const jg_real t187 = A_j[3] * t184 + A_j[4] * t185 + A_j[5] * t186;
     const jg_real t188 = A_j[6] * t184 + A_j[7] * t185 + A_j[8] * t186;
     const jg_real t189 = A_j[0] * t184 + A_j[1] * t185 + A_j[2] * t186;
-    jac_phi_geometry[10] = C_j[0] * (f_star_in_j_1 * t183 + t187 * g_star_in_j_2 - (f_star_in_j_2 * t182 + t188 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t181 + t188 * g_star_in_j_0 - (f_star_in_j_0 * t183 + t189 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t182 + t189 * g_star_in_j_1 - (f_star_in_j_1 * t181 + t187 *
-        g_star_in_j_0));
-    jac_phi_geometry[11] = C_j[4] * t187 + C_j[3] * t189 + C_j[5] * t188;
     const jg_real t190 = A_i[0] * H_11;
     const jg_real t191 = A_i[1] * H_11;
     const jg_real t192 = A_i[2] * H_11;
     const jg_real t193 = A_j[0] * t190 + A_j[1] * t191 + A_j[2] * t192;
     const jg_real t194 = A_j[3] * t190 + A_j[4] * t191 + A_j[5] * t192;
     const jg_real t195 = A_j[6] * t190 + A_j[7] * t191 + A_j[8] * t192;
-    jac_phi_geometry[12] = C_j[6] * t193 + C_j[7] * t194 + C_j[8] * t195;
     const jg_real t196 = A_i[0] * H_10;
     const jg_real t197 = A_i[1] * H_10;
     const jg_real t198 = A_i[2] * H_10;
     const jg_real t199 = A_j[3] * t196 + A_j[4] * t197 + A_j[5] * t198;
     const jg_real t200 = A_j[6] * t196 + A_j[7] * t197 + A_j[8] * t198;
     const jg_real t201 = A_j[0] * t196 + A_j[1] * t197 + A_j[2] * t198;
+    jac_phi_geometry[7] = C_j[0] * (f_star_in_j_1 * t171 + t175 * g_star_in_j_2 - (f_star_in_j_2 * t170 + t176 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t169 + t176 * g_star_in_j_0 - (t171 * f_star_in_j_0 +
+        g_star_in_j_2 * t177)) + C_j[2] * (t170 * f_star_in_j_0 + g_star_in_j_1 * t177 - (f_star_in_j_1 * t169 +
+        t175 * g_star_in_j_0));
+    jac_phi_geometry[8] = C_j[4] * t175 + C_j[3] * t177 + C_j[5] * t176;
+    jac_phi_geometry[9] = C_j[6] * t181 + C_j[7] * t182 + C_j[8] * t183;
+    jac_phi_geometry[10] = C_j[0] * (f_star_in_j_1 * t183 + t187 * g_star_in_j_2 - (f_star_in_j_2 * t182 + t188 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t181 + t188 * g_star_in_j_0 - (t183 * f_star_in_j_0 +
+        g_star_in_j_2 * t189)) + C_j[2] * (t182 * f_star_in_j_0 + g_star_in_j_1 * t189 - (f_star_in_j_1 * t181 +
+        t187 * g_star_in_j_0));
+    jac_phi_geometry[11] = C_j[4] * t187 + C_j[3] * t189 + C_j[5] * t188;
+    jac_phi_geometry[12] = C_j[6] * t193 + C_j[7] * t194 + C_j[8] * t195;
     jac_phi_geometry[13] = C_j[0] * (f_star_in_j_1 * t195 + t199 * g_star_in_j_2 - (f_star_in_j_2 * t194 + t200 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t193 + t200 * g_star_in_j_0 - (f_star_in_j_0 * t195 + t201 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t194 + t201 * g_star_in_j_1 - (f_star_in_j_1 * t193 + t199 *
-        g_star_in_j_0));
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t193 + t200 * g_star_in_j_0 - (t195 * f_star_in_j_0 +
+        g_star_in_j_2 * t201)) + C_j[2] * (t194 * f_star_in_j_0 + g_star_in_j_1 * t201 - (f_star_in_j_1 * t193 +
+        t199 * g_star_in_j_0));
     jac_phi_geometry[14] = C_j[4] * t199 + C_j[3] * t201 + C_j[5] * t200;
     const jg_real t202 = A_i[3] * H_11;
     const jg_real t203 = A_i[4] * H_11;
@@ -438,89 +438,89 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     const jg_real t205 = A_j[0] * t202 + A_j[1] * t203 + A_j[2] * t204;
     const jg_real t206 = A_j[3] * t202 + A_j[4] * t203 + A_j[5] * t204;
     const jg_real t207 = A_j[6] * t202 + A_j[7] * t203 + A_j[8] * t204;
-    jac_phi_geometry[15] = C_j[6] * t205 + C_j[7] * t206 + C_j[8] * t207;
     const jg_real t208 = A_i[3] * H_10;
     const jg_real t209 = A_i[4] * H_10;
     const jg_real t210 = A_i[5] * H_10;
     const jg_real t211 = A_j[3] * t208 + A_j[4] * t209 + A_j[5] * t210;
     const jg_real t212 = A_j[6] * t208 + A_j[7] * t209 + A_j[8] * t210;
     const jg_real t213 = A_j[0] * t208 + A_j[1] * t209 + A_j[2] * t210;
-    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t207 + t211 * g_star_in_j_2 - (f_star_in_j_2 * t206 + t212 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t205 + t212 * g_star_in_j_0 - (f_star_in_j_0 * t207 + t213 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t206 + t213 * g_star_in_j_1 - (f_star_in_j_1 * t205 + t211 *
-        g_star_in_j_0));
-    jac_phi_geometry[17] = C_j[4] * t211 + C_j[3] * t213 + C_j[5] * t212;
     const jg_real t214 = A_i[6] * H_11;
     const jg_real t215 = A_i[7] * H_11;
     const jg_real t216 = A_i[8] * H_11;
     const jg_real t217 = A_j[0] * t214 + A_j[1] * t215 + A_j[2] * t216;
     const jg_real t218 = A_j[3] * t214 + A_j[4] * t215 + A_j[5] * t216;
     const jg_real t219 = A_j[6] * t214 + A_j[7] * t215 + A_j[8] * t216;
-    jac_phi_geometry[18] = C_j[6] * t217 + C_j[7] * t218 + C_j[8] * t219;
     const jg_real t220 = A_i[6] * H_10;
     const jg_real t221 = A_i[7] * H_10;
     const jg_real t222 = A_i[8] * H_10;
     const jg_real t223 = A_j[3] * t220 + A_j[4] * t221 + A_j[5] * t222;
     const jg_real t224 = A_j[6] * t220 + A_j[7] * t221 + A_j[8] * t222;
     const jg_real t225 = A_j[0] * t220 + A_j[1] * t221 + A_j[2] * t222;
-    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t219 + t223 * g_star_in_j_2 - (f_star_in_j_2 * t218 + t224 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t217 + t224 * g_star_in_j_0 - (f_star_in_j_0 * t219 + t225 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t218 + t225 * g_star_in_j_1 - (f_star_in_j_1 * t217 + t223 *
-        g_star_in_j_0));
-    jac_phi_geometry[20] = C_j[4] * t223 + C_j[3] * t225 + C_j[5] * t224;
     const jg_real t226 = A_i[0] * H_21;
     const jg_real t227 = A_i[1] * H_21;
     const jg_real t228 = A_i[2] * H_21;
     const jg_real t229 = A_j[0] * t226 + A_j[1] * t227 + A_j[2] * t228;
     const jg_real t230 = A_j[3] * t226 + A_j[4] * t227 + A_j[5] * t228;
     const jg_real t231 = A_j[6] * t226 + A_j[7] * t227 + A_j[8] * t228;
-    jac_phi_geometry[21] = C_j[6] * t229 + C_j[7] * t230 + C_j[8] * t231;
     const jg_real t232 = A_i[0] * sine_1;
     const jg_real t233 = A_i[1] * sine_1;
     const jg_real t234 = A_i[2] * sine_1;
     const jg_real t235 = A_j[3] * t232 + A_j[4] * t233 + A_j[5] * t234;
     const jg_real t236 = A_j[6] * t232 + A_j[7] * t233 + A_j[8] * t234;
     const jg_real t237 = A_j[0] * t232 + A_j[1] * t233 + A_j[2] * t234;
+    jac_phi_geometry[15] = C_j[6] * t205 + C_j[7] * t206 + C_j[8] * t207;
+    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t207 + t211 * g_star_in_j_2 - (f_star_in_j_2 * t206 + t212 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t205 + t212 * g_star_in_j_0 - (t207 * f_star_in_j_0 +
+        g_star_in_j_2 * t213)) + C_j[2] * (t206 * f_star_in_j_0 + g_star_in_j_1 * t213 - (f_star_in_j_1 * t205 +
+        t211 * g_star_in_j_0));
+    jac_phi_geometry[17] = C_j[4] * t211 + C_j[3] * t213 + C_j[5] * t212;
+    jac_phi_geometry[18] = C_j[6] * t217 + C_j[7] * t218 + C_j[8] * t219;
+    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t219 + t223 * g_star_in_j_2 - (f_star_in_j_2 * t218 + t224 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t217 + t224 * g_star_in_j_0 - (t219 * f_star_in_j_0 +
+        g_star_in_j_2 * t225)) + C_j[2] * (t218 * f_star_in_j_0 + g_star_in_j_1 * t225 - (f_star_in_j_1 * t217 +
+        t223 * g_star_in_j_0));
+    jac_phi_geometry[20] = C_j[4] * t223 + C_j[3] * t225 + C_j[5] * t224;
+    jac_phi_geometry[21] = C_j[6] * t229 + C_j[7] * t230 + C_j[8] * t231;
     jac_phi_geometry[22] = C_j[0] * (f_star_in_j_1 * t231 - t235 * g_star_in_j_2 - (f_star_in_j_2 * t230 - t236 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t229 - t236 * g_star_in_j_0 - (f_star_in_j_0 * t231 - t237 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t230 - t237 * g_star_in_j_1 - (f_star_in_j_1 * t229 - t235 *
-        g_star_in_j_0));
-    jac_phi_geometry[23] = -(C_j[4] * t235 + C_j[3] * t237 + C_j[5] * t236);
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t229 - t236 * g_star_in_j_0 - (t231 * f_star_in_j_0 -
+        g_star_in_j_2 * t237)) + C_j[2] * (t230 * f_star_in_j_0 - g_star_in_j_1 * t237 - (f_star_in_j_1 * t229 -
+        t235 * g_star_in_j_0));
     const jg_real t238 = A_i[3] * H_21;
     const jg_real t239 = A_i[4] * H_21;
     const jg_real t240 = A_i[5] * H_21;
     const jg_real t241 = A_j[0] * t238 + A_j[1] * t239 + A_j[2] * t240;
     const jg_real t242 = A_j[3] * t238 + A_j[4] * t239 + A_j[5] * t240;
     const jg_real t243 = A_j[6] * t238 + A_j[7] * t239 + A_j[8] * t240;
-    jac_phi_geometry[24] = C_j[6] * t241 + C_j[7] * t242 + C_j[8] * t243;
     const jg_real t244 = A_i[3] * sine_1;
     const jg_real t245 = A_i[4] * sine_1;
     const jg_real t246 = A_i[5] * sine_1;
     const jg_real t247 = A_j[3] * t244 + A_j[4] * t245 + A_j[5] * t246;
     const jg_real t248 = A_j[6] * t244 + A_j[7] * t245 + A_j[8] * t246;
     const jg_real t249 = A_j[0] * t244 + A_j[1] * t245 + A_j[2] * t246;
-    jac_phi_geometry[25] = C_j[0] * (f_star_in_j_1 * t243 - t247 * g_star_in_j_2 - (f_star_in_j_2 * t242 - t248 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t241 - t248 * g_star_in_j_0 - (f_star_in_j_0 * t243 - t249 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t242 - t249 * g_star_in_j_1 - (f_star_in_j_1 * t241 - t247 *
-        g_star_in_j_0));
-    jac_phi_geometry[26] = -(C_j[4] * t247 + C_j[3] * t249 + C_j[5] * t248);
     const jg_real t250 = A_i[6] * H_21;
     const jg_real t251 = A_i[7] * H_21;
     const jg_real t252 = A_i[8] * H_21;
     const jg_real t253 = A_j[0] * t250 + A_j[1] * t251 + A_j[2] * t252;
     const jg_real t254 = A_j[3] * t250 + A_j[4] * t251 + A_j[5] * t252;
     const jg_real t255 = A_j[6] * t250 + A_j[7] * t251 + A_j[8] * t252;
-    jac_phi_geometry[27] = C_j[6] * t253 + C_j[7] * t254 + C_j[8] * t255;
     const jg_real t256 = A_i[6] * sine_1;
     const jg_real t257 = A_i[7] * sine_1;
     const jg_real t258 = A_i[8] * sine_1;
     const jg_real t259 = A_j[3] * t256 + A_j[4] * t257 + A_j[5] * t258;
     const jg_real t260 = A_j[6] * t256 + A_j[7] * t257 + A_j[8] * t258;
     const jg_real t261 = A_j[0] * t256 + A_j[1] * t257 + A_j[2] * t258;
+    jac_phi_geometry[23] = -(C_j[4] * t235 + C_j[3] * t237 + C_j[5] * t236);
+    jac_phi_geometry[24] = C_j[6] * t241 + C_j[7] * t242 + C_j[8] * t243;
+    jac_phi_geometry[25] = C_j[0] * (f_star_in_j_1 * t243 - t247 * g_star_in_j_2 - (f_star_in_j_2 * t242 - t248 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t241 - t248 * g_star_in_j_0 - (t243 * f_star_in_j_0 -
+        g_star_in_j_2 * t249)) + C_j[2] * (t242 * f_star_in_j_0 - g_star_in_j_1 * t249 - (f_star_in_j_1 * t241 -
+        t247 * g_star_in_j_0));
+    jac_phi_geometry[26] = -(C_j[4] * t247 + C_j[3] * t249 + C_j[5] * t248);
+    jac_phi_geometry[27] = C_j[6] * t253 + C_j[7] * t254 + C_j[8] * t255;
     jac_phi_geometry[28] = C_j[0] * (f_star_in_j_1 * t255 - t259 * g_star_in_j_2 - (f_star_in_j_2 * t254 - t260 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t253 - t260 * g_star_in_j_0 - (f_star_in_j_0 * t255 - t261 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t254 - t261 * g_star_in_j_1 - (f_star_in_j_1 * t253 - t259 *
-        g_star_in_j_0));
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t253 - t260 * g_star_in_j_0 - (t255 * f_star_in_j_0 -
+        g_star_in_j_2 * t261)) + C_j[2] * (t254 * f_star_in_j_0 - g_star_in_j_1 * t261 - (f_star_in_j_1 * t253 -
+        t259 * g_star_in_j_0));
     jac_phi_geometry[29] = -(C_j[4] * t259 + C_j[3] * t261 + C_j[5] * t260);
     jac_phi_geometry[30] = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[31] = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
@@ -533,10 +533,10 @@ static void jg_ball_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, cons
     jac_phi_geometry[38] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = f_star_in_j_1 * g_star_in_j_2 - f_star_in_j_2 * g_star_in_j_1;
+    const jg_real h_star_in_j_1 = f_star_in_j_2 * g_star_in_j_0 - g_star_in_j_2 * f_star_in_j_0;
+    const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - f_star_in_j_1 * g_star_in_j_0;
     jac_phi_geometry[39] = h_star_in_j_0;
-    const jg_real h_star_in_j_1 = f_star_in_j_2 * g_star_in_j_0 - f_star_in_j_0 * g_star_in_j_2;
     jac_phi_geometry[40] = h_star_in_j_1;
-    const jg_real h_star_in_j_2 = f_star_in_j_0 * g_star_in_j_1 - f_star_in_j_1 * g_star_in_j_0;
     jac_phi_geometry[41] = h_star_in_j_2;
 }
 
@@ -557,63 +557,60 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real *const alphadot = velocity + 12;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
+    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -629,7 +626,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[0] * A_ji_0 + v_i[1] * A_ji_3 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
@@ -643,25 +640,21 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[0] * A_ji_1 + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real t56 = A_j[3] * v_3_in_j_1;
     const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - e_ij_in_j_0 * t44 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
     const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = e_ij_in_j_0 * t46 - e_ij_in_j_1 * t57 - (A_j[6] * v_i[0] + v_i[1] * t43);
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -709,53 +702,54 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t99 = f_star_in_j_1 * t96 + t92 * h_star_in_j_0 - (f_star_in_j_0 * t85 + t95 * h_star_in_j_1);
     const jg_real t100 = C_j[3] * t93 + C_j[4] * t98 + C_j[5] * t99;
     /* omega_i_in_joint_j = omega_i, axes of joint j */
-    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + C_j[2] *
-        omega_i_in_j_2;
+    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + omega_i_in_j_2 *
+        C_j[2];
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
     const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    const jg_real t106 = C_j[0] * t57 + C_j[1] * t46 + C_j[2] * t44;
+    const jg_real t106 = t57 * C_j[0] + t46 * C_j[1] + t44 * C_j[2];
     const jg_real t107 = C_j[0] * t93 + C_j[1] * t98 + C_j[2] * t99;
-    const jg_real omega_i_in_joint_j_1 = C_j[3] * omega_i_in_j_0 + C_j[4] * omega_i_in_j_1 + C_j[5] *
-        omega_i_in_j_2;
+    const jg_real omega_i_in_joint_j_1 = C_j[3] * omega_i_in_j_0 + C_j[4] * omega_i_in_j_1 + omega_i_in_j_2 *
+        C_j[5];
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
-    const jg_real t110 = C_j[3] * t57 + C_j[4] * t46 + C_j[5] * t44;
+    const jg_real t110 = t57 * C_j[3] + t46 * C_j[4] + t44 * C_j[5];
     const jg_real t111 = C_j[7] * t85 + C_j[6] * t96 + C_j[8] * t90;
     const jg_real t112 = C_j[7] * t92 + C_j[6] * t95 + C_j[8] * t88;
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t100 - omega_j_in_joint_j_1 * t107 + (alphadot[0] * (H_22 * t112 +
-        sine_1 * t111) - sine_2 * t112 * alphadot[1] - (omega_i_in_joint_j_0 * t100 + t106 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t107 + t110 * g_star_dot_f_j)) - alphadot[2] * t111));
     const jg_real t115 = C_j[1] * t92 + C_j[0] * t95 + C_j[2] * t88;
     const jg_real t116 = sine_2 * cosine_1;
     const jg_real t117 = alphadot[1] * cosine_2;
     /* h_star_dot_h_j = h_star . h_j */
     const jg_real h_star_dot_h_j = C_j[7] * h_star_in_j_1 + C_j[6] * h_star_in_j_0 + C_j[8] * h_star_in_j_2;
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
+    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
+        A_ji_4 * t58));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t100 - omega_j_in_joint_j_1 * t107 + (alphadot[0] * (H_22 * t112 +
+        sine_1 * t111) - sine_2 * t112 * alphadot[1] - (omega_i_in_joint_j_0 * t100 + t106 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t107 + t110 * g_star_dot_f_j)) - alphadot[2] * t111));
     jac_phi_q_v_velocity[60] = h_star_dot_h_j;
-    const jg_real omega_i_in_joint_j_2 = C_j[6] * omega_i_in_j_0 + C_j[7] * omega_i_in_j_1 + C_j[8] *
-        omega_i_in_j_2;
+    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
+        C_j[8];
     const jg_real t120 = C_j[3] * t96 + C_j[4] * t85 + C_j[5] * t90;
     /* h_star_dot_g_j = h_star . g_j */
     const jg_real h_star_dot_g_j = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
-    const jg_real t122 = C_j[6] * t57 + C_j[7] * t46 + C_j[8] * t44;
+    const jg_real t122 = t57 * C_j[6] + t46 * C_j[7] + t44 * C_j[8];
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    jac_phi_q_v_A_i[4] = t110 * h_star_dot_h_j + omega_i_in_joint_j_1 * t111 - (t122 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t120) + (t117 * t115 + alphadot[0] * (t116 * t115 + sine_1 * t107) - alphadot[2] *
-        t107) - (omega_j_in_joint_j_1 * t111 - omega_j_in_joint_j_2 * t120);
     const jg_real t124 = alphadot[0] * cosine_1;
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
-    jac_phi_q_v_A_i[5] = t122 * f_star_dot_f_j + omega_i_in_joint_j_2 * t115 - (t106 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t112) + (t124 * (cosine_2 * t100 - sine_2 * t120) - alphadot[1] * (cosine_2 * t120 +
-        sine_2 * t100)) - (omega_j_in_joint_j_2 * t115 - omega_j_in_joint_j_0 * t112);
     const jg_real t127 = A_j[1] * v_3_in_j_0;
     const jg_real t128 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t129 = A_j[7] * omega_i[0] + omega_i[1] * t128;
@@ -765,13 +759,9 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t133 = e_ij_in_j_1 * t129 - e_ij_in_j_2 * t131 - (A_j[1] * v_i[0] + v_i[1] * t132);
     const jg_real t134 = A_j[4] * v_3_in_j_1;
     const jg_real t135 = A_j[1] * omega_i[0] + omega_i[1] * t132;
-    const jg_real t136 = e_ij_in_j_2 * t135 - e_ij_in_j_0 * t129 - (A_j[4] * v_i[0] + v_i[1] * t130);
+    const jg_real t136 = e_ij_in_j_2 * t135 - t129 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t130);
     const jg_real t137 = A_j[7] * v_3_in_j_2;
-    const jg_real t138 = e_ij_in_j_0 * t131 - e_ij_in_j_1 * t135 - (A_j[7] * v_i[0] + v_i[1] * t128);
-    jac_phi_q_v_A_i[6] = t137 + A_ji_2 * t138 + (t127 + A_ji_0 * t133 + (t134 + A_ji_1 * t136));
-    jac_phi_q_v_A_i[7] = t128 * v_3_in_j_2 + A_ji_5 * t138 + (t132 * v_3_in_j_0 + A_ji_3 * t133 + (t130 * v_3_in_j_1
-        + A_ji_4 * t136));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t133 + A_ji_7 * t136 + A_ji_8 * t138;
+    const jg_real t138 = t131 * e_ij_in_j_0 - e_ij_in_j_1 * t135 - (v_i[1] * t128 + A_j[7] * v_i[0]);
     const jg_real t139 = t130 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
     const jg_real t140 = t128 * f_star_in_i_1 + A_j[7] * f_star_in_i_0;
     const jg_real t141 = t128 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
@@ -785,17 +775,27 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t147 = f_star_in_j_1 * t145 + t142 * h_star_in_j_0 - (f_star_in_j_0 * t139 + t144 *
         h_star_in_j_1);
     const jg_real t148 = C_j[3] * t143 + C_j[4] * t146 + C_j[5] * t147;
-    const jg_real t149 = C_j[0] * t135 + C_j[1] * t131 + C_j[2] * t129;
+    const jg_real t149 = t135 * C_j[0] + t131 * C_j[1] + t129 * C_j[2];
     const jg_real t150 = C_j[0] * t143 + C_j[1] * t146 + C_j[2] * t147;
-    const jg_real t151 = C_j[3] * t135 + C_j[4] * t131 + C_j[5] * t129;
+    const jg_real t151 = t135 * C_j[3] + t131 * C_j[4] + t129 * C_j[5];
     const jg_real t152 = C_j[7] * t139 + C_j[6] * t145 + C_j[8] * t141;
     const jg_real t153 = C_j[7] * t142 + C_j[6] * t144 + C_j[8] * t140;
+    const jg_real t154 = C_j[1] * t142 + C_j[0] * t144 + C_j[2] * t140;
+    const jg_real t155 = C_j[3] * t145 + C_j[4] * t139 + C_j[5] * t141;
+    const jg_real t156 = t135 * C_j[6] + t131 * C_j[7] + t129 * C_j[8];
+    jac_phi_q_v_A_i[4] = t110 * h_star_dot_h_j + omega_i_in_joint_j_1 * t111 - (t122 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t120) + (t117 * t115 + alphadot[0] * (t116 * t115 + sine_1 * t107) - alphadot[2] *
+        t107) - (omega_j_in_joint_j_1 * t111 - omega_j_in_joint_j_2 * t120);
+    jac_phi_q_v_A_i[5] = t122 * f_star_dot_f_j + omega_i_in_joint_j_2 * t115 - (t106 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t112) + (t124 * (cosine_2 * t100 - sine_2 * t120) - alphadot[1] * (cosine_2 * t120 +
+        sine_2 * t100)) - (omega_j_in_joint_j_2 * t115 - omega_j_in_joint_j_0 * t112);
+    jac_phi_q_v_A_i[6] = t137 + A_ji_2 * t138 + (t127 + A_ji_0 * t133 + (t134 + A_ji_1 * t136));
+    jac_phi_q_v_A_i[7] = t128 * v_3_in_j_2 + A_ji_5 * t138 + (t132 * v_3_in_j_0 + A_ji_3 * t133 + (t130 * v_3_in_j_1
+        + A_ji_4 * t136));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t133 + A_ji_7 * t136 + A_ji_8 * t138;
     jac_phi_q_v_A_i[9] = -(omega_j_in_joint_j_0 * t148 - omega_j_in_joint_j_1 * t150 + (alphadot[0] * (H_22 * t153 +
         sine_1 * t152) - sine_2 * t153 * alphadot[1] - (omega_i_in_joint_j_0 * t148 + t149 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t150 + t151 * g_star_dot_f_j)) - alphadot[2] * t152));
-    const jg_real t154 = C_j[1] * t142 + C_j[0] * t144 + C_j[2] * t140;
-    const jg_real t155 = C_j[3] * t145 + C_j[4] * t139 + C_j[5] * t141;
-    const jg_real t156 = C_j[6] * t135 + C_j[7] * t131 + C_j[8] * t129;
     jac_phi_q_v_A_i[10] = t151 * h_star_dot_h_j + omega_i_in_joint_j_1 * t152 - (t156 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t155) + (t117 * t154 + alphadot[0] * (t116 * t154 + sine_1 * t150) - alphadot[2] *
         t150) - (omega_j_in_joint_j_1 * t152 - omega_j_in_joint_j_2 * t155);
@@ -811,13 +811,9 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t163 = e_ij_in_j_1 * t159 - e_ij_in_j_2 * t161 - (A_j[2] * v_i[0] + v_i[1] * t162);
     const jg_real t164 = A_j[5] * v_3_in_j_1;
     const jg_real t165 = A_j[2] * omega_i[0] + omega_i[1] * t162;
-    const jg_real t166 = e_ij_in_j_2 * t165 - e_ij_in_j_0 * t159 - (A_j[5] * v_i[0] + v_i[1] * t160);
+    const jg_real t166 = e_ij_in_j_2 * t165 - t159 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t160);
     const jg_real t167 = A_j[8] * v_3_in_j_2;
-    const jg_real t168 = e_ij_in_j_0 * t161 - e_ij_in_j_1 * t165 - (A_j[8] * v_i[0] + v_i[1] * t158);
-    jac_phi_q_v_A_i[12] = t167 + A_ji_2 * t168 + (t157 + A_ji_0 * t163 + (t164 + A_ji_1 * t166));
-    jac_phi_q_v_A_i[13] = t158 * v_3_in_j_2 + A_ji_5 * t168 + (t162 * v_3_in_j_0 + A_ji_3 * t163 + (t160 *
-        v_3_in_j_1 + A_ji_4 * t166));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t163 + A_ji_7 * t166 + A_ji_8 * t168;
+    const jg_real t168 = t161 * e_ij_in_j_0 - e_ij_in_j_1 * t165 - (v_i[1] * t158 + A_j[8] * v_i[0]);
     const jg_real t169 = t160 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
     const jg_real t170 = t158 * f_star_in_i_1 + A_j[8] * f_star_in_i_0;
     const jg_real t171 = t158 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
@@ -831,23 +827,14 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t177 = f_star_in_j_1 * t175 + t172 * h_star_in_j_0 - (f_star_in_j_0 * t169 + t174 *
         h_star_in_j_1);
     const jg_real t178 = C_j[3] * t173 + C_j[4] * t176 + C_j[5] * t177;
-    const jg_real t179 = C_j[0] * t165 + C_j[1] * t161 + C_j[2] * t159;
+    const jg_real t179 = t165 * C_j[0] + t161 * C_j[1] + t159 * C_j[2];
     const jg_real t180 = C_j[0] * t173 + C_j[1] * t176 + C_j[2] * t177;
-    const jg_real t181 = C_j[3] * t165 + C_j[4] * t161 + C_j[5] * t159;
+    const jg_real t181 = t165 * C_j[3] + t161 * C_j[4] + t159 * C_j[5];
     const jg_real t182 = C_j[7] * t169 + C_j[6] * t175 + C_j[8] * t171;
     const jg_real t183 = C_j[7] * t172 + C_j[6] * t174 + C_j[8] * t170;
-    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t178 - omega_j_in_joint_j_1 * t180 + (alphadot[0] * (H_22 * t183
-        + sine_1 * t182) - sine_2 * t183 * alphadot[1] - (omega_i_in_joint_j_0 * t178 + t179 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t180 + t181 * g_star_dot_f_j)) - alphadot[2] * t182));
     const jg_real t184 = C_j[1] * t172 + C_j[0] * t174 + C_j[2] * t170;
     const jg_real t185 = C_j[3] * t175 + C_j[4] * t169 + C_j[5] * t171;
-    const jg_real t186 = C_j[6] * t165 + C_j[7] * t161 + C_j[8] * t159;
-    jac_phi_q_v_A_i[16] = t181 * h_star_dot_h_j + omega_i_in_joint_j_1 * t182 - (t186 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t185) + (t117 * t184 + alphadot[0] * (t116 * t184 + sine_1 * t180) - alphadot[2] *
-        t180) - (omega_j_in_joint_j_1 * t182 - omega_j_in_joint_j_2 * t185);
-    jac_phi_q_v_A_i[17] = t186 * f_star_dot_f_j + omega_i_in_joint_j_2 * t184 - (t179 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t183) + (t124 * (cosine_2 * t178 - sine_2 * t185) - alphadot[1] * (cosine_2 * t185 +
-        sine_2 * t178)) - (omega_j_in_joint_j_2 * t184 - omega_j_in_joint_j_0 * t183);
+    const jg_real t186 = t165 * C_j[6] + t161 * C_j[7] + t159 * C_j[8];
     const jg_real t187 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t188 = A_j[6] * omega_i[2] + omega_i[1] * t187;
     const jg_real t189 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
@@ -855,12 +842,24 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t191 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t192 = e_ij_in_j_1 * t188 - e_ij_in_j_2 * t190 - (A_j[0] * v_i[2] + v_i[1] * t191);
     const jg_real t193 = A_j[0] * omega_i[2] + omega_i[1] * t191;
-    const jg_real t194 = e_ij_in_j_2 * t193 - e_ij_in_j_0 * t188 - (A_j[3] * v_i[2] + v_i[1] * t189);
-    const jg_real t195 = e_ij_in_j_0 * t190 - e_ij_in_j_1 * t193 - (A_j[6] * v_i[2] + v_i[1] * t187);
+    const jg_real t194 = e_ij_in_j_2 * t193 - t188 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t189);
+    const jg_real t195 = e_ij_in_j_0 * t190 - e_ij_in_j_1 * t193 - (v_i[1] * t187 + A_j[6] * v_i[2]);
+    jac_phi_q_v_A_i[12] = t167 + A_ji_2 * t168 + (t157 + A_ji_0 * t163 + (t164 + A_ji_1 * t166));
+    jac_phi_q_v_A_i[13] = t158 * v_3_in_j_2 + A_ji_5 * t168 + (t162 * v_3_in_j_0 + A_ji_3 * t163 + (t160 *
+        v_3_in_j_1 + A_ji_4 * t166));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t163 + A_ji_7 * t166 + A_ji_8 * t168;
+    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t178 - omega_j_in_joint_j_1 * t180 + (alphadot[0] * (H_22 * t183
+        + sine_1 * t182) - sine_2 * t183 * alphadot[1] - (omega_i_in_joint_j_0 * t178 + t179 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t180 + t181 * g_star_dot_f_j)) - alphadot[2] * t182));
+    jac_phi_q_v_A_i[16] = t181 * h_star_dot_h_j + omega_i_in_joint_j_1 * t182 - (t186 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t185) + (t117 * t184 + alphadot[0] * (t116 * t184 + sine_1 * t180) - alphadot[2] *
+        t180) - (omega_j_in_joint_j_1 * t182 - omega_j_in_joint_j_2 * t185);
+    jac_phi_q_v_A_i[17] = t186 * f_star_dot_f_j + omega_i_in_joint_j_2 * t184 - (t179 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t183) + (t124 * (cosine_2 * t178 - sine_2 * t185) - alphadot[1] * (cosine_2 * t185 +
+        sine_2 * t178)) - (omega_j_in_joint_j_2 * t184 - omega_j_in_joint_j_0 * t183);
     jac_phi_q_v_A_i[18] = A_ji_0 * t192 + A_ji_1 * t194 + A_ji_2 * t195;
     jac_phi_q_v_A_i[19] = t187 * v_3_in_j_2 + A_ji_5 * t195 + (t191 * v_3_in_j_0 + A_ji_3 * t192 + (t189 *
         v_3_in_j_1 + A_ji_4 * t194));
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t195 + (t42 + A_ji_6 * t192 + (t56 + A_ji_7 * t194));
     const jg_real t196 = t189 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
     const jg_real t197 = t187 * f_star_in_i_1 + A_j[6] * f_star_in_i_2;
     const jg_real t198 = t187 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
@@ -874,23 +873,14 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t204 = f_star_in_j_1 * t202 + t199 * h_star_in_j_0 - (f_star_in_j_0 * t196 + t201 *
         h_star_in_j_1);
     const jg_real t205 = C_j[3] * t200 + C_j[4] * t203 + C_j[5] * t204;
-    const jg_real t206 = C_j[0] * t193 + C_j[1] * t190 + C_j[2] * t188;
+    const jg_real t206 = C_j[0] * t193 + C_j[1] * t190 + t188 * C_j[2];
     const jg_real t207 = C_j[0] * t200 + C_j[1] * t203 + C_j[2] * t204;
-    const jg_real t208 = C_j[3] * t193 + C_j[4] * t190 + C_j[5] * t188;
+    const jg_real t208 = C_j[3] * t193 + C_j[4] * t190 + t188 * C_j[5];
     const jg_real t209 = C_j[7] * t196 + C_j[6] * t202 + C_j[8] * t198;
     const jg_real t210 = C_j[7] * t199 + C_j[6] * t201 + C_j[8] * t197;
-    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t205 - omega_j_in_joint_j_1 * t207 + (alphadot[0] * (H_22 * t210
-        + sine_1 * t209) - sine_2 * t210 * alphadot[1] - (omega_i_in_joint_j_0 * t205 + t206 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t207 + t208 * g_star_dot_f_j)) - alphadot[2] * t209));
     const jg_real t211 = C_j[1] * t199 + C_j[0] * t201 + C_j[2] * t197;
     const jg_real t212 = C_j[3] * t202 + C_j[4] * t196 + C_j[5] * t198;
-    const jg_real t213 = C_j[6] * t193 + C_j[7] * t190 + C_j[8] * t188;
-    jac_phi_q_v_A_i[22] = t208 * h_star_dot_h_j + omega_i_in_joint_j_1 * t209 - (t213 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t212) + (t117 * t211 + alphadot[0] * (t116 * t211 + sine_1 * t207) - alphadot[2] *
-        t207) - (omega_j_in_joint_j_1 * t209 - omega_j_in_joint_j_2 * t212);
-    jac_phi_q_v_A_i[23] = t213 * f_star_dot_f_j + omega_i_in_joint_j_2 * t211 - (t206 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t210) + (t124 * (cosine_2 * t205 - sine_2 * t212) - alphadot[1] * (cosine_2 * t212 +
-        sine_2 * t205)) - (omega_j_in_joint_j_2 * t211 - omega_j_in_joint_j_0 * t210);
+    const jg_real t213 = t193 * C_j[6] + t190 * C_j[7] + t188 * C_j[8];
     const jg_real t214 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t215 = A_j[7] * omega_i[2] + omega_i[1] * t214;
     const jg_real t216 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
@@ -898,12 +888,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t218 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t219 = e_ij_in_j_1 * t215 - e_ij_in_j_2 * t217 - (A_j[1] * v_i[2] + v_i[1] * t218);
     const jg_real t220 = A_j[1] * omega_i[2] + omega_i[1] * t218;
-    const jg_real t221 = e_ij_in_j_2 * t220 - e_ij_in_j_0 * t215 - (A_j[4] * v_i[2] + v_i[1] * t216);
-    const jg_real t222 = e_ij_in_j_0 * t217 - e_ij_in_j_1 * t220 - (A_j[7] * v_i[2] + v_i[1] * t214);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t219 + A_ji_1 * t221 + A_ji_2 * t222;
-    jac_phi_q_v_A_i[25] = t214 * v_3_in_j_2 + A_ji_5 * t222 + (t218 * v_3_in_j_0 + A_ji_3 * t219 + (t216 *
-        v_3_in_j_1 + A_ji_4 * t221));
-    jac_phi_q_v_A_i[26] = t137 + A_ji_8 * t222 + (t127 + A_ji_6 * t219 + (t134 + A_ji_7 * t221));
+    const jg_real t221 = e_ij_in_j_2 * t220 - t215 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t216);
+    const jg_real t222 = e_ij_in_j_0 * t217 - e_ij_in_j_1 * t220 - (v_i[1] * t214 + A_j[7] * v_i[2]);
     const jg_real t223 = t216 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
     const jg_real t224 = t214 * f_star_in_i_1 + A_j[7] * f_star_in_i_2;
     const jg_real t225 = t214 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
@@ -917,23 +903,31 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t231 = f_star_in_j_1 * t229 + t226 * h_star_in_j_0 - (f_star_in_j_0 * t223 + t228 *
         h_star_in_j_1);
     const jg_real t232 = C_j[3] * t227 + C_j[4] * t230 + C_j[5] * t231;
-    const jg_real t233 = C_j[0] * t220 + C_j[1] * t217 + C_j[2] * t215;
+    const jg_real t233 = C_j[0] * t220 + C_j[1] * t217 + t215 * C_j[2];
     const jg_real t234 = C_j[0] * t227 + C_j[1] * t230 + C_j[2] * t231;
-    const jg_real t235 = C_j[3] * t220 + C_j[4] * t217 + C_j[5] * t215;
+    const jg_real t235 = C_j[3] * t220 + C_j[4] * t217 + t215 * C_j[5];
     const jg_real t236 = C_j[7] * t223 + C_j[6] * t229 + C_j[8] * t225;
     const jg_real t237 = C_j[7] * t226 + C_j[6] * t228 + C_j[8] * t224;
+    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t195 + (t42 + A_ji_6 * t192 + (t56 + A_ji_7 * t194));
+    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t205 - omega_j_in_joint_j_1 * t207 + (alphadot[0] * (H_22 * t210
+        + sine_1 * t209) - sine_2 * t210 * alphadot[1] - (omega_i_in_joint_j_0 * t205 + t206 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t207 + t208 * g_star_dot_f_j)) - alphadot[2] * t209));
+    jac_phi_q_v_A_i[22] = t208 * h_star_dot_h_j + omega_i_in_joint_j_1 * t209 - (t213 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t212) + (t117 * t211 + alphadot[0] * (t116 * t211 + sine_1 * t207) - alphadot[2] *
+        t207) - (omega_j_in_joint_j_1 * t209 - omega_j_in_joint_j_2 * t212);
+    jac_phi_q_v_A_i[23] = t213 * f_star_dot_f_j + omega_i_in_joint_j_2 * t211 - (t206 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t210) + (t124 * (cosine_2 * t205 - sine_2 * t212) - alphadot[1] * (cosine_2 * t212 +
+        sine_2 * t205)) - (omega_j_in_joint_j_2 * t211 - omega_j_in_joint_j_0 * t210);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t219 + A_ji_1 * t221 + A_ji_2 * t222;
+    jac_phi_q_v_A_i[25] = t214 * v_3_in_j_2 + A_ji_5 * t222 + (t218 * v_3_in_j_0 + A_ji_3 * t219 + (t216 *
+        v_3_in_j_1 + A_ji_4 * t221));
+    jac_phi_q_v_A_i[26] = t137 + A_ji_8 * t222 + (t127 + A_ji_6 * t219 + (t134 + A_ji_7 * t221));
     jac_phi_q_v_A_i[27] = -(omega_j_in_joint_j_0 * t232 - omega_j_in_joint_j_1 * t234 + (alphadot[0] * (H_22 * t237
         + sine_1 * t236) - sine_2 * t237 * alphadot[1] - (omega_i_in_joint_j_0 * t232 + t233 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t234 + t235 * g_star_dot_f_j)) - alphadot[2] * t236));
     const jg_real t238 = C_j[1] * t226 + C_j[0] * t228 + C_j[2] * t224;
     const jg_real t239 = C_j[3] * t229 + C_j[4] * t223 + C_j[5] * t225;
-    const jg_real t240 = C_j[6] * t220 + C_j[7] * t217 + C_j[8] * t215;
-    jac_phi_q_v_A_i[28] = t235 * h_star_dot_h_j + omega_i_in_joint_j_1 * t236 - (t240 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t239) + (t117 * t238 + alphadot[0] * (t116 * t238 + sine_1 * t234) - alphadot[2] *
-        t234) - (omega_j_in_joint_j_1 * t236 - omega_j_in_joint_j_2 * t239);
-    jac_phi_q_v_A_i[29] = t240 * f_star_dot_f_j + omega_i_in_joint_j_2 * t238 - (t233 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t237) + (t124 * (cosine_2 * t232 - sine_2 * t239) - alphadot[1] * (cosine_2 * t239 +
-        sine_2 * t232)) - (omega_j_in_joint_j_2 * t238 - omega_j_in_joint_j_0 * t237);
+    const jg_real t240 = t220 * C_j[6] + t217 * C_j[7] + t215 * C_j[8];
     const jg_real t241 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t242 = A_j[8] * omega_i[2] + omega_i[1] * t241;
     const jg_real t243 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
@@ -941,12 +935,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t245 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t246 = e_ij_in_j_1 * t242 - e_ij_in_j_2 * t244 - (A_j[2] * v_i[2] + v_i[1] * t245);
     const jg_real t247 = A_j[2] * omega_i[2] + omega_i[1] * t245;
-    const jg_real t248 = e_ij_in_j_2 * t247 - e_ij_in_j_0 * t242 - (A_j[5] * v_i[2] + v_i[1] * t243);
-    const jg_real t249 = e_ij_in_j_0 * t244 - e_ij_in_j_1 * t247 - (A_j[8] * v_i[2] + v_i[1] * t241);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t246 + A_ji_1 * t248 + A_ji_2 * t249;
-    jac_phi_q_v_A_i[31] = t241 * v_3_in_j_2 + A_ji_5 * t249 + (t245 * v_3_in_j_0 + A_ji_3 * t246 + (t243 *
-        v_3_in_j_1 + A_ji_4 * t248));
-    jac_phi_q_v_A_i[32] = t167 + A_ji_8 * t249 + (t157 + A_ji_6 * t246 + (t164 + A_ji_7 * t248));
+    const jg_real t248 = e_ij_in_j_2 * t247 - t242 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t243);
+    const jg_real t249 = e_ij_in_j_0 * t244 - e_ij_in_j_1 * t247 - (v_i[1] * t241 + A_j[8] * v_i[2]);
     const jg_real t250 = t243 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
     const jg_real t251 = t241 * f_star_in_i_1 + A_j[8] * f_star_in_i_2;
     const jg_real t252 = t241 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
@@ -960,17 +950,27 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t258 = f_star_in_j_1 * t256 + t253 * h_star_in_j_0 - (f_star_in_j_0 * t250 + t255 *
         h_star_in_j_1);
     const jg_real t259 = C_j[3] * t254 + C_j[4] * t257 + C_j[5] * t258;
-    const jg_real t260 = C_j[0] * t247 + C_j[1] * t244 + C_j[2] * t242;
+    const jg_real t260 = C_j[0] * t247 + C_j[1] * t244 + t242 * C_j[2];
     const jg_real t261 = C_j[0] * t254 + C_j[1] * t257 + C_j[2] * t258;
-    const jg_real t262 = C_j[3] * t247 + C_j[4] * t244 + C_j[5] * t242;
+    const jg_real t262 = C_j[3] * t247 + C_j[4] * t244 + t242 * C_j[5];
     const jg_real t263 = C_j[7] * t250 + C_j[6] * t256 + C_j[8] * t252;
     const jg_real t264 = C_j[7] * t253 + C_j[6] * t255 + C_j[8] * t251;
+    const jg_real t265 = C_j[1] * t253 + C_j[0] * t255 + C_j[2] * t251;
+    const jg_real t266 = C_j[3] * t256 + C_j[4] * t250 + C_j[5] * t252;
+    const jg_real t267 = t247 * C_j[6] + t244 * C_j[7] + t242 * C_j[8];
+    jac_phi_q_v_A_i[28] = t235 * h_star_dot_h_j + omega_i_in_joint_j_1 * t236 - (t240 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t239) + (t117 * t238 + alphadot[0] * (t116 * t238 + sine_1 * t234) - alphadot[2] *
+        t234) - (omega_j_in_joint_j_1 * t236 - omega_j_in_joint_j_2 * t239);
+    jac_phi_q_v_A_i[29] = t240 * f_star_dot_f_j + omega_i_in_joint_j_2 * t238 - (t233 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t237) + (t124 * (cosine_2 * t232 - sine_2 * t239) - alphadot[1] * (cosine_2 * t239 +
+        sine_2 * t232)) - (omega_j_in_joint_j_2 * t238 - omega_j_in_joint_j_0 * t237);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t246 + A_ji_1 * t248 + A_ji_2 * t249;
+    jac_phi_q_v_A_i[31] = t241 * v_3_in_j_2 + A_ji_5 * t249 + (t245 * v_3_in_j_0 + A_ji_3 * t246 + (t243 *
+        v_3_in_j_1 + A_ji_4 * t248));
+    jac_phi_q_v_A_i[32] = t167 + A_ji_8 * t249 + (t157 + A_ji_6 * t246 + (t164 + A_ji_7 * t248));
     jac_phi_q_v_A_i[33] = -(omega_j_in_joint_j_0 * t259 - omega_j_in_joint_j_1 * t261 + (alphadot[0] * (H_22 * t264
         + sine_1 * t263) - sine_2 * t264 * alphadot[1] - (omega_i_in_joint_j_0 * t259 + t260 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t261 + t262 * g_star_dot_f_j)) - alphadot[2] * t263));
-    const jg_real t265 = C_j[1] * t253 + C_j[0] * t255 + C_j[2] * t251;
-    const jg_real t266 = C_j[3] * t256 + C_j[4] * t250 + C_j[5] * t252;
-    const jg_real t267 = C_j[6] * t247 + C_j[7] * t244 + C_j[8] * t242;
     jac_phi_q_v_A_i[34] = t262 * h_star_dot_h_j + omega_i_in_joint_j_1 * t263 - (t267 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t266) + (t117 * t265 + alphadot[0] * (t116 * t265 + sine_1 * t261) - alphadot[2] *
         t261) - (omega_j_in_joint_j_1 * t263 - omega_j_in_joint_j_2 * t266);
@@ -979,11 +979,11 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         sine_2 * t259)) - (omega_j_in_joint_j_2 * t265 - omega_j_in_joint_j_0 * t264);
     const jg_real t268 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
     const jg_real t269 = omega_i[1] * t268;
-    const jg_real t270 = e_ij_in_j_1 * t269;
+    const jg_real t270 = t269 * e_ij_in_j_1;
     const jg_real t271 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t272 = omega_i[1] * t271;
     const jg_real t273 = e_ij_in_j_2 * t272;
-    const jg_real t274 = A_i[6] * v_i[2] + A_i[0] * v_i[0];
+    const jg_real t274 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
     const jg_real t275 = t270 - t273 - t274;
     const jg_real t276 = v_0_world_0 * omega_i_in_j_2;
     const jg_real t277 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
@@ -994,9 +994,6 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t282 = e_ij_in_j_1 * t277;
     const jg_real t283 = v_i[1] * t268;
     const jg_real t284 = t281 + t272 * e_ij_in_j_0 - t282 - t283;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t275 + A_ji_1 * t280 + A_ji_2 * t284;
-    jac_phi_q_v_A_j[1] = t268 * v_3_in_j_2 + A_ji_5 * t284 + (t271 * v_3_in_j_1 + A_ji_4 * t280 + A_ji_3 * t275);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t275 + A_ji_7 * t280 + A_ji_8 * t284;
     const jg_real t285 = t271 * h_star_in_i_1;
     const jg_real t286 = t285 * f_star_in_j_2;
     const jg_real t287 = t268 * f_star_in_i_1;
@@ -1015,30 +1012,21 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t300 = t294 * h_star_in_j_1;
     const jg_real t301 = t299 + t291 * h_star_in_j_0 - (t300 + t285 * f_star_in_j_0);
     const jg_real t302 = C_j[3] * t293 + C_j[4] * t298 + C_j[5] * t301;
-    const jg_real t303 = C_j[0] * t277 + C_j[1] * t272 + C_j[2] * t269;
+    const jg_real t303 = t277 * C_j[0] + t272 * C_j[1] + t269 * C_j[2];
     const jg_real t304 = C_j[0] * t293 + C_j[1] * t298 + C_j[2] * t301;
-    const jg_real t305 = C_j[3] * t277 + C_j[4] * t272 + C_j[5] * t269;
+    const jg_real t305 = t277 * C_j[3] + t272 * C_j[4] + t269 * C_j[5];
     const jg_real t306 = C_j[7] * t285 + C_j[6] * t296 + C_j[8] * t289;
     const jg_real t307 = C_j[7] * t291 + C_j[6] * t294 + C_j[8] * t287;
-    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t302 - omega_j_in_joint_j_1 * t304 + (alphadot[0] * (H_22 * t307 +
-        sine_1 * t306) - sine_2 * t307 * alphadot[1] - (omega_i_in_joint_j_0 * t302 + t303 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t304 + t305 * g_star_dot_f_j)) - alphadot[2] * t306));
     const jg_real t308 = C_j[1] * t291 + C_j[0] * t294 + C_j[2] * t287;
     const jg_real t309 = C_j[3] * t296 + C_j[4] * t285 + C_j[5] * t289;
-    const jg_real t310 = C_j[6] * t277 + C_j[7] * t272 + C_j[8] * t269;
-    jac_phi_q_v_A_j[4] = t305 * h_star_dot_h_j + omega_i_in_joint_j_1 * t306 - (t310 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t309) + (t117 * t308 + alphadot[0] * (t116 * t308 + sine_1 * t304) - alphadot[2] *
-        t304) - (omega_j_in_joint_j_1 * t306 - omega_j_in_joint_j_2 * t309);
-    jac_phi_q_v_A_j[5] = t310 * f_star_dot_f_j + omega_i_in_joint_j_2 * t308 - (t303 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t307) + (t124 * (cosine_2 * t302 - sine_2 * t309) - alphadot[1] * (cosine_2 * t309 +
-        sine_2 * t302)) - (omega_j_in_joint_j_2 * t308 - omega_j_in_joint_j_0 * t307);
+    const jg_real t310 = t277 * C_j[6] + t272 * C_j[7] + t269 * C_j[8];
     const jg_real t311 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t312 = omega_i[1] * t311;
-    const jg_real t313 = e_ij_in_j_1 * t312;
+    const jg_real t313 = t312 * e_ij_in_j_1;
     const jg_real t314 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
     const jg_real t315 = omega_i[1] * t314;
     const jg_real t316 = e_ij_in_j_2 * t315;
-    const jg_real t317 = A_i[7] * v_i[2] + A_i[1] * v_i[0];
+    const jg_real t317 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
     const jg_real t318 = t313 - t316 - t317;
     const jg_real t319 = v_0_world_1 * omega_i_in_j_2;
     const jg_real t320 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
@@ -1049,9 +1037,20 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t325 = e_ij_in_j_1 * t320;
     const jg_real t326 = v_i[1] * t311;
     const jg_real t327 = t324 + t315 * e_ij_in_j_0 - t325 - t326;
+    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t275 + A_ji_1 * t280 + A_ji_2 * t284;
+    jac_phi_q_v_A_j[1] = t268 * v_3_in_j_2 + A_ji_5 * t284 + (t271 * v_3_in_j_1 + A_ji_4 * t280 + A_ji_3 * t275);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t275 + A_ji_7 * t280 + A_ji_8 * t284;
+    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t302 - omega_j_in_joint_j_1 * t304 + (alphadot[0] * (H_22 * t307 +
+        sine_1 * t306) - sine_2 * t307 * alphadot[1] - (omega_i_in_joint_j_0 * t302 + t303 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t304 + t305 * g_star_dot_f_j)) - alphadot[2] * t306));
+    jac_phi_q_v_A_j[4] = t305 * h_star_dot_h_j + omega_i_in_joint_j_1 * t306 - (t310 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t309) + (t117 * t308 + alphadot[0] * (t116 * t308 + sine_1 * t304) - alphadot[2] *
+        t304) - (omega_j_in_joint_j_1 * t306 - omega_j_in_joint_j_2 * t309);
+    jac_phi_q_v_A_j[5] = t310 * f_star_dot_f_j + omega_i_in_joint_j_2 * t308 - (t303 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t307) + (t124 * (cosine_2 * t302 - sine_2 * t309) - alphadot[1] * (cosine_2 * t309 +
+        sine_2 * t302)) - (omega_j_in_joint_j_2 * t308 - omega_j_in_joint_j_0 * t307);
     jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t318 + A_ji_1 * t323 + A_ji_2 * t327;
     jac_phi_q_v_A_j[7] = t311 * v_3_in_j_2 + A_ji_5 * t327 + (t314 * v_3_in_j_1 + A_ji_4 * t323 + A_ji_3 * t318);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t318 + A_ji_7 * t323 + A_ji_8 * t327;
     const jg_real t328 = t314 * h_star_in_i_1;
     const jg_real t329 = t328 * f_star_in_j_2;
     const jg_real t330 = t311 * f_star_in_i_1;
@@ -1070,30 +1069,21 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t343 = t337 * h_star_in_j_1;
     const jg_real t344 = t342 + t334 * h_star_in_j_0 - (t343 + t328 * f_star_in_j_0);
     const jg_real t345 = C_j[3] * t336 + C_j[4] * t341 + C_j[5] * t344;
-    const jg_real t346 = C_j[0] * t320 + C_j[1] * t315 + C_j[2] * t312;
+    const jg_real t346 = t320 * C_j[0] + t315 * C_j[1] + t312 * C_j[2];
     const jg_real t347 = C_j[0] * t336 + C_j[1] * t341 + C_j[2] * t344;
-    const jg_real t348 = C_j[3] * t320 + C_j[4] * t315 + C_j[5] * t312;
+    const jg_real t348 = t320 * C_j[3] + t315 * C_j[4] + t312 * C_j[5];
     const jg_real t349 = C_j[7] * t328 + C_j[6] * t339 + C_j[8] * t332;
     const jg_real t350 = C_j[7] * t334 + C_j[6] * t337 + C_j[8] * t330;
-    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t345 - omega_j_in_joint_j_1 * t347 + (alphadot[0] * (H_22 * t350 +
-        sine_1 * t349) - sine_2 * t350 * alphadot[1] - (omega_i_in_joint_j_0 * t345 + t346 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t347 + t348 * g_star_dot_f_j)) - alphadot[2] * t349));
     const jg_real t351 = C_j[1] * t334 + C_j[0] * t337 + C_j[2] * t330;
     const jg_real t352 = C_j[3] * t339 + C_j[4] * t328 + C_j[5] * t332;
-    const jg_real t353 = C_j[6] * t320 + C_j[7] * t315 + C_j[8] * t312;
-    jac_phi_q_v_A_j[10] = t348 * h_star_dot_h_j + omega_i_in_joint_j_1 * t349 - (t353 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t352) + (t117 * t351 + alphadot[0] * (t116 * t351 + sine_1 * t347) - alphadot[2] *
-        t347) - (omega_j_in_joint_j_1 * t349 - omega_j_in_joint_j_2 * t352);
-    jac_phi_q_v_A_j[11] = t353 * f_star_dot_f_j + omega_i_in_joint_j_2 * t351 - (t346 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t350) + (t124 * (cosine_2 * t345 - sine_2 * t352) - alphadot[1] * (cosine_2 * t352 +
-        sine_2 * t345)) - (omega_j_in_joint_j_2 * t351 - omega_j_in_joint_j_0 * t350);
+    const jg_real t353 = t320 * C_j[6] + t315 * C_j[7] + t312 * C_j[8];
     const jg_real t354 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t355 = omega_i[1] * t354;
-    const jg_real t356 = e_ij_in_j_1 * t355;
+    const jg_real t356 = t355 * e_ij_in_j_1;
     const jg_real t357 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
     const jg_real t358 = omega_i[1] * t357;
     const jg_real t359 = e_ij_in_j_2 * t358;
-    const jg_real t360 = A_i[8] * v_i[2] + A_i[2] * v_i[0];
+    const jg_real t360 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
     const jg_real t361 = t356 - t359 - t360;
     const jg_real t362 = v_0_world_2 * omega_i_in_j_2;
     const jg_real t363 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
@@ -1104,9 +1094,6 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t368 = e_ij_in_j_1 * t363;
     const jg_real t369 = v_i[1] * t354;
     const jg_real t370 = t367 + t358 * e_ij_in_j_0 - t368 - t369;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t361 + A_ji_1 * t366 + A_ji_2 * t370;
-    jac_phi_q_v_A_j[13] = t354 * v_3_in_j_2 + A_ji_5 * t370 + (t357 * v_3_in_j_1 + A_ji_4 * t366 + A_ji_3 * t361);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t361 + A_ji_7 * t366 + A_ji_8 * t370;
     const jg_real t371 = t357 * h_star_in_i_1;
     const jg_real t372 = t371 * f_star_in_j_2;
     const jg_real t373 = t354 * f_star_in_i_1;
@@ -1125,35 +1112,39 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t386 = t380 * h_star_in_j_1;
     const jg_real t387 = t385 + t377 * h_star_in_j_0 - (t386 + t371 * f_star_in_j_0);
     const jg_real t388 = C_j[3] * t379 + C_j[4] * t384 + C_j[5] * t387;
-    const jg_real t389 = C_j[0] * t363 + C_j[1] * t358 + C_j[2] * t355;
+    const jg_real t389 = t363 * C_j[0] + t358 * C_j[1] + t355 * C_j[2];
     const jg_real t390 = C_j[0] * t379 + C_j[1] * t384 + C_j[2] * t387;
-    const jg_real t391 = C_j[3] * t363 + C_j[4] * t358 + C_j[5] * t355;
+    const jg_real t391 = t363 * C_j[3] + t358 * C_j[4] + t355 * C_j[5];
     const jg_real t392 = C_j[7] * t371 + C_j[6] * t382 + C_j[8] * t375;
     const jg_real t393 = C_j[7] * t377 + C_j[6] * t380 + C_j[8] * t373;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t318 + A_ji_7 * t323 + A_ji_8 * t327;
+    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t345 - omega_j_in_joint_j_1 * t347 + (alphadot[0] * (H_22 * t350 +
+        sine_1 * t349) - sine_2 * t350 * alphadot[1] - (omega_i_in_joint_j_0 * t345 + t346 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t347 + t348 * g_star_dot_f_j)) - alphadot[2] * t349));
+    jac_phi_q_v_A_j[10] = t348 * h_star_dot_h_j + omega_i_in_joint_j_1 * t349 - (t353 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t352) + (t117 * t351 + alphadot[0] * (t116 * t351 + sine_1 * t347) - alphadot[2] *
+        t347) - (omega_j_in_joint_j_1 * t349 - omega_j_in_joint_j_2 * t352);
+    jac_phi_q_v_A_j[11] = t353 * f_star_dot_f_j + omega_i_in_joint_j_2 * t351 - (t346 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t350) + (t124 * (cosine_2 * t345 - sine_2 * t352) - alphadot[1] * (cosine_2 * t352 +
+        sine_2 * t345)) - (omega_j_in_joint_j_2 * t351 - omega_j_in_joint_j_0 * t350);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t361 + A_ji_1 * t366 + A_ji_2 * t370;
+    jac_phi_q_v_A_j[13] = t354 * v_3_in_j_2 + A_ji_5 * t370 + (t357 * v_3_in_j_1 + A_ji_4 * t366 + A_ji_3 * t361);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t361 + A_ji_7 * t366 + A_ji_8 * t370;
     jac_phi_q_v_A_j[15] = -(omega_j_in_joint_j_0 * t388 - omega_j_in_joint_j_1 * t390 + (alphadot[0] * (H_22 * t393
         + sine_1 * t392) - sine_2 * t393 * alphadot[1] - (omega_i_in_joint_j_0 * t388 + t389 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t390 + t391 * g_star_dot_f_j)) - alphadot[2] * t392));
     const jg_real t394 = C_j[1] * t377 + C_j[0] * t380 + C_j[2] * t373;
     const jg_real t395 = C_j[3] * t382 + C_j[4] * t371 + C_j[5] * t375;
-    const jg_real t396 = C_j[6] * t363 + C_j[7] * t358 + C_j[8] * t355;
-    jac_phi_q_v_A_j[16] = t391 * h_star_dot_h_j + omega_i_in_joint_j_1 * t392 - (t396 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t395) + (t117 * t394 + alphadot[0] * (t116 * t394 + sine_1 * t390) - alphadot[2] *
-        t390) - (omega_j_in_joint_j_1 * t392 - omega_j_in_joint_j_2 * t395);
-    jac_phi_q_v_A_j[17] = t396 * f_star_dot_f_j + omega_i_in_joint_j_2 * t394 - (t389 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t393) + (t124 * (cosine_2 * t388 - sine_2 * t395) - alphadot[1] * (cosine_2 * t395 +
-        sine_2 * t388)) - (omega_j_in_joint_j_2 * t394 - omega_j_in_joint_j_0 * t393);
+    const jg_real t396 = t363 * C_j[6] + t358 * C_j[7] + t355 * C_j[8];
     const jg_real t397 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
     const jg_real t398 = omega_i[1] * t397;
     const jg_real t399 = t398 * e_ij_in_j_0;
     const jg_real t400 = t399 + t273 + t274;
-    const jg_real t401 = e_ij_in_j_1 * t398 + t276 - t278 + t279;
+    const jg_real t401 = t398 * e_ij_in_j_1 + t276 - t278 + t279;
     const jg_real t402 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t403 = e_ij_in_j_0 * t277;
+    const jg_real t403 = t277 * e_ij_in_j_0;
     const jg_real t404 = v_i[1] * t397;
     const jg_real t405 = t403 - (t402 - e_ij_in_j_1 * t272) - t404;
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t400 + A_ji_0 * t401 + A_ji_2 * t405;
-    jac_phi_q_v_A_j[19] = t397 * v_3_in_j_2 + A_ji_5 * t405 + (A_ji_3 * t401 - t271 * v_3_in_j_0 - A_ji_4 * t400);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t400 + A_ji_6 * t401 + A_ji_8 * t405;
     const jg_real t406 = t397 * f_star_in_i_1;
     const jg_real t407 = t397 * h_star_in_i_1;
     const jg_real t408 = t297 + t406 * h_star_in_j_1 - (t407 * f_star_in_j_1 + t295);
@@ -1164,17 +1155,26 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t413 = f_star_in_j_0 * t296;
     const jg_real t414 = t412 - t285 * f_star_in_j_1 - (t413 - t291 * h_star_in_j_1);
     const jg_real t415 = C_j[3] * t408 + C_j[4] * t411 + C_j[5] * t414;
-    const jg_real t416 = C_j[1] * t277 - C_j[0] * t272 + C_j[2] * t398;
+    const jg_real t416 = t277 * C_j[1] - t272 * C_j[0] + t398 * C_j[2];
     const jg_real t417 = C_j[0] * t408 + C_j[1] * t411 + C_j[2] * t414;
-    const jg_real t418 = C_j[4] * t277 - C_j[3] * t272 + C_j[5] * t398;
+    const jg_real t418 = t277 * C_j[4] - t272 * C_j[3] + t398 * C_j[5];
     const jg_real t419 = C_j[7] * t296 - C_j[6] * t285 + C_j[8] * t407;
     const jg_real t420 = C_j[7] * t294 - C_j[6] * t291 + C_j[8] * t406;
+    const jg_real t421 = C_j[1] * t294 - C_j[0] * t291 + C_j[2] * t406;
+    const jg_real t422 = C_j[4] * t296 - C_j[3] * t285 + C_j[5] * t407;
+    const jg_real t423 = t277 * C_j[7] - t272 * C_j[6] + t398 * C_j[8];
+    jac_phi_q_v_A_j[16] = t391 * h_star_dot_h_j + omega_i_in_joint_j_1 * t392 - (t396 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t395) + (t117 * t394 + alphadot[0] * (t116 * t394 + sine_1 * t390) - alphadot[2] *
+        t390) - (omega_j_in_joint_j_1 * t392 - omega_j_in_joint_j_2 * t395);
+    jac_phi_q_v_A_j[17] = t396 * f_star_dot_f_j + omega_i_in_joint_j_2 * t394 - (t389 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t393) + (t124 * (cosine_2 * t388 - sine_2 * t395) - alphadot[1] * (cosine_2 * t395 +
+        sine_2 * t388)) - (omega_j_in_joint_j_2 * t394 - omega_j_in_joint_j_0 * t393);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t400 + A_ji_0 * t401 + A_ji_2 * t405;
+    jac_phi_q_v_A_j[19] = t397 * v_3_in_j_2 + A_ji_5 * t405 + (A_ji_3 * t401 - t271 * v_3_in_j_0 - A_ji_4 * t400);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t400 + A_ji_6 * t401 + A_ji_8 * t405;
     jac_phi_q_v_A_j[21] = -(omega_j_in_joint_j_0 * t415 - omega_j_in_joint_j_1 * t417 + (alphadot[0] * (H_22 * t420
         + sine_1 * t419) - sine_2 * t420 * alphadot[1] - (omega_i_in_joint_j_0 * t415 + t416 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t417 + t418 * g_star_dot_f_j)) - alphadot[2] * t419));
-    const jg_real t421 = C_j[1] * t294 - C_j[0] * t291 + C_j[2] * t406;
-    const jg_real t422 = C_j[4] * t296 - C_j[3] * t285 + C_j[5] * t407;
-    const jg_real t423 = C_j[7] * t277 - C_j[6] * t272 + C_j[8] * t398;
     jac_phi_q_v_A_j[22] = t418 * h_star_dot_h_j + omega_i_in_joint_j_1 * t419 - (t423 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t422) + (t117 * t421 + alphadot[0] * (t116 * t421 + sine_1 * t417) - alphadot[2] *
         t417) - (omega_j_in_joint_j_1 * t419 - omega_j_in_joint_j_2 * t422);
@@ -1185,14 +1185,11 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t425 = omega_i[1] * t424;
     const jg_real t426 = t425 * e_ij_in_j_0;
     const jg_real t427 = t426 + t316 + t317;
-    const jg_real t428 = e_ij_in_j_1 * t425 + t319 - t321 + t322;
+    const jg_real t428 = t425 * e_ij_in_j_1 + t319 - t321 + t322;
     const jg_real t429 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t430 = e_ij_in_j_0 * t320;
+    const jg_real t430 = t320 * e_ij_in_j_0;
     const jg_real t431 = v_i[1] * t424;
     const jg_real t432 = t430 - (t429 - e_ij_in_j_1 * t315) - t431;
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t427 + A_ji_0 * t428 + A_ji_2 * t432;
-    jac_phi_q_v_A_j[25] = t424 * v_3_in_j_2 + A_ji_5 * t432 + (A_ji_3 * t428 - t314 * v_3_in_j_0 - A_ji_4 * t427);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t427 + A_ji_6 * t428 + A_ji_8 * t432;
     const jg_real t433 = t424 * f_star_in_i_1;
     const jg_real t434 = t424 * h_star_in_i_1;
     const jg_real t435 = t340 + t433 * h_star_in_j_1 - (t434 * f_star_in_j_1 + t338);
@@ -1203,35 +1200,37 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t440 = f_star_in_j_0 * t339;
     const jg_real t441 = t439 - t328 * f_star_in_j_1 - (t440 - t334 * h_star_in_j_1);
     const jg_real t442 = C_j[3] * t435 + C_j[4] * t438 + C_j[5] * t441;
-    const jg_real t443 = C_j[1] * t320 - C_j[0] * t315 + C_j[2] * t425;
+    const jg_real t443 = t320 * C_j[1] - t315 * C_j[0] + t425 * C_j[2];
     const jg_real t444 = C_j[0] * t435 + C_j[1] * t438 + C_j[2] * t441;
-    const jg_real t445 = C_j[4] * t320 - C_j[3] * t315 + C_j[5] * t425;
+    const jg_real t445 = t320 * C_j[4] - t315 * C_j[3] + t425 * C_j[5];
     const jg_real t446 = C_j[7] * t339 - C_j[6] * t328 + C_j[8] * t434;
     const jg_real t447 = C_j[7] * t337 - C_j[6] * t334 + C_j[8] * t433;
+    const jg_real t448 = C_j[1] * t337 - C_j[0] * t334 + C_j[2] * t433;
+    const jg_real t449 = C_j[4] * t339 - C_j[3] * t328 + C_j[5] * t434;
+    const jg_real t450 = t320 * C_j[7] - t315 * C_j[6] + t425 * C_j[8];
+    const jg_real t451 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t452 = omega_i[1] * t451;
+    const jg_real t453 = t452 * e_ij_in_j_0;
+    const jg_real t454 = t453 + t359 + t360;
+    const jg_real t455 = t452 * e_ij_in_j_1 + t362 - t364 + t365;
+    const jg_real t456 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t457 = t363 * e_ij_in_j_0;
+    const jg_real t458 = v_i[1] * t451;
+    const jg_real t459 = t457 - (t456 - e_ij_in_j_1 * t358) - t458;
+    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t427 + A_ji_0 * t428 + A_ji_2 * t432;
+    jac_phi_q_v_A_j[25] = t424 * v_3_in_j_2 + A_ji_5 * t432 + (A_ji_3 * t428 - t314 * v_3_in_j_0 - A_ji_4 * t427);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t427 + A_ji_6 * t428 + A_ji_8 * t432;
     jac_phi_q_v_A_j[27] = -(omega_j_in_joint_j_0 * t442 - omega_j_in_joint_j_1 * t444 + (alphadot[0] * (H_22 * t447
         + sine_1 * t446) - sine_2 * t447 * alphadot[1] - (omega_i_in_joint_j_0 * t442 + t443 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t444 + t445 * g_star_dot_f_j)) - alphadot[2] * t446));
-    const jg_real t448 = C_j[1] * t337 - C_j[0] * t334 + C_j[2] * t433;
-    const jg_real t449 = C_j[4] * t339 - C_j[3] * t328 + C_j[5] * t434;
-    const jg_real t450 = C_j[7] * t320 - C_j[6] * t315 + C_j[8] * t425;
     jac_phi_q_v_A_j[28] = t445 * h_star_dot_h_j + omega_i_in_joint_j_1 * t446 - (t450 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t449) + (t117 * t448 + alphadot[0] * (t116 * t448 + sine_1 * t444) - alphadot[2] *
         t444) - (omega_j_in_joint_j_1 * t446 - omega_j_in_joint_j_2 * t449);
     jac_phi_q_v_A_j[29] = t450 * f_star_dot_f_j + omega_i_in_joint_j_2 * t448 - (t443 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t447) + (t124 * (cosine_2 * t442 - sine_2 * t449) - alphadot[1] * (cosine_2 * t449 +
         sine_2 * t442)) - (omega_j_in_joint_j_2 * t448 - omega_j_in_joint_j_0 * t447);
-    const jg_real t451 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t452 = omega_i[1] * t451;
-    const jg_real t453 = t452 * e_ij_in_j_0;
-    const jg_real t454 = t453 + t359 + t360;
-    const jg_real t455 = e_ij_in_j_1 * t452 + t362 - t364 + t365;
-    const jg_real t456 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t457 = e_ij_in_j_0 * t363;
-    const jg_real t458 = v_i[1] * t451;
-    const jg_real t459 = t457 - (t456 - e_ij_in_j_1 * t358) - t458;
     jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t454 + A_ji_0 * t455 + A_ji_2 * t459;
     jac_phi_q_v_A_j[31] = t451 * v_3_in_j_2 + A_ji_5 * t459 + (A_ji_3 * t455 - t357 * v_3_in_j_0 - A_ji_4 * t454);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t454 + A_ji_6 * t455 + A_ji_8 * t459;
     const jg_real t460 = t451 * f_star_in_i_1;
     const jg_real t461 = t451 * h_star_in_i_1;
     const jg_real t462 = t383 + t460 * h_star_in_j_1 - (t461 * f_star_in_j_1 + t381);
@@ -1242,71 +1241,72 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t467 = f_star_in_j_0 * t382;
     const jg_real t468 = t466 - t371 * f_star_in_j_1 - (t467 - t377 * h_star_in_j_1);
     const jg_real t469 = C_j[3] * t462 + C_j[4] * t465 + C_j[5] * t468;
-    const jg_real t470 = C_j[1] * t363 - C_j[0] * t358 + C_j[2] * t452;
+    const jg_real t470 = t363 * C_j[1] - t358 * C_j[0] + t452 * C_j[2];
     const jg_real t471 = C_j[0] * t462 + C_j[1] * t465 + C_j[2] * t468;
-    const jg_real t472 = C_j[4] * t363 - C_j[3] * t358 + C_j[5] * t452;
+    const jg_real t472 = t363 * C_j[4] - t358 * C_j[3] + t452 * C_j[5];
     const jg_real t473 = C_j[7] * t382 - C_j[6] * t371 + C_j[8] * t461;
     const jg_real t474 = C_j[7] * t380 - C_j[6] * t377 + C_j[8] * t460;
+    const jg_real t475 = C_j[1] * t380 - C_j[0] * t377 + C_j[2] * t460;
+    const jg_real t476 = C_j[4] * t382 - C_j[3] * t371 + C_j[5] * t461;
+    const jg_real t477 = t363 * C_j[7] - t358 * C_j[6] + t452 * C_j[8];
+    const jg_real t478 = t270 - t399 - t274;
+    const jg_real t479 = t282 - (t281 - t398 * e_ij_in_j_2) + t283;
+    const jg_real t480 = t402 - t269 * e_ij_in_j_2 - t403 + t404;
+    const jg_real t481 = t300 - t407 * f_star_in_j_2 - (t299 - t406 * h_star_in_j_2);
+    const jg_real t482 = t413 - t287 * h_star_in_j_2 - (t412 - t289 * f_star_in_j_2);
+    const jg_real t483 = t288 + t409 - (t290 + t410);
+    const jg_real t484 = C_j[3] * t481 + C_j[4] * t482 + C_j[5] * t483;
+    const jg_real t485 = t277 * C_j[2] - (t269 * C_j[0] + t398 * C_j[1]);
+    const jg_real t486 = C_j[0] * t481 + C_j[1] * t482 + C_j[2] * t483;
+    const jg_real t487 = t277 * C_j[5] - (t269 * C_j[3] + t398 * C_j[4]);
+    const jg_real t488 = C_j[8] * t296 - (C_j[7] * t407 + C_j[6] * t289);
+    const jg_real t489 = C_j[8] * t294 - (C_j[7] * t406 + C_j[6] * t287);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t454 + A_ji_6 * t455 + A_ji_8 * t459;
     jac_phi_q_v_A_j[33] = -(omega_j_in_joint_j_0 * t469 - omega_j_in_joint_j_1 * t471 + (alphadot[0] * (H_22 * t474
         + sine_1 * t473) - sine_2 * t474 * alphadot[1] - (omega_i_in_joint_j_0 * t469 + t470 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t471 + t472 * g_star_dot_f_j)) - alphadot[2] * t473));
-    const jg_real t475 = C_j[1] * t380 - C_j[0] * t377 + C_j[2] * t460;
-    const jg_real t476 = C_j[4] * t382 - C_j[3] * t371 + C_j[5] * t461;
-    const jg_real t477 = C_j[7] * t363 - C_j[6] * t358 + C_j[8] * t452;
     jac_phi_q_v_A_j[34] = t472 * h_star_dot_h_j + omega_i_in_joint_j_1 * t473 - (t477 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t476) + (t117 * t475 + alphadot[0] * (t116 * t475 + sine_1 * t471) - alphadot[2] *
         t471) - (omega_j_in_joint_j_1 * t473 - omega_j_in_joint_j_2 * t476);
     jac_phi_q_v_A_j[35] = t477 * f_star_dot_f_j + omega_i_in_joint_j_2 * t475 - (t470 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t474) + (t124 * (cosine_2 * t469 - sine_2 * t476) - alphadot[1] * (cosine_2 * t476 +
         sine_2 * t469)) - (omega_j_in_joint_j_2 * t475 - omega_j_in_joint_j_0 * t474);
-    const jg_real t478 = t270 - t399 - t274;
-    const jg_real t479 = t282 - (t281 - e_ij_in_j_2 * t398) + t283;
-    const jg_real t480 = t402 - e_ij_in_j_2 * t269 - t403 + t404;
     jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t478 + (A_ji_0 * t479 + A_ji_1 * t480);
     jac_phi_q_v_A_j[37] = A_ji_3 * t479 - t268 * v_3_in_j_0 + (A_ji_4 * t480 - t397 * v_3_in_j_1) + A_ji_5 * t478;
     jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t478 + (A_ji_6 * t479 + A_ji_7 * t480);
-    const jg_real t481 = t300 - t407 * f_star_in_j_2 - (t299 - t406 * h_star_in_j_2);
-    const jg_real t482 = t413 - t287 * h_star_in_j_2 - (t412 - t289 * f_star_in_j_2);
-    const jg_real t483 = t288 + t409 - (t290 + t410);
-    const jg_real t484 = C_j[3] * t481 + C_j[4] * t482 + C_j[5] * t483;
-    const jg_real t485 = C_j[2] * t277 - (C_j[0] * t269 + C_j[1] * t398);
-    const jg_real t486 = C_j[0] * t481 + C_j[1] * t482 + C_j[2] * t483;
-    const jg_real t487 = C_j[5] * t277 - (C_j[3] * t269 + C_j[4] * t398);
-    const jg_real t488 = C_j[8] * t296 - (C_j[7] * t407 + C_j[6] * t289);
-    const jg_real t489 = C_j[8] * t294 - (C_j[7] * t406 + C_j[6] * t287);
     jac_phi_q_v_A_j[39] = -(omega_j_in_joint_j_0 * t484 - omega_j_in_joint_j_1 * t486 + (alphadot[0] * (H_22 * t489
         + sine_1 * t488) - sine_2 * t489 * alphadot[1] - (omega_i_in_joint_j_0 * t484 + t485 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t486 + t487 * g_star_dot_f_j)) - alphadot[2] * t488));
     const jg_real t490 = C_j[2] * t294 - (C_j[1] * t406 + C_j[0] * t287);
     const jg_real t491 = C_j[5] * t296 - (C_j[3] * t289 + C_j[4] * t407);
-    const jg_real t492 = C_j[8] * t277 - (C_j[6] * t269 + C_j[7] * t398);
+    const jg_real t492 = t277 * C_j[8] - (t269 * C_j[6] + t398 * C_j[7]);
+    const jg_real t493 = t313 - t426 - t317;
+    const jg_real t494 = t325 - (t324 - t425 * e_ij_in_j_2) + t326;
+    const jg_real t495 = t429 - t312 * e_ij_in_j_2 - t430 + t431;
+    const jg_real t496 = t343 - t434 * f_star_in_j_2 - (t342 - t433 * h_star_in_j_2);
+    const jg_real t497 = t440 - t330 * h_star_in_j_2 - (t439 - t332 * f_star_in_j_2);
+    const jg_real t498 = t331 + t436 - (t333 + t437);
+    const jg_real t499 = C_j[3] * t496 + C_j[4] * t497 + C_j[5] * t498;
+    const jg_real t500 = t320 * C_j[2] - (t312 * C_j[0] + t425 * C_j[1]);
+    const jg_real t501 = C_j[0] * t496 + C_j[1] * t497 + C_j[2] * t498;
+    const jg_real t502 = t320 * C_j[5] - (t312 * C_j[3] + t425 * C_j[4]);
+    const jg_real t503 = C_j[8] * t339 - (C_j[7] * t434 + C_j[6] * t332);
+    const jg_real t504 = C_j[8] * t337 - (C_j[7] * t433 + C_j[6] * t330);
+    const jg_real t505 = C_j[2] * t337 - (C_j[1] * t433 + C_j[0] * t330);
+    const jg_real t506 = C_j[5] * t339 - (C_j[3] * t332 + C_j[4] * t434);
+    const jg_real t507 = t320 * C_j[8] - (t312 * C_j[6] + t425 * C_j[7]);
     jac_phi_q_v_A_j[40] = t487 * h_star_dot_h_j + omega_i_in_joint_j_1 * t488 - (t492 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t491) + (t117 * t490 + alphadot[0] * (t116 * t490 + sine_1 * t486) - alphadot[2] *
         t486) - (omega_j_in_joint_j_1 * t488 - omega_j_in_joint_j_2 * t491);
     jac_phi_q_v_A_j[41] = t492 * f_star_dot_f_j + omega_i_in_joint_j_2 * t490 - (t485 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t489) + (t124 * (cosine_2 * t484 - sine_2 * t491) - alphadot[1] * (cosine_2 * t491 +
         sine_2 * t484)) - (omega_j_in_joint_j_2 * t490 - omega_j_in_joint_j_0 * t489);
-    const jg_real t493 = t313 - t426 - t317;
-    const jg_real t494 = t325 - (t324 - e_ij_in_j_2 * t425) + t326;
-    const jg_real t495 = t429 - e_ij_in_j_2 * t312 - t430 + t431;
     jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t493 + (A_ji_0 * t494 + A_ji_1 * t495);
     jac_phi_q_v_A_j[43] = A_ji_3 * t494 - t311 * v_3_in_j_0 + (A_ji_4 * t495 - t424 * v_3_in_j_1) + A_ji_5 * t493;
     jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t493 + (A_ji_6 * t494 + A_ji_7 * t495);
-    const jg_real t496 = t343 - t434 * f_star_in_j_2 - (t342 - t433 * h_star_in_j_2);
-    const jg_real t497 = t440 - t330 * h_star_in_j_2 - (t439 - t332 * f_star_in_j_2);
-    const jg_real t498 = t331 + t436 - (t333 + t437);
-    const jg_real t499 = C_j[3] * t496 + C_j[4] * t497 + C_j[5] * t498;
-    const jg_real t500 = C_j[2] * t320 - (C_j[0] * t312 + C_j[1] * t425);
-    const jg_real t501 = C_j[0] * t496 + C_j[1] * t497 + C_j[2] * t498;
-    const jg_real t502 = C_j[5] * t320 - (C_j[3] * t312 + C_j[4] * t425);
-    const jg_real t503 = C_j[8] * t339 - (C_j[7] * t434 + C_j[6] * t332);
-    const jg_real t504 = C_j[8] * t337 - (C_j[7] * t433 + C_j[6] * t330);
     jac_phi_q_v_A_j[45] = -(omega_j_in_joint_j_0 * t499 - omega_j_in_joint_j_1 * t501 + (alphadot[0] * (H_22 * t504
         + sine_1 * t503) - sine_2 * t504 * alphadot[1] - (omega_i_in_joint_j_0 * t499 + t500 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t501 + t502 * g_star_dot_f_j)) - alphadot[2] * t503));
-    const jg_real t505 = C_j[2] * t337 - (C_j[1] * t433 + C_j[0] * t330);
-    const jg_real t506 = C_j[5] * t339 - (C_j[3] * t332 + C_j[4] * t434);
-    const jg_real t507 = C_j[8] * t320 - (C_j[6] * t312 + C_j[7] * t425);
     jac_phi_q_v_A_j[46] = t502 * h_star_dot_h_j + omega_i_in_joint_j_1 * t503 - (t507 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t506) + (t117 * t505 + alphadot[0] * (t116 * t505 + sine_1 * t501) - alphadot[2] *
         t501) - (omega_j_in_joint_j_1 * t503 - omega_j_in_joint_j_2 * t506);
@@ -1314,32 +1314,20 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         omega_i_in_joint_j_0 * t504) + (t124 * (cosine_2 * t499 - sine_2 * t506) - alphadot[1] * (cosine_2 * t506 +
         sine_2 * t499)) - (omega_j_in_joint_j_2 * t505 - omega_j_in_joint_j_0 * t504);
     const jg_real t508 = t356 - t453 - t360;
-    const jg_real t509 = t368 - (t367 - e_ij_in_j_2 * t452) + t369;
-    const jg_real t510 = t456 - e_ij_in_j_2 * t355 - t457 + t458;
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t508 + (A_ji_0 * t509 + A_ji_1 * t510);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t509 - t354 * v_3_in_j_0 + (A_ji_4 * t510 - t451 * v_3_in_j_1) + A_ji_5 * t508;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t508 + (A_ji_6 * t509 + A_ji_7 * t510);
+    const jg_real t509 = t368 - (t367 - t452 * e_ij_in_j_2) + t369;
+    const jg_real t510 = t456 - t355 * e_ij_in_j_2 - t457 + t458;
     const jg_real t511 = t386 - t461 * f_star_in_j_2 - (t385 - t460 * h_star_in_j_2);
     const jg_real t512 = t467 - t373 * h_star_in_j_2 - (t466 - t375 * f_star_in_j_2);
     const jg_real t513 = t374 + t463 - (t376 + t464);
     const jg_real t514 = C_j[3] * t511 + C_j[4] * t512 + C_j[5] * t513;
-    const jg_real t515 = C_j[2] * t363 - (C_j[0] * t355 + C_j[1] * t452);
+    const jg_real t515 = t363 * C_j[2] - (t355 * C_j[0] + t452 * C_j[1]);
     const jg_real t516 = C_j[0] * t511 + C_j[1] * t512 + C_j[2] * t513;
-    const jg_real t517 = C_j[5] * t363 - (C_j[3] * t355 + C_j[4] * t452);
+    const jg_real t517 = t363 * C_j[5] - (t355 * C_j[3] + t452 * C_j[4]);
     const jg_real t518 = C_j[8] * t382 - (C_j[7] * t461 + C_j[6] * t375);
     const jg_real t519 = C_j[8] * t380 - (C_j[7] * t460 + C_j[6] * t373);
-    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t514 - omega_j_in_joint_j_1 * t516 + (alphadot[0] * (H_22 * t519
-        + sine_1 * t518) - sine_2 * t519 * alphadot[1] - (omega_i_in_joint_j_0 * t514 + t515 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t516 + t517 * g_star_dot_f_j)) - alphadot[2] * t518));
     const jg_real t520 = C_j[2] * t380 - (C_j[1] * t460 + C_j[0] * t373);
     const jg_real t521 = C_j[5] * t382 - (C_j[3] * t375 + C_j[4] * t461);
-    const jg_real t522 = C_j[8] * t363 - (C_j[6] * t355 + C_j[7] * t452);
-    jac_phi_q_v_A_j[52] = t517 * h_star_dot_h_j + omega_i_in_joint_j_1 * t518 - (t522 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t521) + (t117 * t520 + alphadot[0] * (t116 * t520 + sine_1 * t516) - alphadot[2] *
-        t516) - (omega_j_in_joint_j_1 * t518 - omega_j_in_joint_j_2 * t521);
-    jac_phi_q_v_A_j[53] = t522 * f_star_dot_f_j + omega_i_in_joint_j_2 * t520 - (t515 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t519) + (t124 * (cosine_2 * t514 - sine_2 * t521) - alphadot[1] * (cosine_2 * t521 +
-        sine_2 * t514)) - (omega_j_in_joint_j_2 * t520 - omega_j_in_joint_j_0 * t519);
+    const jg_real t522 = t363 * C_j[8] - (t355 * C_j[6] + t452 * C_j[7]);
     const jg_real t523 = C_i[1] * t81 + C_i[4] * H_02;
     const jg_real t524 = C_i[0] * t81 + C_i[3] * H_02;
     const jg_real t525 = C_i[2] * t81 + C_i[5] * H_02;
@@ -1362,17 +1350,26 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t539 = C_j[0] * t533 + C_j[1] * t536 + C_j[2] * t537;
     const jg_real t540 = C_j[7] * t532 + C_j[6] * t534 + C_j[8] * t530;
     const jg_real t541 = C_j[7] * t526 + C_j[6] * t535 + C_j[8] * t531;
+    const jg_real t542 = C_j[1] * t532 + C_j[0] * t534 + C_j[2] * t530;
+    const jg_real t543 = C_j[3] * t535 + C_j[4] * t526 + C_j[5] * t531;
+    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t508 + (A_ji_0 * t509 + A_ji_1 * t510);
+    jac_phi_q_v_A_j[49] = A_ji_3 * t509 - t354 * v_3_in_j_0 + (A_ji_4 * t510 - t451 * v_3_in_j_1) + A_ji_5 * t508;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t508 + (A_ji_6 * t509 + A_ji_7 * t510);
+    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t514 - omega_j_in_joint_j_1 * t516 + (alphadot[0] * (H_22 * t519
+        + sine_1 * t518) - sine_2 * t519 * alphadot[1] - (omega_i_in_joint_j_0 * t514 + t515 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t516 + t517 * g_star_dot_f_j)) - alphadot[2] * t518));
+    jac_phi_q_v_A_j[52] = t517 * h_star_dot_h_j + omega_i_in_joint_j_1 * t518 - (t522 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t521) + (t117 * t520 + alphadot[0] * (t116 * t520 + sine_1 * t516) - alphadot[2] *
+        t516) - (omega_j_in_joint_j_1 * t518 - omega_j_in_joint_j_2 * t521);
+    jac_phi_q_v_A_j[53] = t522 * f_star_dot_f_j + omega_i_in_joint_j_2 * t520 - (t515 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t519) + (t124 * (cosine_2 * t514 - sine_2 * t521) - alphadot[1] * (cosine_2 * t521 +
+        sine_2 * t514)) - (omega_j_in_joint_j_2 * t520 - omega_j_in_joint_j_0 * t519);
     jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t538 - omega_j_in_joint_j_1 * t539 + (alphadot[0] * (H_22 * t540
         + sine_1 * t541) - sine_2 * t540 * alphadot[1] - (omega_i_in_joint_j_0 * t538 - omega_i_in_joint_j_1 * t539)
         - alphadot[2] * t541));
-    const jg_real t542 = C_j[1] * t532 + C_j[0] * t534 + C_j[2] * t530;
-    const jg_real t543 = C_j[3] * t535 + C_j[4] * t526 + C_j[5] * t531;
     jac_phi_q_v_alpha[1] = omega_i_in_joint_j_1 * t541 - omega_i_in_joint_j_2 * t543 + (t117 * t542 + alphadot[0] *
         (t116 * t542 + sine_1 * t539) - alphadot[2] * t539) - (omega_j_in_joint_j_1 * t541 - omega_j_in_joint_j_2 *
         t543);
-    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t542 - omega_i_in_joint_j_0 * t540 + (t124 * (cosine_2 * t538 -
-        sine_2 * t543) - alphadot[1] * (cosine_2 * t543 + sine_2 * t538)) - (omega_j_in_joint_j_2 * t542 -
-        omega_j_in_joint_j_0 * t540);
     const jg_real t544 = cosine_2 * H_00;
     const jg_real t545 = cosine_2 * H_10;
     const jg_real t546 = cosine_2 * sine_1;
@@ -1398,20 +1395,11 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t563 = C_j[0] * t557 + C_j[1] * t560 + C_j[2] * t561;
     const jg_real t564 = C_j[7] * t550 + C_j[6] * t559 + C_j[8] * t555;
     const jg_real t565 = C_j[7] * t556 + C_j[6] * t558 + C_j[8] * t554;
-    jac_phi_q_v_alpha[3] = -(omega_j_in_joint_j_0 * t562 - omega_j_in_joint_j_1 * t563 + (sine_2 * t565 *
-        alphadot[1] + alphadot[0] * (cosine_1 * h_star_dot_h_j + sine_1 * t564 - (t546 * f_star_dot_h_j + H_22 *
-        t565)) - (omega_i_in_joint_j_0 * t562 - omega_i_in_joint_j_1 * t563) - alphadot[2] * t564));
     const jg_real t566 = C_j[1] * t556 + C_j[0] * t558 + C_j[2] * t554;
     const jg_real t567 = C_j[3] * t559 + C_j[4] * t550 + C_j[5] * t555;
-    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t564 - omega_i_in_joint_j_2 * t567 + (alphadot[0] * (cosine_1 *
-        g_star_dot_f_j + sine_1 * t563 - (t116 * t566 + sine_2 * sine_1 * f_star_dot_f_j)) - t117 * t566 -
-        alphadot[2] * t563) - (omega_j_in_joint_j_1 * t564 - omega_j_in_joint_j_2 * t567);
     const jg_real t568 = cosine_2 * g_star_dot_g_j;
     const jg_real t569 = sine_2 * h_star_dot_g_j;
     const jg_real t570 = t568 - t569;
-    jac_phi_q_v_alpha[5] = omega_i_in_joint_j_0 * t565 - omega_i_in_joint_j_2 * t566 + (t124 * (cosine_2 * t562 -
-        sine_2 * t567) - alphadot[0] * sine_1 * t570 - alphadot[1] * (cosine_2 * t567 + sine_2 * t562)) -
-        (omega_j_in_joint_j_0 * t565 - omega_j_in_joint_j_2 * t566);
     const jg_real t571 = cosine_2 * sine_0 - sine_2 * t78;
     const jg_real t572 = cosine_2 * cosine_0 + sine_2 * t80;
     const jg_real t573 = C_i[1] * t571 - C_i[4] * t572 - C_i[7] * t116;
@@ -1426,17 +1414,9 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t582 = C_j[3] * t578 + C_j[4] * t580 + C_j[5] * t581;
     const jg_real t583 = C_j[0] * t578 + C_j[1] * t580 + C_j[2] * t581;
     const jg_real t584 = C_j[7] * t576 + C_j[6] * t579 + C_j[8] * t577;
-    jac_phi_q_v_alpha[6] = -(omega_j_in_joint_j_0 * t582 - omega_j_in_joint_j_1 * t583 + (alphadot[0] * (sine_1 *
-        t584 - t116 * f_star_dot_h_j) - cosine_2 * f_star_dot_h_j * alphadot[1] - (omega_i_in_joint_j_0 * t582 -
-        omega_i_in_joint_j_1 * t583) - alphadot[2] * t584));
     const jg_real t585 = C_j[3] * t579 + C_j[4] * t576 + C_j[5] * t577;
-    jac_phi_q_v_alpha[7] = omega_i_in_joint_j_1 * t584 - omega_i_in_joint_j_2 * t585 + (alphadot[0] * (H_22 *
-        f_star_dot_f_j + sine_1 * t583) - alphadot[1] * sine_2 * f_star_dot_f_j - alphadot[2] * t583) -
-        (omega_j_in_joint_j_1 * t584 - omega_j_in_joint_j_2 * t585);
     const jg_real t586 = sine_2 * g_star_dot_g_j;
     const jg_real t587 = cosine_2 * h_star_dot_g_j;
-    jac_phi_q_v_alpha[8] = t124 * (cosine_2 * t582 - t586 - (t587 + sine_2 * t585)) - alphadot[1] * (cosine_2 * t585
-        - t569 + (t568 + sine_2 * t582));
     const jg_real t588 = A_ji_1 * H_02;
     const jg_real t589 = A_ji_2 * H_00;
     const jg_real t590 = A_ji_2 * H_02;
@@ -1453,17 +1433,31 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t598 = C_j[0] * t592 + C_j[1] * t595 + C_j[2] * t596;
     const jg_real t599 = C_j[7] * t588 + C_j[6] * t594 + C_j[8] * t590;
     const jg_real t600 = C_j[7] * t591 + C_j[6] * t593 + C_j[8] * t589;
+    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t542 - omega_i_in_joint_j_0 * t540 + (t124 * (cosine_2 * t538 -
+        sine_2 * t543) - alphadot[1] * (cosine_2 * t543 + sine_2 * t538)) - (omega_j_in_joint_j_2 * t542 -
+        omega_j_in_joint_j_0 * t540);
+    jac_phi_q_v_alpha[3] = -(omega_j_in_joint_j_0 * t562 - omega_j_in_joint_j_1 * t563 + (sine_2 * t565 *
+        alphadot[1] + alphadot[0] * (cosine_1 * h_star_dot_h_j + sine_1 * t564 - (t546 * f_star_dot_h_j + H_22 *
+        t565)) - (omega_i_in_joint_j_0 * t562 - omega_i_in_joint_j_1 * t563) - alphadot[2] * t564));
+    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t564 - omega_i_in_joint_j_2 * t567 + (alphadot[0] * (cosine_1 *
+        g_star_dot_f_j + sine_1 * t563 - (t116 * t566 + sine_2 * sine_1 * f_star_dot_f_j)) - t117 * t566 -
+        alphadot[2] * t563) - (omega_j_in_joint_j_1 * t564 - omega_j_in_joint_j_2 * t567);
+    jac_phi_q_v_alpha[5] = omega_i_in_joint_j_0 * t565 - omega_i_in_joint_j_2 * t566 + (t124 * (cosine_2 * t562 -
+        sine_2 * t567) - alphadot[0] * sine_1 * t570 - alphadot[1] * (cosine_2 * t567 + sine_2 * t562)) -
+        (omega_j_in_joint_j_0 * t565 - omega_j_in_joint_j_2 * t566);
+    jac_phi_q_v_alpha[6] = -(omega_j_in_joint_j_0 * t582 - omega_j_in_joint_j_1 * t583 + (alphadot[0] * (sine_1 *
+        t584 - t116 * f_star_dot_h_j) - cosine_2 * f_star_dot_h_j * alphadot[1] - (omega_i_in_joint_j_0 * t582 -
+        omega_i_in_joint_j_1 * t583) - alphadot[2] * t584));
+    jac_phi_q_v_alpha[7] = omega_i_in_joint_j_1 * t584 - omega_i_in_joint_j_2 * t585 + (alphadot[0] * (H_22 *
+        f_star_dot_f_j + sine_1 * t583) - alphadot[1] * sine_2 * f_star_dot_f_j - alphadot[2] * t583) -
+        (omega_j_in_joint_j_1 * t584 - omega_j_in_joint_j_2 * t585);
+    jac_phi_q_v_alpha[8] = t124 * (cosine_2 * t582 - t586 - (t587 + sine_2 * t585)) - alphadot[1] * (cosine_2 * t585
+        - t569 + (t568 + sine_2 * t582));
     jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t597 - omega_j_in_joint_j_1 * t598 + (alphadot[0] * (H_22 *
         t600 + sine_1 * t599) - sine_2 * t600 * alphadot[1] - (omega_i_in_joint_j_0 * t597 - omega_i_in_joint_j_1 *
         t598) - alphadot[2] * t599));
     const jg_real t601 = C_j[1] * t591 + C_j[0] * t593 + C_j[2] * t589;
     const jg_real t602 = C_j[3] * t594 + C_j[4] * t588 + C_j[5] * t590;
-    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t599 - omega_i_in_joint_j_2 * t602 + (t117 * t601 + alphadot[0]
-        * (t116 * t601 + sine_1 * t598) - alphadot[2] * t598) - (omega_j_in_joint_j_1 * t599 - omega_j_in_joint_j_2
-        * t602);
-    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t601 - omega_i_in_joint_j_0 * t600 + (t124 * (cosine_2 * t597 -
-        sine_2 * t602) - alphadot[1] * (cosine_2 * t602 + sine_2 * t597)) - (omega_j_in_joint_j_2 * t601 -
-        omega_j_in_joint_j_0 * t600);
     const jg_real t603 = A_ji_4 * H_02;
     const jg_real t604 = A_ji_5 * H_00;
     const jg_real t605 = A_ji_5 * H_02;
@@ -1480,17 +1474,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t613 = C_j[0] * t607 + C_j[1] * t610 + C_j[2] * t611;
     const jg_real t614 = C_j[7] * t606 + C_j[6] * t608 + C_j[8] * t604;
     const jg_real t615 = C_j[7] * t603 + C_j[6] * t609 + C_j[8] * t605;
-    jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t612 - omega_j_in_joint_j_1 * t613 + (alphadot[0] * (H_22 *
-        t614 + sine_1 * t615) - sine_2 * t614 * alphadot[1] - (omega_i_in_joint_j_0 * t612 - omega_i_in_joint_j_1 *
-        t613) - alphadot[2] * t615));
     const jg_real t616 = C_j[1] * t606 + C_j[0] * t608 + C_j[2] * t604;
     const jg_real t617 = C_j[3] * t609 + C_j[4] * t603 + C_j[5] * t605;
-    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t615 - omega_i_in_joint_j_2 * t617 + (t117 * t616 + alphadot[0]
-        * (t116 * t616 + sine_1 * t613) - alphadot[2] * t613) - (omega_j_in_joint_j_1 * t615 - omega_j_in_joint_j_2
-        * t617);
-    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t616 - omega_i_in_joint_j_0 * t614 + (t124 * (cosine_2 * t612 -
-        sine_2 * t617) - alphadot[1] * (cosine_2 * t617 + sine_2 * t612)) - (omega_j_in_joint_j_2 * t616 -
-        omega_j_in_joint_j_0 * t614);
     const jg_real t618 = A_ji_7 * H_02;
     const jg_real t619 = A_ji_8 * H_00;
     const jg_real t620 = A_ji_8 * H_02;
@@ -1507,11 +1492,26 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t628 = C_j[0] * t622 + C_j[1] * t625 + C_j[2] * t626;
     const jg_real t629 = C_j[7] * t618 + C_j[6] * t624 + C_j[8] * t620;
     const jg_real t630 = C_j[7] * t621 + C_j[6] * t623 + C_j[8] * t619;
+    const jg_real t631 = C_j[1] * t621 + C_j[0] * t623 + C_j[2] * t619;
+    const jg_real t632 = C_j[3] * t624 + C_j[4] * t618 + C_j[5] * t620;
+    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t599 - omega_i_in_joint_j_2 * t602 + (t117 * t601 + alphadot[0]
+        * (t116 * t601 + sine_1 * t598) - alphadot[2] * t598) - (omega_j_in_joint_j_1 * t599 - omega_j_in_joint_j_2
+        * t602);
+    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t601 - omega_i_in_joint_j_0 * t600 + (t124 * (cosine_2 * t597 -
+        sine_2 * t602) - alphadot[1] * (cosine_2 * t602 + sine_2 * t597)) - (omega_j_in_joint_j_2 * t601 -
+        omega_j_in_joint_j_0 * t600);
+    jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t612 - omega_j_in_joint_j_1 * t613 + (alphadot[0] * (H_22 *
+        t614 + sine_1 * t615) - sine_2 * t614 * alphadot[1] - (omega_i_in_joint_j_0 * t612 - omega_i_in_joint_j_1 *
+        t613) - alphadot[2] * t615));
+    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t615 - omega_i_in_joint_j_2 * t617 + (t117 * t616 + alphadot[0]
+        * (t116 * t616 + sine_1 * t613) - alphadot[2] * t613) - (omega_j_in_joint_j_1 * t615 - omega_j_in_joint_j_2
+        * t617);
+    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t616 - omega_i_in_joint_j_0 * t614 + (t124 * (cosine_2 * t612 -
+        sine_2 * t617) - alphadot[1] * (cosine_2 * t617 + sine_2 * t612)) - (omega_j_in_joint_j_2 * t616 -
+        omega_j_in_joint_j_0 * t614);
     jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t627 - omega_j_in_joint_j_1 * t628 + (alphadot[0] * (H_22 *
         t630 + sine_1 * t629) - sine_2 * t630 * alphadot[1] - (omega_i_in_joint_j_0 * t627 - omega_i_in_joint_j_1 *
         t628) - alphadot[2] * t629));
-    const jg_real t631 = C_j[1] * t621 + C_j[0] * t623 + C_j[2] * t619;
-    const jg_real t632 = C_j[3] * t624 + C_j[4] * t618 + C_j[5] * t620;
     jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t629 - omega_i_in_joint_j_2 * t632 + (t117 * t631 + alphadot[0]
         * (t116 * t631 + sine_1 * t628) - alphadot[2] * t628) - (omega_j_in_joint_j_1 * t629 - omega_j_in_joint_j_2
         * t632);
@@ -1534,17 +1534,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t643 = C_j[0] * t637 + C_j[1] * t640 + C_j[2] * t641;
     const jg_real t644 = C_j[7] * t634 + C_j[6] * t639 + C_j[8] * t636;
     const jg_real t645 = C_j[7] * t635 + C_j[6] * t638 + C_j[8] * t633;
-    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t642 - omega_j_in_joint_j_1 * t643 + (alphadot[0] * (H_22 *
-        t645 - sine_1 * t644) - sine_2 * t645 * alphadot[1] - (omega_i_in_joint_j_0 * t642 - omega_i_in_joint_j_1 *
-        t643) + alphadot[2] * t644));
     const jg_real t646 = C_j[1] * t635 + C_j[0] * t638 + C_j[2] * t633;
     const jg_real t647 = C_j[3] * t639 + C_j[4] * t634 + C_j[5] * t636;
-    jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t647 - omega_i_in_joint_j_1 * t644 + (t117 * t646 +
-        alphadot[0] * (t116 * t646 + sine_1 * t643) - alphadot[2] * t643) - (omega_j_in_joint_j_2 * t647 -
-        omega_j_in_joint_j_1 * t644);
-    jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t646 - omega_i_in_joint_j_0 * t645 + (t124 * (sine_2 * t647 +
-        cosine_2 * t642) - alphadot[1] * (sine_2 * t642 - cosine_2 * t647)) - (omega_j_in_joint_j_2 * t646 -
-        omega_j_in_joint_j_0 * t645);
     const jg_real t648 = A_ji_5 * H_10;
     const jg_real t649 = A_ji_4 * t81;
     const jg_real t650 = A_ji_4 * H_10;
@@ -1561,17 +1552,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t658 = C_j[0] * t652 + C_j[1] * t655 + C_j[2] * t656;
     const jg_real t659 = C_j[7] * t650 + C_j[6] * t653 + C_j[8] * t648;
     const jg_real t660 = C_j[7] * t649 + C_j[6] * t654 + C_j[8] * t651;
-    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658 + (alphadot[0] * (H_22 *
-        t659 - sine_1 * t660) - sine_2 * t659 * alphadot[1] - (omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 *
-        t658) + alphadot[2] * t660));
     const jg_real t661 = C_j[1] * t650 + C_j[0] * t653 + C_j[2] * t648;
     const jg_real t662 = C_j[3] * t654 + C_j[4] * t649 + C_j[5] * t651;
-    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t662 - omega_i_in_joint_j_1 * t660 + (t117 * t661 +
-        alphadot[0] * (t116 * t661 + sine_1 * t658) - alphadot[2] * t658) - (omega_j_in_joint_j_2 * t662 -
-        omega_j_in_joint_j_1 * t660);
-    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t661 - omega_i_in_joint_j_0 * t659 + (t124 * (sine_2 * t662 +
-        cosine_2 * t657) - alphadot[1] * (sine_2 * t657 - cosine_2 * t662)) - (omega_j_in_joint_j_2 * t661 -
-        omega_j_in_joint_j_0 * t659);
     const jg_real t663 = A_ji_8 * H_10;
     const jg_real t664 = A_ji_7 * t81;
     const jg_real t665 = A_ji_7 * H_10;
@@ -1588,17 +1570,32 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t673 = C_j[0] * t667 + C_j[1] * t670 + C_j[2] * t671;
     const jg_real t674 = C_j[7] * t664 + C_j[6] * t669 + C_j[8] * t666;
     const jg_real t675 = C_j[7] * t665 + C_j[6] * t668 + C_j[8] * t663;
+    const jg_real t676 = C_j[1] * t665 + C_j[0] * t668 + C_j[2] * t663;
+    const jg_real t677 = C_j[3] * t669 + C_j[4] * t664 + C_j[5] * t666;
+    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t642 - omega_j_in_joint_j_1 * t643 + (alphadot[0] * (H_22 *
+        t645 - sine_1 * t644) - sine_2 * t645 * alphadot[1] - (omega_i_in_joint_j_0 * t642 - omega_i_in_joint_j_1 *
+        t643) + alphadot[2] * t644));
+    jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t647 - omega_i_in_joint_j_1 * t644 + (t117 * t646 +
+        alphadot[0] * (t116 * t646 + sine_1 * t643) - alphadot[2] * t643) - (omega_j_in_joint_j_2 * t647 -
+        omega_j_in_joint_j_1 * t644);
+    jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t646 - omega_i_in_joint_j_0 * t645 + (t124 * (sine_2 * t647 +
+        cosine_2 * t642) - alphadot[1] * (sine_2 * t642 - cosine_2 * t647)) - (omega_j_in_joint_j_2 * t646 -
+        omega_j_in_joint_j_0 * t645);
+    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658 + (alphadot[0] * (H_22 *
+        t659 - sine_1 * t660) - sine_2 * t659 * alphadot[1] - (omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 *
+        t658) + alphadot[2] * t660));
+    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t662 - omega_i_in_joint_j_1 * t660 + (t117 * t661 +
+        alphadot[0] * (t116 * t661 + sine_1 * t658) - alphadot[2] * t658) - (omega_j_in_joint_j_2 * t662 -
+        omega_j_in_joint_j_1 * t660);
+    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t661 - omega_i_in_joint_j_0 * t659 + (t124 * (sine_2 * t662 +
+        cosine_2 * t657) - alphadot[1] * (sine_2 * t657 - cosine_2 * t662)) - (omega_j_in_joint_j_2 * t661 -
+        omega_j_in_joint_j_0 * t659);
     jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t672 - omega_j_in_joint_j_1 * t673 + (alphadot[0] * (H_22 *
         t675 - sine_1 * t674) - sine_2 * t675 * alphadot[1] - (omega_i_in_joint_j_0 * t672 - omega_i_in_joint_j_1 *
         t673) + alphadot[2] * t674));
-    const jg_real t676 = C_j[1] * t665 + C_j[0] * t668 + C_j[2] * t663;
-    const jg_real t677 = C_j[3] * t669 + C_j[4] * t664 + C_j[5] * t666;
     jac_phi_q_v_geometry[16] = omega_i_in_joint_j_2 * t677 - omega_i_in_joint_j_1 * t674 + (t117 * t676 +
         alphadot[0] * (t116 * t676 + sine_1 * t673) - alphadot[2] * t673) - (omega_j_in_joint_j_2 * t677 -
         omega_j_in_joint_j_1 * t674);
-    jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t676 - omega_i_in_joint_j_0 * t675 + (t124 * (sine_2 * t677 +
-        cosine_2 * t672) - alphadot[1] * (sine_2 * t672 - cosine_2 * t677)) - (omega_j_in_joint_j_2 * t676 -
-        omega_j_in_joint_j_0 * t675);
     const jg_real t678 = A_ji_1 * H_22;
     const jg_real t679 = A_ji_2 * sine_1;
     const jg_real t680 = A_ji_2 * H_22;
@@ -1615,17 +1612,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t688 = C_j[0] * t682 + C_j[1] * t685 + C_j[2] * t686;
     const jg_real t689 = C_j[7] * t678 + C_j[6] * t684 + C_j[8] * t680;
     const jg_real t690 = C_j[7] * t681 + C_j[6] * t683 + C_j[8] * t679;
-    jac_phi_q_v_geometry[18] = -(omega_j_in_joint_j_0 * t687 - omega_j_in_joint_j_1 * t688 + (sine_2 * t690 *
-        alphadot[1] + alphadot[0] * (sine_1 * t689 - H_22 * t690) - (omega_i_in_joint_j_0 * t687 -
-        omega_i_in_joint_j_1 * t688) - alphadot[2] * t689));
     const jg_real t691 = C_j[1] * t681 + C_j[0] * t683 + C_j[2] * t679;
     const jg_real t692 = C_j[3] * t684 + C_j[4] * t678 + C_j[5] * t680;
-    jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t689 - omega_i_in_joint_j_2 * t692 + (alphadot[0] * (sine_1 *
-        t688 - t116 * t691) - t117 * t691 - alphadot[2] * t688) - (omega_j_in_joint_j_1 * t689 -
-        omega_j_in_joint_j_2 * t692);
-    jac_phi_q_v_geometry[20] = omega_i_in_joint_j_0 * t690 - omega_i_in_joint_j_2 * t691 + (t124 * (cosine_2 * t687
-        - sine_2 * t692) - alphadot[1] * (cosine_2 * t692 + sine_2 * t687)) - (omega_j_in_joint_j_0 * t690 -
-        omega_j_in_joint_j_2 * t691);
     const jg_real t693 = A_ji_4 * H_22;
     const jg_real t694 = A_ji_5 * sine_1;
     const jg_real t695 = A_ji_5 * H_22;
@@ -1642,17 +1630,8 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t703 = C_j[0] * t697 + C_j[1] * t700 + C_j[2] * t701;
     const jg_real t704 = C_j[7] * t693 + C_j[6] * t699 + C_j[8] * t695;
     const jg_real t705 = C_j[7] * t696 + C_j[6] * t698 + C_j[8] * t694;
-    jac_phi_q_v_geometry[21] = -(omega_j_in_joint_j_0 * t702 - omega_j_in_joint_j_1 * t703 + (sine_2 * t705 *
-        alphadot[1] + alphadot[0] * (sine_1 * t704 - H_22 * t705) - (omega_i_in_joint_j_0 * t702 -
-        omega_i_in_joint_j_1 * t703) - alphadot[2] * t704));
     const jg_real t706 = C_j[1] * t696 + C_j[0] * t698 + C_j[2] * t694;
     const jg_real t707 = C_j[3] * t699 + C_j[4] * t693 + C_j[5] * t695;
-    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t704 - omega_i_in_joint_j_2 * t707 + (alphadot[0] * (sine_1 *
-        t703 - t116 * t706) - t117 * t706 - alphadot[2] * t703) - (omega_j_in_joint_j_1 * t704 -
-        omega_j_in_joint_j_2 * t707);
-    jac_phi_q_v_geometry[23] = omega_i_in_joint_j_0 * t705 - omega_i_in_joint_j_2 * t706 + (t124 * (cosine_2 * t702
-        - sine_2 * t707) - alphadot[1] * (cosine_2 * t707 + sine_2 * t702)) - (omega_j_in_joint_j_0 * t705 -
-        omega_j_in_joint_j_2 * t706);
     const jg_real t708 = A_ji_7 * H_22;
     const jg_real t709 = A_ji_8 * sine_1;
     const jg_real t710 = A_ji_8 * H_22;
@@ -1669,23 +1648,44 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t718 = C_j[0] * t712 + C_j[1] * t715 + C_j[2] * t716;
     const jg_real t719 = C_j[7] * t708 + C_j[6] * t714 + C_j[8] * t710;
     const jg_real t720 = C_j[7] * t711 + C_j[6] * t713 + C_j[8] * t709;
+    jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t676 - omega_i_in_joint_j_0 * t675 + (t124 * (sine_2 * t677 +
+        cosine_2 * t672) - alphadot[1] * (sine_2 * t672 - cosine_2 * t677)) - (omega_j_in_joint_j_2 * t676 -
+        omega_j_in_joint_j_0 * t675);
+    jac_phi_q_v_geometry[18] = -(omega_j_in_joint_j_0 * t687 - omega_j_in_joint_j_1 * t688 + (sine_2 * t690 *
+        alphadot[1] + alphadot[0] * (sine_1 * t689 - H_22 * t690) - (omega_i_in_joint_j_0 * t687 -
+        omega_i_in_joint_j_1 * t688) - alphadot[2] * t689));
+    jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t689 - omega_i_in_joint_j_2 * t692 + (alphadot[0] * (sine_1 *
+        t688 - t116 * t691) - t117 * t691 - alphadot[2] * t688) - (omega_j_in_joint_j_1 * t689 -
+        omega_j_in_joint_j_2 * t692);
+    jac_phi_q_v_geometry[20] = omega_i_in_joint_j_0 * t690 - omega_i_in_joint_j_2 * t691 + (t124 * (cosine_2 * t687
+        - sine_2 * t692) - alphadot[1] * (cosine_2 * t692 + sine_2 * t687)) - (omega_j_in_joint_j_0 * t690 -
+        omega_j_in_joint_j_2 * t691);
+    jac_phi_q_v_geometry[21] = -(omega_j_in_joint_j_0 * t702 - omega_j_in_joint_j_1 * t703 + (sine_2 * t705 *
+        alphadot[1] + alphadot[0] * (sine_1 * t704 - H_22 * t705) - (omega_i_in_joint_j_0 * t702 -
+        omega_i_in_joint_j_1 * t703) - alphadot[2] * t704));
+    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t704 - omega_i_in_joint_j_2 * t707 + (alphadot[0] * (sine_1 *
+        t703 - t116 * t706) - t117 * t706 - alphadot[2] * t703) - (omega_j_in_joint_j_1 * t704 -
+        omega_j_in_joint_j_2 * t707);
+    jac_phi_q_v_geometry[23] = omega_i_in_joint_j_0 * t705 - omega_i_in_joint_j_2 * t706 + (t124 * (cosine_2 * t702
+        - sine_2 * t707) - alphadot[1] * (cosine_2 * t707 + sine_2 * t702)) - (omega_j_in_joint_j_0 * t705 -
+        omega_j_in_joint_j_2 * t706);
     jac_phi_q_v_geometry[24] = -(omega_j_in_joint_j_0 * t717 - omega_j_in_joint_j_1 * t718 + (sine_2 * t720 *
         alphadot[1] + alphadot[0] * (sine_1 * t719 - H_22 * t720) - (omega_i_in_joint_j_0 * t717 -
         omega_i_in_joint_j_1 * t718) - alphadot[2] * t719));
     const jg_real t721 = C_j[1] * t711 + C_j[0] * t713 + C_j[2] * t709;
     const jg_real t722 = C_j[3] * t714 + C_j[4] * t708 + C_j[5] * t710;
+    const jg_real t723 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t724 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t725 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[25] = omega_i_in_joint_j_1 * t719 - omega_i_in_joint_j_2 * t722 + (alphadot[0] * (sine_1 *
         t718 - t116 * t721) - t117 * t721 - alphadot[2] * t718) - (omega_j_in_joint_j_1 * t719 -
         omega_j_in_joint_j_2 * t722);
     jac_phi_q_v_geometry[26] = omega_i_in_joint_j_0 * t720 - omega_i_in_joint_j_2 * t721 + (t124 * (cosine_2 * t717
         - sine_2 * t722) - alphadot[1] * (cosine_2 * t722 + sine_2 * t717)) - (omega_j_in_joint_j_0 * t720 -
         omega_j_in_joint_j_2 * t721);
-    const jg_real t723 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t724 = omega_j[1] - omega_i_in_j_1;
     jac_phi_q_v_geometry[27] = -(A_ji_1 * t723 + A_ji_2 * t724);
     jac_phi_q_v_geometry[28] = -(A_ji_4 * t723 + A_ji_5 * t724);
     jac_phi_q_v_geometry[29] = -(A_ji_7 * t723 + A_ji_8 * t724);
-    const jg_real t725 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[30] = A_ji_0 * t723 - A_ji_2 * t725;
     jac_phi_q_v_geometry[31] = A_ji_3 * t723 - A_ji_5 * t725;
     jac_phi_q_v_geometry[32] = A_ji_6 * t723 - A_ji_8 * t725;
@@ -1734,6 +1734,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         (omega_j_in_joint_j_1 * h_star_in_j_0 - omega_j[0] * h_star_dot_g_j);
     jac_phi_q_v_geometry[56] = omega_i_in_j_0 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_0 - (omega_j[0]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_0);
+    const jg_real t726 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_geometry[57] = alphadot[2] * h_star_in_j_1 - (alphadot[0] * (H_22 * f_star_in_j_1 + sine_1 *
         h_star_in_j_1) - sine_2 * f_star_in_j_1 * alphadot[1]);
     jac_phi_q_v_geometry[58] = omega_i_in_joint_j_1 * h_star_in_j_1 - omega_i_in_j_1 * h_star_dot_g_j -
@@ -1747,54 +1748,53 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_q_v_geometry[62] = omega_i_in_j_2 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_2 - (omega_j[2]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_2);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t726 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_velocity[1] = t726;
     jac_phi_q_v_velocity[3] = t726;
     const jg_real t727 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
-    jac_phi_q_v_velocity[2] = t727;
-    jac_phi_q_v_velocity[6] = t727;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
     const jg_real t728 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t728;
-    jac_phi_q_v_velocity[7] = t728;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t729 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t730 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t731 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[2] = t727;
+    jac_phi_q_v_velocity[6] = t727;
+    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
+    jac_phi_q_v_velocity[5] = t728;
+    jac_phi_q_v_velocity[7] = t728;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t729 + A_ji_1 * t730 + A_ji_2 * t731;
     jac_phi_q_v_velocity[10] = A_ji_3 * t729 + A_ji_4 * t730 + A_ji_5 * t731;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t729 + A_ji_7 * t730 + A_ji_8 * t731;
     const jg_real t732 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
     const jg_real t733 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    jac_phi_q_v_velocity[12] = t732 * g_star_dot_g_j - t733 * g_star_dot_f_j;
     const jg_real t734 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    jac_phi_q_v_velocity[13] = t733 * h_star_dot_h_j - t734 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[14] = t734 * f_star_dot_f_j - t732 * f_star_dot_h_j;
     const jg_real t735 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
     const jg_real t736 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
     const jg_real t737 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    const jg_real t738 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real t739 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    jac_phi_q_v_velocity[11] = A_ji_6 * t729 + A_ji_7 * t730 + A_ji_8 * t731;
+    jac_phi_q_v_velocity[12] = t732 * g_star_dot_g_j - t733 * g_star_dot_f_j;
+    jac_phi_q_v_velocity[13] = t733 * h_star_dot_h_j - t734 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[14] = t734 * f_star_dot_f_j - t732 * f_star_dot_h_j;
     jac_phi_q_v_velocity[15] = A_ji_0 * t735 + A_ji_1 * t736 + A_ji_2 * t737;
     jac_phi_q_v_velocity[16] = A_ji_3 * t735 + A_ji_4 * t736 + A_ji_5 * t737;
     jac_phi_q_v_velocity[17] = A_ji_6 * t735 + A_ji_7 * t736 + A_ji_8 * t737;
-    const jg_real t738 = C_j[0] * A_ji_3 + C_j[1] * A_ji_4 + A_ji_5 * C_j[2];
-    const jg_real t739 = C_j[3] * A_ji_3 + C_j[4] * A_ji_4 + A_ji_5 * C_j[5];
     jac_phi_q_v_velocity[18] = t738 * g_star_dot_g_j - t739 * g_star_dot_f_j;
     const jg_real t740 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    jac_phi_q_v_velocity[19] = t739 * h_star_dot_h_j - t740 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[20] = t740 * f_star_dot_f_j - t738 * f_star_dot_h_j;
     const jg_real t741 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
     const jg_real t742 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
     const jg_real t743 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    const jg_real t744 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real t745 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real t746 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    jac_phi_q_v_velocity[19] = t739 * h_star_dot_h_j - t740 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[20] = t740 * f_star_dot_f_j - t738 * f_star_dot_h_j;
     jac_phi_q_v_velocity[21] = A_ji_0 * t741 + A_ji_1 * t742 + A_ji_2 * t743;
     jac_phi_q_v_velocity[22] = A_ji_3 * t741 + A_ji_4 * t742 + A_ji_5 * t743;
     jac_phi_q_v_velocity[23] = A_ji_6 * t741 + A_ji_7 * t742 + A_ji_8 * t743;
-    const jg_real t744 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real t745 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
     jac_phi_q_v_velocity[24] = t744 * g_star_dot_g_j - t745 * g_star_dot_f_j;
-    const jg_real t746 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     jac_phi_q_v_velocity[25] = t745 * h_star_dot_h_j - t746 * h_star_dot_g_j;
     jac_phi_q_v_velocity[26] = t746 * f_star_dot_f_j - t744 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
     jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_v_velocity[39] = C_j[3] * g_star_dot_f_j - C_j[0] * g_star_dot_g_j;
@@ -1806,7 +1806,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_q_v_velocity[45] = C_j[4] * g_star_dot_f_j - C_j[1] * g_star_dot_g_j;
     jac_phi_q_v_velocity[46] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
     jac_phi_q_v_velocity[47] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
     jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_v_velocity[51] = C_j[5] * g_star_dot_f_j - C_j[2] * g_star_dot_g_j;
@@ -1834,131 +1834,135 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     const jg_real *const C_j = geometry + 15;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
-    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
+    jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     jac_phi_q_t_lambda_geometry[89] = lambda_0_1_2_in_j_2;
     const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
-    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[85] = lambda_0_1_2_in_j_1;
     const jg_real t10 = A_j[3] * lambda_0_1_2_in_j_2 - A_j[6] * lambda_0_1_2_in_j_1;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[95] = lambda_0_1_2_in_j_0;
     const jg_real t13 = A_j[6] * lambda_0_1_2_in_j_0 - A_j[0] * lambda_0_1_2_in_j_2;
     const jg_real t14 = A_j[0] * lambda_0_1_2_in_j_1 - A_j[3] * lambda_0_1_2_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_t_lambda_r_i[0] = t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_t_lambda_r_i[1] = t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_t_lambda_r_i[2] = t17;
     const jg_real t18 = A_j[4] * lambda_0_1_2_in_j_2 - A_j[7] * lambda_0_1_2_in_j_1;
     const jg_real t19 = A_j[7] * lambda_0_1_2_in_j_0 - A_j[1] * lambda_0_1_2_in_j_2;
     const jg_real t20 = A_j[1] * lambda_0_1_2_in_j_1 - A_j[4] * lambda_0_1_2_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
+    jac_phi_q_t_lambda_geometry[85] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
+    jac_phi_q_t_lambda_geometry[95] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_r_i[0] = t15;
+    jac_phi_q_t_lambda_r_i[1] = t16;
+    jac_phi_q_t_lambda_r_i[2] = t17;
     jac_phi_q_t_lambda_r_i[3] = t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_t_lambda_r_i[4] = t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_t_lambda_r_i[5] = t23;
     const jg_real t24 = A_j[5] * lambda_0_1_2_in_j_2 - A_j[8] * lambda_0_1_2_in_j_1;
     const jg_real t25 = A_j[8] * lambda_0_1_2_in_j_0 - A_j[2] * lambda_0_1_2_in_j_2;
     const jg_real t26 = A_j[2] * lambda_0_1_2_in_j_1 - A_j[5] * lambda_0_1_2_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
-    jac_phi_q_t_lambda_r_i[6] = t27;
     const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
-    jac_phi_q_t_lambda_r_i[7] = t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_t_lambda_r_i[8] = t29;
+    const jg_real t30 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[2], &sine_1, &cosine_1);
+    const jg_real t35 = sine_0 * cosine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[1], &sine_2, &cosine_2);
-    const jg_real t36 = cosine_0 * sine_2;
-    const jg_real t37 = sine_0 * cosine_1 - sine_1 * t36;
-    const jg_real t38 = sine_0 * sine_2;
-    /* H_11 =  */
-    const jg_real H_11 = cosine_0 * cosine_1 + sine_1 * t38;
-    /* H_21 =  */
-    const jg_real H_21 = sine_1 * cosine_2;
-    const jg_real t41 = C_i[1] * t37 - C_i[4] * H_11 - C_i[7] * H_21;
-    const jg_real t42 = C_i[0] * t37 - C_i[3] * H_11 - C_i[6] * H_21;
-    const jg_real t43 = C_i[2] * t37 - C_i[5] * H_11 - C_i[8] * H_21;
-    const jg_real t44 = A_ji_3 * t41 + A_ji_0 * t42 + A_ji_6 * t43;
-    const jg_real t45 = A_ji_4 * t41 + A_ji_1 * t42 + A_ji_7 * t43;
-    const jg_real t46 = A_ji_5 * t41 + A_ji_2 * t42 + A_ji_8 * t43;
-    const jg_real t47 = C_j[3] * t44 + C_j[4] * t45 + C_j[5] * t46;
-    const jg_real t48 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real t38 = cosine_0 * sine_1;
+    const jg_real t39 = t35 * sine_2 - t38;
+    const jg_real t40 = sine_0 * sine_1;
+    const jg_real t41 = cosine_0 * cosine_1;
     /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1 + cosine_1 * t36;
-    const jg_real t50 = cosine_0 * sine_1 - cosine_1 * t38;
+    const jg_real H_02 = t40 + t41 * sine_2;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t50 + C_i[7] * H_22;
-    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t50 + C_i[6] * H_22;
-    const jg_real t54 = t48 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
-    const jg_real t55 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t56 = t55 * h_star_in_i_1 + A_j[3] * h_star_in_i_0;
-    const jg_real t57 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t58 = t57 * h_star_in_i_1 + A_j[6] * h_star_in_i_0;
-    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t50 + C_i[8] * H_22;
+    const jg_real h_star_in_i_1 = C_i[4] * t39 + C_i[1] * H_02 + C_i[7] * H_22;
+    const jg_real h_star_in_i_0 = C_i[3] * t39 + C_i[0] * H_02 + C_i[6] * H_22;
+    const jg_real t46 = t30 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
+    const jg_real t47 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t48 = t47 * h_star_in_i_1 + A_j[3] * h_star_in_i_0;
+    const jg_real t49 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    const jg_real t50 = t49 * h_star_in_i_1 + A_j[6] * h_star_in_i_0;
+    const jg_real t51 = C_j[3] * t46 + C_j[4] * t48 + C_j[5] * t50;
+    /* H_11 =  */
+    const jg_real H_11 = t41 + t40 * sine_2;
+    /* H_01 =  */
+    const jg_real H_01 = t38 * sine_2 - t35;
+    /* H_21 =  */
+    const jg_real H_21 = sine_1 * cosine_2;
+    /* g_star_in_i = g_star, axes of body i */
+    const jg_real g_star_in_i_1 = C_i[4] * H_11 + C_i[1] * H_01 + C_i[7] * H_21;
+    const jg_real g_star_in_i_0 = C_i[3] * H_11 + C_i[0] * H_01 + C_i[6] * H_21;
+    const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
+    /* g_star_in_j = g_star, axes of body j */
+    const jg_real g_star_in_j_0 = A_ji_3 * g_star_in_i_1 + A_ji_0 * g_star_in_i_0 + A_ji_6 * g_star_in_i_2;
+    const jg_real g_star_in_j_1 = A_ji_4 * g_star_in_i_1 + A_ji_1 * g_star_in_i_0 + A_ji_7 * g_star_in_i_2;
+    const jg_real g_star_in_j_2 = A_ji_5 * g_star_in_i_1 + A_ji_2 * g_star_in_i_0 + A_ji_8 * g_star_in_i_2;
+    /* g_star_in_joint_j = g_star, axes of joint j */
+    const jg_real g_star_in_joint_j_0 = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
+    const jg_real h_star_in_i_2 = C_i[2] * H_02 + C_i[5] * t39 + C_i[8] * H_22;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = A_ji_3 * h_star_in_i_1 + A_ji_0 * h_star_in_i_0 + A_ji_6 * h_star_in_i_2;
     const jg_real h_star_in_j_1 = A_ji_4 * h_star_in_i_1 + A_ji_1 * h_star_in_i_0 + A_ji_7 * h_star_in_i_2;
     const jg_real h_star_in_j_2 = A_ji_5 * h_star_in_i_1 + A_ji_2 * h_star_in_i_0 + A_ji_8 * h_star_in_i_2;
     /* h_star_in_joint_j = h_star, axes of joint j */
-    const jg_real h_star_in_joint_j_0 = C_j[0] * h_star_in_j_0 + C_j[1] * h_star_in_j_1 + C_j[2] * h_star_in_j_2;
-    const jg_real t64 = t48 * t41 + A_j[0] * t42;
-    const jg_real t65 = t55 * t41 + A_j[3] * t42;
-    const jg_real t66 = t57 * t41 + A_j[6] * t42;
-    const jg_real t67 = C_j[3] * t64 + C_j[4] * t65 + C_j[5] * t66;
-    const jg_real t68 = C_j[3] * t54 + C_j[4] * t56 + C_j[5] * t58;
-    const jg_real t69 = C_j[0] * t44 + C_j[1] * t45 + C_j[2] * t46;
-    jac_phi_q_t_lambda_lambda[47] = t69;
     const jg_real h_star_in_joint_j_1 = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
-    const jg_real t71 = C_j[0] * t64 + C_j[1] * t65 + C_j[2] * t66;
-    const jg_real t72 = t47 * (C_j[0] * t54 + C_j[1] * t56 + C_j[2] * t58) + h_star_in_joint_j_0 * t67 - (t68 * t69
-        + h_star_in_joint_j_1 * t71);
-    const jg_real t73 = lambda[5] * t72;
-    const jg_real t74 = C_j[6] * t44 + C_j[7] * t45 + C_j[8] * t46;
-    const jg_real t75 = C_j[6] * t54 + C_j[7] * t56 + C_j[8] * t58;
+    const jg_real t67 = t30 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
+    const jg_real t68 = t47 * g_star_in_i_1 + A_j[3] * g_star_in_i_0;
+    const jg_real t69 = t49 * g_star_in_i_1 + A_j[6] * g_star_in_i_0;
+    const jg_real t70 = C_j[0] * t67 + C_j[1] * t68 + C_j[2] * t69;
+    const jg_real g_star_in_joint_j_1 = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
+    const jg_real h_star_in_joint_j_0 = C_j[0] * h_star_in_j_0 + C_j[1] * h_star_in_j_1 + C_j[2] * h_star_in_j_2;
+    const jg_real t73 = C_j[3] * t67 + C_j[4] * t68 + C_j[5] * t69;
+    const jg_real t74 = t51 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t70 - (g_star_in_joint_j_1 * (C_j[0] * t46
+        + C_j[1] * t48 + C_j[2] * t50) + h_star_in_joint_j_0 * t73);
+    const jg_real t75 = lambda[5] * t74;
     const jg_real h_star_in_joint_j_2 = C_j[6] * h_star_in_j_0 + C_j[7] * h_star_in_j_1 + C_j[8] * h_star_in_j_2;
+    const jg_real t77 = C_j[6] * t46 + C_j[7] * t48 + C_j[8] * t50;
+    const jg_real g_star_in_joint_j_2 = C_j[6] * g_star_in_j_0 + C_j[7] * g_star_in_j_1 + C_j[8] * g_star_in_j_2;
+    const jg_real t79 = h_star_in_joint_j_2 * t73 + g_star_in_joint_j_1 * t77 - (t51 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t67 + C_j[7] * t68 + C_j[8] * t69));
+    const jg_real t80 = lambda[5] * t79;
+    const jg_real t81 = lambda[4] * t51;
+    const jg_real t82 = lambda[4] * t77;
+    const jg_real t83 = lambda[0] * A_j[6] + lambda[1] * t49;
+    const jg_real t84 = lambda[0] * A_j[3] + lambda[1] * t47;
+    jac_phi_q_t_lambda_r_i[4] = t22;
+    jac_phi_q_t_lambda_r_i[5] = t23;
+    jac_phi_q_t_lambda_r_i[6] = t27;
+    jac_phi_q_t_lambda_r_i[7] = t28;
+    jac_phi_q_t_lambda_r_i[8] = t29;
     jac_phi_q_t_lambda_lambda[38] = h_star_in_joint_j_2;
-    const jg_real t77 = t68 * t74 + h_star_in_joint_j_1 * (C_j[6] * t64 + C_j[7] * t65 + C_j[8] * t66) - (t47 * t75
-        + h_star_in_joint_j_2 * t67);
-    const jg_real t78 = lambda[5] * t77;
-    const jg_real t79 = lambda[4] * t68;
-    const jg_real t80 = lambda[4] * t75;
-    const jg_real t81 = lambda[0] * A_j[6] + lambda[1] * t57;
-    jac_phi_q_t_lambda_A_i[5] = t81;
-    const jg_real t82 = lambda[0] * A_j[3] + lambda[1] * t55;
-    jac_phi_q_t_lambda_A_i[4] = t82;
-    const jg_real t83 = lambda[3] * t67;
-    const jg_real t84 = lambda[3] * t71;
-    const jg_real t85 = C_j[0] * t83 - C_j[3] * t84 + (s_j[1] * t81 - s_j[2] * t82 + (C_j[6] * t79 - C_j[3] * t80) +
-        (C_j[0] * t73 - C_j[6] * t78));
-    jac_phi_q_t_lambda_A_i[6] = t85;
+    jac_phi_q_t_lambda_A_i[5] = t83;
+    jac_phi_q_t_lambda_A_i[4] = t84;
+    const jg_real t85 = lambda[3] * t70;
+    const jg_real t86 = lambda[3] * t73;
+    const jg_real t87 = C_j[3] * t85 - C_j[0] * t86 + (s_j[1] * t83 - s_j[2] * t84 + (C_j[6] * t81 - C_j[3] * t82) +
+        (C_j[0] * t75 - C_j[6] * t80));
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -1966,327 +1970,352 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
-    const jg_real t91 = v_0_in_j_1 * t81 - v_0_in_j_2 * t82 + t85;
+    const jg_real t93 = v_0_in_j_1 * t83 - v_0_in_j_2 * t84 + t87;
     /* f_star_in_joint_j = f_star, axes of joint j */
-    const jg_real f_star_in_joint_j_2 = t47 * h_star_in_joint_j_0 - h_star_in_joint_j_1 * t69;
+    const jg_real f_star_in_joint_j_2 = h_star_in_joint_j_1 * g_star_in_joint_j_0 - g_star_in_joint_j_1 *
+        h_star_in_joint_j_0;
     /* v_3_in_joint_j = lambda_5 g_j x f_star, axes of joint j */
     const jg_real v_3_in_joint_j = lambda[5] * f_star_in_joint_j_2;
-    const jg_real f_star_in_joint_j_0 = h_star_in_joint_j_1 * t74 - t47 * h_star_in_joint_j_2;
-    const jg_real t95 = lambda[5] * f_star_in_joint_j_0;
+    const jg_real f_star_in_joint_j_0 = g_star_in_joint_j_1 * h_star_in_joint_j_2 - h_star_in_joint_j_1 *
+        g_star_in_joint_j_2;
+    const jg_real t97 = lambda[5] * f_star_in_joint_j_0;
     /* v_3_in_j = lambda_5 g_j x f_star, axes of body j */
-    const jg_real v_3_in_j_0 = C_j[0] * v_3_in_joint_j - C_j[6] * t95;
+    const jg_real v_3_in_j_0 = C_j[0] * v_3_in_joint_j - C_j[6] * t97;
     /* v_2_in_joint_j = lambda_4 f_j x h_star, axes of joint j */
     const jg_real v_2_in_joint_j_2 = lambda[4] * h_star_in_joint_j_1;
-    const jg_real t98 = lambda[4] * h_star_in_joint_j_2;
+    const jg_real t100 = lambda[4] * h_star_in_joint_j_2;
     /* v_2_in_j = lambda_4 f_j x h_star, axes of body j */
-    const jg_real v_2_in_j_0 = C_j[6] * v_2_in_joint_j_2 - C_j[3] * t98;
+    const jg_real v_2_in_j_0 = C_j[6] * v_2_in_joint_j_2 - C_j[3] * t100;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
-    const jg_real t101 = lambda[3] * t47;
-    const jg_real t102 = lambda[3] * t69;
+    /* v_4_in_joint_j = lambda_3 h_j x g_star, axes of joint j */
+    const jg_real v_4_in_joint_j_1 = lambda[3] * g_star_in_joint_j_0;
+    const jg_real t104 = lambda[3] * g_star_in_joint_j_1;
     /* v_4_in_j = lambda_3 h_j x g_star, axes of body j */
-    const jg_real v_4_in_j_0 = C_j[0] * t101 - C_j[3] * t102;
+    const jg_real v_4_in_j_0 = C_j[3] * v_4_in_joint_j_1 - C_j[0] * t104;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_star + lambda_4 f_j x h_star + lambda_5 g_j x f_star, ... */
     const jg_real v_5_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_2_in_j_0 + v_3_in_j_0 + v_4_in_j_0;
     /* v_1_in_j = r_j x lambda_0_1_2 - r_i x lambda_0_1_2, axes of body j */
     const jg_real v_1_in_j_0 = v_0_in_j_1 * lambda_0_1_2_in_j_2 - v_0_in_j_2 * lambda_0_1_2_in_j_1;
     /* v_6_in_j = r_j x lambda_0_1_2 + s_j x lambda_0_1_2 - r_i x lambda_0_1_2 + lambda_3 h_j x g_star + ... */
     const jg_real v_6_in_j_0 = v_1_in_j_0 + v_5_in_j_0;
-    const jg_real t107 = A_j[0] * v_6_in_j_0;
-    const jg_real t108 = lambda[0] * A_j[0] + lambda[1] * t48;
-    jac_phi_q_t_lambda_A_i[3] = t108;
-    const jg_real t109 = C_j[1] * t83 - C_j[4] * t84 + (s_j[2] * t108 - s_j[0] * t81 + (C_j[7] * t79 - C_j[4] * t80)
-        + (C_j[1] * t73 - C_j[7] * t78));
-    jac_phi_q_t_lambda_A_i[7] = t109;
+    const jg_real t109 = A_j[0] * v_6_in_j_0;
+    const jg_real t110 = lambda[0] * A_j[0] + lambda[1] * t30;
+    const jg_real t111 = C_j[4] * t85 - C_j[1] * t86 + (s_j[2] * t110 - s_j[0] * t83 + (C_j[7] * t81 - C_j[4] * t82)
+        + (C_j[1] * t75 - C_j[7] * t80));
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    const jg_real t111 = v_0_in_j_2 * t108 - v_0_in_j_0 * t81 + t109;
-    const jg_real v_3_in_j_1 = C_j[1] * v_3_in_joint_j - C_j[7] * t95;
-    const jg_real v_2_in_j_1 = C_j[7] * v_2_in_joint_j_2 - C_j[4] * t98;
+    const jg_real t113 = v_0_in_j_2 * t110 - v_0_in_j_0 * t83 + t111;
+    const jg_real v_3_in_j_1 = C_j[1] * v_3_in_joint_j - C_j[7] * t97;
+    const jg_real v_2_in_j_1 = C_j[7] * v_2_in_joint_j_2 - C_j[4] * t100;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
-    const jg_real v_4_in_j_1 = C_j[1] * t101 - C_j[4] * t102;
+    const jg_real v_4_in_j_1 = C_j[4] * v_4_in_joint_j_1 - C_j[1] * t104;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
     const jg_real v_1_in_j_1 = v_0_in_j_2 * lambda_0_1_2_in_j_0 - v_0_in_j_0 * lambda_0_1_2_in_j_2;
     const jg_real v_6_in_j_1 = v_1_in_j_1 + v_5_in_j_1;
-    const jg_real t119 = A_j[3] * v_6_in_j_1;
-    const jg_real t120 = C_j[2] * t83 - C_j[5] * t84 + (s_j[0] * t82 - s_j[1] * t108 + (C_j[8] * t79 - C_j[5] * t80)
-        + (C_j[2] * t73 - C_j[8] * t78));
-    jac_phi_q_t_lambda_A_i[8] = t120;
-    const jg_real t121 = v_0_in_j_0 * t82 - v_0_in_j_1 * t108 + t120;
-    const jg_real v_3_in_j_2 = C_j[2] * v_3_in_joint_j - C_j[8] * t95;
-    const jg_real v_2_in_j_2 = C_j[8] * v_2_in_joint_j_2 - C_j[5] * t98;
+    const jg_real t121 = A_j[3] * v_6_in_j_1;
+    const jg_real t122 = C_j[5] * t85 - C_j[2] * t86 + (s_j[0] * t84 - s_j[1] * t110 + (C_j[8] * t81 - C_j[5] * t82)
+        + (C_j[2] * t75 - C_j[8] * t80));
+    const jg_real t123 = v_0_in_j_0 * t84 - v_0_in_j_1 * t110 + t122;
+    const jg_real v_3_in_j_2 = C_j[2] * v_3_in_joint_j - C_j[8] * t97;
+    const jg_real v_2_in_j_2 = C_j[8] * v_2_in_joint_j_2 - C_j[5] * t100;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
-    const jg_real v_4_in_j_2 = C_j[2] * t101 - C_j[5] * t102;
+    const jg_real v_4_in_j_2 = C_j[5] * v_4_in_joint_j_1 - C_j[2] * t104;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
     const jg_real v_1_in_j_2 = v_0_in_j_0 * lambda_0_1_2_in_j_1 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
     const jg_real v_6_in_j_2 = v_1_in_j_2 + v_5_in_j_2;
-    const jg_real t129 = A_j[6] * v_6_in_j_2;
-    jac_phi_q_t_lambda_A_i[0] = -(t129 + A_ji_2 * t121 + (t107 + A_ji_0 * t91 + (t119 + A_ji_1 * t111)));
-    jac_phi_q_t_lambda_A_i[1] = -(t57 * v_6_in_j_2 + A_ji_5 * t121 + (t48 * v_6_in_j_0 + A_ji_3 * t91 + (t55 *
-        v_6_in_j_1 + A_ji_4 * t111)));
-    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t91 + A_ji_7 * t111 + A_ji_8 * t121);
-    jac_phi_q_t_lambda_A_i[9] = lambda[4] * (H_21 * t77 - sine_2 * t71) - lambda[5] * (H_21 * t68 + H_22 * t67) -
-        lambda[3] * (sine_2 * t75 + H_22 * t72);
-    jac_phi_q_t_lambda_A_i[10] = cosine_1 * (lambda[4] * t77 - lambda[5] * t68) + sine_1 * (lambda[5] * t67 +
-        lambda[3] * t72);
-    jac_phi_q_t_lambda_A_i[11] = lambda[3] * t75 + lambda[4] * t71;
-    const jg_real t130 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t131 = t130 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
-    const jg_real t132 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t133 = t132 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
-    const jg_real t134 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t135 = t134 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
-    const jg_real t136 = t130 * t41 + A_j[1] * t42;
-    const jg_real t137 = t132 * t41 + A_j[4] * t42;
-    const jg_real t138 = t134 * t41 + A_j[7] * t42;
-    const jg_real t139 = C_j[3] * t136 + C_j[4] * t137 + C_j[5] * t138;
-    const jg_real t140 = C_j[3] * t131 + C_j[4] * t133 + C_j[5] * t135;
-    const jg_real t141 = C_j[0] * t136 + C_j[1] * t137 + C_j[2] * t138;
-    const jg_real t142 = t47 * (C_j[0] * t131 + C_j[1] * t133 + C_j[2] * t135) + h_star_in_joint_j_0 * t139 - (t140
-        * t69 + h_star_in_joint_j_1 * t141);
-    const jg_real t143 = lambda[5] * t142;
-    const jg_real t144 = C_j[6] * t131 + C_j[7] * t133 + C_j[8] * t135;
-    const jg_real t145 = t140 * t74 + h_star_in_joint_j_1 * (C_j[6] * t136 + C_j[7] * t137 + C_j[8] * t138) - (t47 *
-        t144 + h_star_in_joint_j_2 * t139);
-    const jg_real t146 = lambda[5] * t145;
-    const jg_real t147 = lambda[4] * t140;
-    const jg_real t148 = lambda[4] * t144;
-    const jg_real t149 = lambda[0] * A_j[7] + lambda[1] * t134;
-    jac_phi_q_t_lambda_A_i[17] = t149;
-    const jg_real t150 = lambda[0] * A_j[4] + lambda[1] * t132;
-    jac_phi_q_t_lambda_A_i[16] = t150;
-    const jg_real t151 = lambda[3] * t139;
-    const jg_real t152 = lambda[3] * t141;
-    const jg_real t153 = C_j[0] * t151 - C_j[3] * t152 + (s_j[1] * t149 - s_j[2] * t150 + (C_j[6] * t147 - C_j[3] *
-        t148) + (C_j[0] * t143 - C_j[6] * t146));
-    jac_phi_q_t_lambda_A_i[18] = t153;
-    const jg_real t154 = v_0_in_j_1 * t149 - v_0_in_j_2 * t150 + t153;
-    const jg_real t155 = A_j[1] * v_6_in_j_0;
-    const jg_real t156 = lambda[0] * A_j[1] + lambda[1] * t130;
-    jac_phi_q_t_lambda_A_i[15] = t156;
-    const jg_real t157 = C_j[1] * t151 - C_j[4] * t152 + (s_j[2] * t156 - s_j[0] * t149 + (C_j[7] * t147 - C_j[4] *
-        t148) + (C_j[1] * t143 - C_j[7] * t146));
-    jac_phi_q_t_lambda_A_i[19] = t157;
-    const jg_real t158 = v_0_in_j_2 * t156 - v_0_in_j_0 * t149 + t157;
-    const jg_real t159 = A_j[4] * v_6_in_j_1;
-    const jg_real t160 = C_j[2] * t151 - C_j[5] * t152 + (s_j[0] * t150 - s_j[1] * t156 + (C_j[8] * t147 - C_j[5] *
-        t148) + (C_j[2] * t143 - C_j[8] * t146));
-    jac_phi_q_t_lambda_A_i[20] = t160;
-    const jg_real t161 = v_0_in_j_0 * t150 - v_0_in_j_1 * t156 + t160;
-    const jg_real t162 = A_j[7] * v_6_in_j_2;
-    jac_phi_q_t_lambda_A_i[12] = -(t162 + A_ji_2 * t161 + (t155 + A_ji_0 * t154 + (t159 + A_ji_1 * t158)));
-    jac_phi_q_t_lambda_A_i[13] = -(t134 * v_6_in_j_2 + A_ji_5 * t161 + (t130 * v_6_in_j_0 + A_ji_3 * t154 + (t132 *
-        v_6_in_j_1 + A_ji_4 * t158)));
-    jac_phi_q_t_lambda_A_i[14] = -(A_ji_6 * t154 + A_ji_7 * t158 + A_ji_8 * t161);
-    jac_phi_q_t_lambda_A_i[21] = lambda[4] * (H_21 * t145 - sine_2 * t141) - lambda[5] * (H_21 * t140 + H_22 * t139)
-        - lambda[3] * (sine_2 * t144 + H_22 * t142);
-    jac_phi_q_t_lambda_A_i[22] = cosine_1 * (lambda[4] * t145 - lambda[5] * t140) + sine_1 * (lambda[5] * t139 +
-        lambda[3] * t142);
-    jac_phi_q_t_lambda_A_i[23] = lambda[3] * t144 + lambda[4] * t141;
-    const jg_real t163 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t164 = t163 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
-    const jg_real t165 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t166 = t165 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
-    const jg_real t167 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t168 = t167 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
-    const jg_real t169 = t163 * t41 + A_j[2] * t42;
-    const jg_real t170 = t165 * t41 + A_j[5] * t42;
-    const jg_real t171 = t167 * t41 + A_j[8] * t42;
-    const jg_real t172 = C_j[3] * t169 + C_j[4] * t170 + C_j[5] * t171;
-    const jg_real t173 = C_j[3] * t164 + C_j[4] * t166 + C_j[5] * t168;
-    const jg_real t174 = C_j[0] * t169 + C_j[1] * t170 + C_j[2] * t171;
-    const jg_real t175 = t47 * (C_j[0] * t164 + C_j[1] * t166 + C_j[2] * t168) + h_star_in_joint_j_0 * t172 - (t173
-        * t69 + h_star_in_joint_j_1 * t174);
-    const jg_real t176 = lambda[5] * t175;
-    const jg_real t177 = C_j[6] * t164 + C_j[7] * t166 + C_j[8] * t168;
-    const jg_real t178 = t173 * t74 + h_star_in_joint_j_1 * (C_j[6] * t169 + C_j[7] * t170 + C_j[8] * t171) - (t47 *
-        t177 + h_star_in_joint_j_2 * t172);
-    const jg_real t179 = lambda[5] * t178;
-    const jg_real t180 = lambda[4] * t173;
-    const jg_real t181 = lambda[4] * t177;
-    const jg_real t182 = lambda[0] * A_j[8] + lambda[1] * t167;
-    jac_phi_q_t_lambda_A_i[29] = t182;
-    const jg_real t183 = lambda[0] * A_j[5] + lambda[1] * t165;
-    jac_phi_q_t_lambda_A_i[28] = t183;
-    const jg_real t184 = lambda[3] * t172;
-    const jg_real t185 = lambda[3] * t174;
-    const jg_real t186 = C_j[0] * t184 - C_j[3] * t185 + (s_j[1] * t182 - s_j[2] * t183 + (C_j[6] * t180 - C_j[3] *
-        t181) + (C_j[0] * t176 - C_j[6] * t179));
-    jac_phi_q_t_lambda_A_i[30] = t186;
-    const jg_real t187 = v_0_in_j_1 * t182 - v_0_in_j_2 * t183 + t186;
-    const jg_real t188 = A_j[2] * v_6_in_j_0;
-    const jg_real t189 = lambda[0] * A_j[2] + lambda[1] * t163;
-    jac_phi_q_t_lambda_A_i[27] = t189;
-    const jg_real t190 = C_j[1] * t184 - C_j[4] * t185 + (s_j[2] * t189 - s_j[0] * t182 + (C_j[7] * t180 - C_j[4] *
-        t181) + (C_j[1] * t176 - C_j[7] * t179));
-    jac_phi_q_t_lambda_A_i[31] = t190;
-    const jg_real t191 = v_0_in_j_2 * t189 - v_0_in_j_0 * t182 + t190;
-    const jg_real t192 = A_j[5] * v_6_in_j_1;
-    const jg_real t193 = C_j[2] * t184 - C_j[5] * t185 + (s_j[0] * t183 - s_j[1] * t189 + (C_j[8] * t180 - C_j[5] *
-        t181) + (C_j[2] * t176 - C_j[8] * t179));
-    jac_phi_q_t_lambda_A_i[32] = t193;
-    const jg_real t194 = v_0_in_j_0 * t183 - v_0_in_j_1 * t189 + t193;
-    const jg_real t195 = A_j[8] * v_6_in_j_2;
-    jac_phi_q_t_lambda_A_i[24] = -(t195 + A_ji_2 * t194 + (t188 + A_ji_0 * t187 + (t192 + A_ji_1 * t191)));
-    jac_phi_q_t_lambda_A_i[25] = -(t167 * v_6_in_j_2 + A_ji_5 * t194 + (t163 * v_6_in_j_0 + A_ji_3 * t187 + (t165 *
-        v_6_in_j_1 + A_ji_4 * t191)));
-    jac_phi_q_t_lambda_A_i[26] = -(A_ji_6 * t187 + A_ji_7 * t191 + A_ji_8 * t194);
-    jac_phi_q_t_lambda_A_i[33] = lambda[4] * (H_21 * t178 - sine_2 * t174) - lambda[5] * (H_21 * t173 + H_22 * t172)
-        - lambda[3] * (sine_2 * t177 + H_22 * t175);
-    jac_phi_q_t_lambda_A_i[34] = cosine_1 * (lambda[4] * t178 - lambda[5] * t173) + sine_1 * (lambda[5] * t172 +
-        lambda[3] * t175);
-    jac_phi_q_t_lambda_A_i[35] = lambda[3] * t177 + lambda[4] * t174;
-    const jg_real t196 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t197 = t196 * h_star_in_i_1 + A_j[0] * h_star_in_i_2;
-    const jg_real t198 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t199 = t198 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
-    const jg_real t200 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t201 = t200 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
-    const jg_real t202 = t196 * t41 + A_j[0] * t43;
-    const jg_real t203 = t198 * t41 + A_j[3] * t43;
-    const jg_real t204 = t200 * t41 + A_j[6] * t43;
-    const jg_real t205 = C_j[3] * t202 + C_j[4] * t203 + C_j[5] * t204;
-    const jg_real t206 = C_j[3] * t197 + C_j[4] * t199 + C_j[5] * t201;
-    const jg_real t207 = C_j[0] * t202 + C_j[1] * t203 + C_j[2] * t204;
-    const jg_real t208 = t47 * (C_j[0] * t197 + C_j[1] * t199 + C_j[2] * t201) + h_star_in_joint_j_0 * t205 - (t206
-        * t69 + h_star_in_joint_j_1 * t207);
-    const jg_real t209 = lambda[5] * t208;
-    const jg_real t210 = C_j[6] * t197 + C_j[7] * t199 + C_j[8] * t201;
-    const jg_real t211 = t206 * t74 + h_star_in_joint_j_1 * (C_j[6] * t202 + C_j[7] * t203 + C_j[8] * t204) - (t47 *
-        t210 + h_star_in_joint_j_2 * t205);
-    const jg_real t212 = lambda[5] * t211;
-    const jg_real t213 = lambda[4] * t206;
-    const jg_real t214 = lambda[4] * t210;
-    const jg_real t215 = lambda[2] * A_j[6] + lambda[1] * t200;
-    jac_phi_q_t_lambda_A_i[41] = t215;
-    const jg_real t216 = lambda[2] * A_j[3] + lambda[1] * t198;
-    jac_phi_q_t_lambda_A_i[40] = t216;
-    const jg_real t217 = lambda[3] * t205;
-    const jg_real t218 = lambda[3] * t207;
-    const jg_real t219 = C_j[0] * t217 - C_j[3] * t218 + (s_j[1] * t215 - s_j[2] * t216 + (C_j[6] * t213 - C_j[3] *
-        t214) + (C_j[0] * t209 - C_j[6] * t212));
-    jac_phi_q_t_lambda_A_i[42] = t219;
-    const jg_real t220 = v_0_in_j_1 * t215 - v_0_in_j_2 * t216 + t219;
-    const jg_real t221 = lambda[2] * A_j[0] + lambda[1] * t196;
-    jac_phi_q_t_lambda_A_i[39] = t221;
-    const jg_real t222 = C_j[1] * t217 - C_j[4] * t218 + (s_j[2] * t221 - s_j[0] * t215 + (C_j[7] * t213 - C_j[4] *
-        t214) + (C_j[1] * t209 - C_j[7] * t212));
-    jac_phi_q_t_lambda_A_i[43] = t222;
-    const jg_real t223 = v_0_in_j_2 * t221 - v_0_in_j_0 * t215 + t222;
-    const jg_real t224 = C_j[2] * t217 - C_j[5] * t218 + (s_j[0] * t216 - s_j[1] * t221 + (C_j[8] * t213 - C_j[5] *
-        t214) + (C_j[2] * t209 - C_j[8] * t212));
-    jac_phi_q_t_lambda_A_i[44] = t224;
-    const jg_real t225 = v_0_in_j_0 * t216 - v_0_in_j_1 * t221 + t224;
-    jac_phi_q_t_lambda_A_i[36] = -(A_ji_0 * t220 + A_ji_1 * t223 + A_ji_2 * t225);
-    jac_phi_q_t_lambda_A_i[37] = -(t200 * v_6_in_j_2 + A_ji_5 * t225 + (t196 * v_6_in_j_0 + A_ji_3 * t220 + (t198 *
-        v_6_in_j_1 + A_ji_4 * t223)));
-    jac_phi_q_t_lambda_A_i[38] = -(t129 + A_ji_8 * t225 + (t107 + A_ji_6 * t220 + (t119 + A_ji_7 * t223)));
-    jac_phi_q_t_lambda_A_i[45] = lambda[4] * (H_21 * t211 - sine_2 * t207) - lambda[5] * (H_21 * t206 + H_22 * t205)
-        - lambda[3] * (sine_2 * t210 + H_22 * t208);
-    jac_phi_q_t_lambda_A_i[46] = cosine_1 * (lambda[4] * t211 - lambda[5] * t206) + sine_1 * (lambda[5] * t205 +
-        lambda[3] * t208);
-    jac_phi_q_t_lambda_A_i[47] = lambda[3] * t210 + lambda[4] * t207;
-    const jg_real t226 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t227 = t226 * h_star_in_i_1 + A_j[1] * h_star_in_i_2;
-    const jg_real t228 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t229 = t228 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
-    const jg_real t230 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t231 = t230 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
-    const jg_real t232 = t226 * t41 + A_j[1] * t43;
-    const jg_real t233 = t228 * t41 + A_j[4] * t43;
-    const jg_real t234 = t230 * t41 + A_j[7] * t43;
-    const jg_real t235 = C_j[3] * t232 + C_j[4] * t233 + C_j[5] * t234;
-    const jg_real t236 = C_j[3] * t227 + C_j[4] * t229 + C_j[5] * t231;
-    const jg_real t237 = C_j[0] * t232 + C_j[1] * t233 + C_j[2] * t234;
-    const jg_real t238 = t47 * (C_j[0] * t227 + C_j[1] * t229 + C_j[2] * t231) + h_star_in_joint_j_0 * t235 - (t236
-        * t69 + h_star_in_joint_j_1 * t237);
-    const jg_real t239 = lambda[5] * t238;
-    const jg_real t240 = C_j[6] * t227 + C_j[7] * t229 + C_j[8] * t231;
-    const jg_real t241 = t236 * t74 + h_star_in_joint_j_1 * (C_j[6] * t232 + C_j[7] * t233 + C_j[8] * t234) - (t47 *
-        t240 + h_star_in_joint_j_2 * t235);
-    const jg_real t242 = lambda[5] * t241;
-    const jg_real t243 = lambda[4] * t236;
-    const jg_real t244 = lambda[4] * t240;
-    const jg_real t245 = lambda[2] * A_j[7] + lambda[1] * t230;
-    jac_phi_q_t_lambda_A_i[53] = t245;
-    const jg_real t246 = lambda[2] * A_j[4] + lambda[1] * t228;
-    jac_phi_q_t_lambda_A_i[52] = t246;
-    const jg_real t247 = lambda[3] * t235;
-    const jg_real t248 = lambda[3] * t237;
-    const jg_real t249 = C_j[0] * t247 - C_j[3] * t248 + (s_j[1] * t245 - s_j[2] * t246 + (C_j[6] * t243 - C_j[3] *
-        t244) + (C_j[0] * t239 - C_j[6] * t242));
-    jac_phi_q_t_lambda_A_i[54] = t249;
-    const jg_real t250 = v_0_in_j_1 * t245 - v_0_in_j_2 * t246 + t249;
-    const jg_real t251 = lambda[2] * A_j[1] + lambda[1] * t226;
-    jac_phi_q_t_lambda_A_i[51] = t251;
-    const jg_real t252 = C_j[1] * t247 - C_j[4] * t248 + (s_j[2] * t251 - s_j[0] * t245 + (C_j[7] * t243 - C_j[4] *
-        t244) + (C_j[1] * t239 - C_j[7] * t242));
-    jac_phi_q_t_lambda_A_i[55] = t252;
-    const jg_real t253 = v_0_in_j_2 * t251 - v_0_in_j_0 * t245 + t252;
-    const jg_real t254 = C_j[2] * t247 - C_j[5] * t248 + (s_j[0] * t246 - s_j[1] * t251 + (C_j[8] * t243 - C_j[5] *
-        t244) + (C_j[2] * t239 - C_j[8] * t242));
-    jac_phi_q_t_lambda_A_i[56] = t254;
-    const jg_real t255 = v_0_in_j_0 * t246 - v_0_in_j_1 * t251 + t254;
-    jac_phi_q_t_lambda_A_i[48] = -(A_ji_0 * t250 + A_ji_1 * t253 + A_ji_2 * t255);
-    jac_phi_q_t_lambda_A_i[49] = -(t230 * v_6_in_j_2 + A_ji_5 * t255 + (t226 * v_6_in_j_0 + A_ji_3 * t250 + (t228 *
-        v_6_in_j_1 + A_ji_4 * t253)));
-    jac_phi_q_t_lambda_A_i[50] = -(t162 + A_ji_8 * t255 + (t155 + A_ji_6 * t250 + (t159 + A_ji_7 * t253)));
-    jac_phi_q_t_lambda_A_i[57] = lambda[4] * (H_21 * t241 - sine_2 * t237) - lambda[5] * (H_21 * t236 + H_22 * t235)
-        - lambda[3] * (sine_2 * t240 + H_22 * t238);
-    jac_phi_q_t_lambda_A_i[58] = cosine_1 * (lambda[4] * t241 - lambda[5] * t236) + sine_1 * (lambda[5] * t235 +
-        lambda[3] * t238);
-    jac_phi_q_t_lambda_A_i[59] = lambda[3] * t240 + lambda[4] * t237;
-    const jg_real t256 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t257 = t256 * h_star_in_i_1 + A_j[2] * h_star_in_i_2;
-    const jg_real t258 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t259 = t258 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
-    const jg_real t260 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t261 = t260 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
-    const jg_real t262 = t256 * t41 + A_j[2] * t43;
-    const jg_real t263 = t258 * t41 + A_j[5] * t43;
-    const jg_real t264 = t260 * t41 + A_j[8] * t43;
-    const jg_real t265 = C_j[3] * t262 + C_j[4] * t263 + C_j[5] * t264;
-    const jg_real t266 = C_j[3] * t257 + C_j[4] * t259 + C_j[5] * t261;
-    const jg_real t267 = C_j[0] * t262 + C_j[1] * t263 + C_j[2] * t264;
-    const jg_real t268 = t47 * (C_j[0] * t257 + C_j[1] * t259 + C_j[2] * t261) + h_star_in_joint_j_0 * t265 - (t266
-        * t69 + h_star_in_joint_j_1 * t267);
-    const jg_real t269 = lambda[5] * t268;
-    const jg_real t270 = C_j[6] * t257 + C_j[7] * t259 + C_j[8] * t261;
-    const jg_real t271 = t266 * t74 + h_star_in_joint_j_1 * (C_j[6] * t262 + C_j[7] * t263 + C_j[8] * t264) - (t47 *
-        t270 + h_star_in_joint_j_2 * t265);
-    const jg_real t272 = lambda[5] * t271;
-    const jg_real t273 = lambda[4] * t266;
-    const jg_real t274 = lambda[4] * t270;
-    const jg_real t275 = lambda[2] * A_j[8] + lambda[1] * t260;
-    jac_phi_q_t_lambda_A_i[65] = t275;
-    const jg_real t276 = lambda[2] * A_j[5] + lambda[1] * t258;
-    jac_phi_q_t_lambda_A_i[64] = t276;
-    const jg_real t277 = lambda[3] * t265;
-    const jg_real t278 = lambda[3] * t267;
-    const jg_real t279 = C_j[0] * t277 - C_j[3] * t278 + (s_j[1] * t275 - s_j[2] * t276 + (C_j[6] * t273 - C_j[3] *
-        t274) + (C_j[0] * t269 - C_j[6] * t272));
-    jac_phi_q_t_lambda_A_i[66] = t279;
-    const jg_real t280 = v_0_in_j_1 * t275 - v_0_in_j_2 * t276 + t279;
-    const jg_real t281 = lambda[2] * A_j[2] + lambda[1] * t256;
-    jac_phi_q_t_lambda_A_i[63] = t281;
-    const jg_real t282 = C_j[1] * t277 - C_j[4] * t278 + (s_j[2] * t281 - s_j[0] * t275 + (C_j[7] * t273 - C_j[4] *
-        t274) + (C_j[1] * t269 - C_j[7] * t272));
-    jac_phi_q_t_lambda_A_i[67] = t282;
-    const jg_real t283 = v_0_in_j_2 * t281 - v_0_in_j_0 * t275 + t282;
-    const jg_real t284 = C_j[2] * t277 - C_j[5] * t278 + (s_j[0] * t276 - s_j[1] * t281 + (C_j[8] * t273 - C_j[5] *
-        t274) + (C_j[2] * t269 - C_j[8] * t272));
-    jac_phi_q_t_lambda_A_i[68] = t284;
-    const jg_real t285 = v_0_in_j_0 * t276 - v_0_in_j_1 * t281 + t284;
-    jac_phi_q_t_lambda_A_i[60] = -(A_ji_0 * t280 + A_ji_1 * t283 + A_ji_2 * t285);
-    jac_phi_q_t_lambda_A_i[61] = -(t260 * v_6_in_j_2 + A_ji_5 * t285 + (t256 * v_6_in_j_0 + A_ji_3 * t280 + (t258 *
-        v_6_in_j_1 + A_ji_4 * t283)));
-    jac_phi_q_t_lambda_A_i[62] = -(t195 + A_ji_8 * t285 + (t188 + A_ji_6 * t280 + (t192 + A_ji_7 * t283)));
-    jac_phi_q_t_lambda_A_i[69] = lambda[4] * (H_21 * t271 - sine_2 * t267) - lambda[5] * (H_21 * t266 + H_22 * t265)
-        - lambda[3] * (sine_2 * t270 + H_22 * t268);
-    jac_phi_q_t_lambda_A_i[70] = cosine_1 * (lambda[4] * t271 - lambda[5] * t266) + sine_1 * (lambda[5] * t265 +
-        lambda[3] * t268);
-    jac_phi_q_t_lambda_A_i[71] = lambda[3] * t270 + lambda[4] * t267;
+    const jg_real t131 = A_j[6] * v_6_in_j_2;
+    jac_phi_q_t_lambda_A_i[6] = t87;
+    jac_phi_q_t_lambda_A_i[3] = t110;
+    jac_phi_q_t_lambda_A_i[7] = t111;
+    jac_phi_q_t_lambda_A_i[8] = t122;
+    jac_phi_q_t_lambda_A_i[0] = -(t131 + A_ji_2 * t123 + (t109 + A_ji_0 * t93 + (t121 + A_ji_1 * t113)));
+    jac_phi_q_t_lambda_A_i[1] = -(t49 * v_6_in_j_2 + A_ji_5 * t123 + (t30 * v_6_in_j_0 + A_ji_3 * t93 + (t47 *
+        v_6_in_j_1 + A_ji_4 * t113)));
+    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t93 + A_ji_7 * t113 + A_ji_8 * t123);
+    jac_phi_q_t_lambda_A_i[9] = lambda[5] * (H_22 * t73 - H_21 * t51) + lambda[4] * (sine_2 * t70 + H_21 * t79) -
+        lambda[3] * (sine_2 * t77 + H_22 * t74);
+    const jg_real t132 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t133 = t132 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
+    const jg_real t134 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t135 = t134 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
+    const jg_real t136 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real t137 = t136 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
+    const jg_real t138 = C_j[3] * t133 + C_j[4] * t135 + C_j[5] * t137;
+    const jg_real t139 = t132 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
+    const jg_real t140 = t134 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
+    const jg_real t141 = t136 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
+    const jg_real t142 = C_j[0] * t139 + C_j[1] * t140 + C_j[2] * t141;
+    const jg_real t143 = C_j[3] * t139 + C_j[4] * t140 + C_j[5] * t141;
+    const jg_real t144 = t138 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t142 - (g_star_in_joint_j_1 * (C_j[0] *
+        t133 + C_j[1] * t135 + C_j[2] * t137) + h_star_in_joint_j_0 * t143);
+    const jg_real t145 = lambda[5] * t144;
+    const jg_real t146 = C_j[6] * t133 + C_j[7] * t135 + C_j[8] * t137;
+    const jg_real t147 = h_star_in_joint_j_2 * t143 + g_star_in_joint_j_1 * t146 - (t138 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t139 + C_j[7] * t140 + C_j[8] * t141));
+    const jg_real t148 = lambda[5] * t147;
+    const jg_real t149 = lambda[4] * t138;
+    const jg_real t150 = lambda[4] * t146;
+    const jg_real t151 = lambda[0] * A_j[7] + lambda[1] * t136;
+    const jg_real t152 = lambda[0] * A_j[4] + lambda[1] * t134;
+    const jg_real t153 = lambda[3] * t142;
+    const jg_real t154 = lambda[3] * t143;
+    const jg_real t155 = C_j[3] * t153 - C_j[0] * t154 + (s_j[1] * t151 - s_j[2] * t152 + (C_j[6] * t149 - C_j[3] *
+        t150) + (C_j[0] * t145 - C_j[6] * t148));
+    const jg_real t156 = v_0_in_j_1 * t151 - v_0_in_j_2 * t152 + t155;
+    const jg_real t157 = A_j[1] * v_6_in_j_0;
+    const jg_real t158 = lambda[0] * A_j[1] + lambda[1] * t132;
+    const jg_real t159 = C_j[4] * t153 - C_j[1] * t154 + (s_j[2] * t158 - s_j[0] * t151 + (C_j[7] * t149 - C_j[4] *
+        t150) + (C_j[1] * t145 - C_j[7] * t148));
+    const jg_real t160 = v_0_in_j_2 * t158 - v_0_in_j_0 * t151 + t159;
+    const jg_real t161 = A_j[4] * v_6_in_j_1;
+    const jg_real t162 = C_j[5] * t153 - C_j[2] * t154 + (s_j[0] * t152 - s_j[1] * t158 + (C_j[8] * t149 - C_j[5] *
+        t150) + (C_j[2] * t145 - C_j[8] * t148));
+    jac_phi_q_t_lambda_A_i[10] = sine_1 * (lambda[3] * t74 - lambda[5] * t73) + cosine_1 * (lambda[4] * t79 -
+        lambda[5] * t51);
+    jac_phi_q_t_lambda_A_i[11] = lambda[3] * t77 - lambda[4] * t70;
+    jac_phi_q_t_lambda_A_i[17] = t151;
+    jac_phi_q_t_lambda_A_i[16] = t152;
+    jac_phi_q_t_lambda_A_i[18] = t155;
+    jac_phi_q_t_lambda_A_i[15] = t158;
+    jac_phi_q_t_lambda_A_i[19] = t159;
+    jac_phi_q_t_lambda_A_i[20] = t162;
+    const jg_real t163 = v_0_in_j_0 * t152 - v_0_in_j_1 * t158 + t162;
+    const jg_real t164 = A_j[7] * v_6_in_j_2;
+    const jg_real t165 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t166 = t165 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
+    const jg_real t167 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t168 = t167 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
+    const jg_real t169 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real t170 = t169 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
+    const jg_real t171 = C_j[3] * t166 + C_j[4] * t168 + C_j[5] * t170;
+    const jg_real t172 = t165 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
+    const jg_real t173 = t167 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
+    const jg_real t174 = t169 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
+    const jg_real t175 = C_j[0] * t172 + C_j[1] * t173 + C_j[2] * t174;
+    const jg_real t176 = C_j[3] * t172 + C_j[4] * t173 + C_j[5] * t174;
+    const jg_real t177 = t171 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t175 - (g_star_in_joint_j_1 * (C_j[0] *
+        t166 + C_j[1] * t168 + C_j[2] * t170) + h_star_in_joint_j_0 * t176);
+    const jg_real t178 = lambda[5] * t177;
+    const jg_real t179 = C_j[6] * t166 + C_j[7] * t168 + C_j[8] * t170;
+    const jg_real t180 = h_star_in_joint_j_2 * t176 + g_star_in_joint_j_1 * t179 - (t171 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t172 + C_j[7] * t173 + C_j[8] * t174));
+    const jg_real t181 = lambda[5] * t180;
+    const jg_real t182 = lambda[4] * t171;
+    const jg_real t183 = lambda[4] * t179;
+    const jg_real t184 = lambda[0] * A_j[8] + lambda[1] * t169;
+    const jg_real t185 = lambda[0] * A_j[5] + lambda[1] * t167;
+    jac_phi_q_t_lambda_A_i[12] = -(t164 + A_ji_2 * t163 + (t157 + A_ji_0 * t156 + (t161 + A_ji_1 * t160)));
+    jac_phi_q_t_lambda_A_i[13] = -(t136 * v_6_in_j_2 + A_ji_5 * t163 + (t132 * v_6_in_j_0 + A_ji_3 * t156 + (t134 *
+        v_6_in_j_1 + A_ji_4 * t160)));
+    jac_phi_q_t_lambda_A_i[14] = -(A_ji_6 * t156 + A_ji_7 * t160 + A_ji_8 * t163);
+    jac_phi_q_t_lambda_A_i[21] = lambda[5] * (H_22 * t143 - H_21 * t138) + lambda[4] * (sine_2 * t142 + H_21 * t147)
+        - lambda[3] * (sine_2 * t146 + H_22 * t144);
+    jac_phi_q_t_lambda_A_i[22] = sine_1 * (lambda[3] * t144 - lambda[5] * t143) + cosine_1 * (lambda[4] * t147 -
+        lambda[5] * t138);
+    jac_phi_q_t_lambda_A_i[23] = lambda[3] * t146 - lambda[4] * t142;
+    jac_phi_q_t_lambda_A_i[29] = t184;
+    jac_phi_q_t_lambda_A_i[28] = t185;
+    const jg_real t186 = lambda[3] * t175;
+    const jg_real t187 = lambda[3] * t176;
+    const jg_real t188 = C_j[3] * t186 - C_j[0] * t187 + (s_j[1] * t184 - s_j[2] * t185 + (C_j[6] * t182 - C_j[3] *
+        t183) + (C_j[0] * t178 - C_j[6] * t181));
+    const jg_real t189 = v_0_in_j_1 * t184 - v_0_in_j_2 * t185 + t188;
+    const jg_real t190 = A_j[2] * v_6_in_j_0;
+    const jg_real t191 = lambda[0] * A_j[2] + lambda[1] * t165;
+    const jg_real t192 = C_j[4] * t186 - C_j[1] * t187 + (s_j[2] * t191 - s_j[0] * t184 + (C_j[7] * t182 - C_j[4] *
+        t183) + (C_j[1] * t178 - C_j[7] * t181));
+    const jg_real t193 = v_0_in_j_2 * t191 - v_0_in_j_0 * t184 + t192;
+    const jg_real t194 = A_j[5] * v_6_in_j_1;
+    const jg_real t195 = C_j[5] * t186 - C_j[2] * t187 + (s_j[0] * t185 - s_j[1] * t191 + (C_j[8] * t182 - C_j[5] *
+        t183) + (C_j[2] * t178 - C_j[8] * t181));
+    const jg_real t196 = v_0_in_j_0 * t185 - v_0_in_j_1 * t191 + t195;
+    const jg_real t197 = A_j[8] * v_6_in_j_2;
+    jac_phi_q_t_lambda_A_i[30] = t188;
+    jac_phi_q_t_lambda_A_i[27] = t191;
+    jac_phi_q_t_lambda_A_i[31] = t192;
+    jac_phi_q_t_lambda_A_i[32] = t195;
+    jac_phi_q_t_lambda_A_i[24] = -(t197 + A_ji_2 * t196 + (t190 + A_ji_0 * t189 + (t194 + A_ji_1 * t193)));
+    jac_phi_q_t_lambda_A_i[25] = -(t169 * v_6_in_j_2 + A_ji_5 * t196 + (t165 * v_6_in_j_0 + A_ji_3 * t189 + (t167 *
+        v_6_in_j_1 + A_ji_4 * t193)));
+    jac_phi_q_t_lambda_A_i[26] = -(A_ji_6 * t189 + A_ji_7 * t193 + A_ji_8 * t196);
+    jac_phi_q_t_lambda_A_i[33] = lambda[5] * (H_22 * t176 - H_21 * t171) + lambda[4] * (sine_2 * t175 + H_21 * t180)
+        - lambda[3] * (sine_2 * t179 + H_22 * t177);
+    const jg_real t198 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t199 = t198 * h_star_in_i_1 + A_j[0] * h_star_in_i_2;
+    const jg_real t200 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t201 = t200 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
+    const jg_real t202 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t203 = t202 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
+    const jg_real t204 = C_j[3] * t199 + C_j[4] * t201 + C_j[5] * t203;
+    const jg_real t205 = t198 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
+    const jg_real t206 = t200 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
+    const jg_real t207 = t202 * g_star_in_i_1 + A_j[6] * g_star_in_i_2;
+    const jg_real t208 = C_j[0] * t205 + C_j[1] * t206 + C_j[2] * t207;
+    const jg_real t209 = C_j[3] * t205 + C_j[4] * t206 + C_j[5] * t207;
+    const jg_real t210 = t204 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t208 - (g_star_in_joint_j_1 * (C_j[0] *
+        t199 + C_j[1] * t201 + C_j[2] * t203) + h_star_in_joint_j_0 * t209);
+    const jg_real t211 = lambda[5] * t210;
+    const jg_real t212 = C_j[6] * t199 + C_j[7] * t201 + C_j[8] * t203;
+    const jg_real t213 = h_star_in_joint_j_2 * t209 + g_star_in_joint_j_1 * t212 - (t204 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t205 + C_j[7] * t206 + C_j[8] * t207));
+    const jg_real t214 = lambda[5] * t213;
+    const jg_real t215 = lambda[4] * t204;
+    const jg_real t216 = lambda[4] * t212;
+    const jg_real t217 = lambda[2] * A_j[6] + lambda[1] * t202;
+    const jg_real t218 = lambda[2] * A_j[3] + lambda[1] * t200;
+    const jg_real t219 = lambda[3] * t208;
+    const jg_real t220 = lambda[3] * t209;
+    const jg_real t221 = C_j[3] * t219 - C_j[0] * t220 + (s_j[1] * t217 - s_j[2] * t218 + (C_j[6] * t215 - C_j[3] *
+        t216) + (C_j[0] * t211 - C_j[6] * t214));
+    const jg_real t222 = v_0_in_j_1 * t217 - v_0_in_j_2 * t218 + t221;
+    const jg_real t223 = lambda[2] * A_j[0] + lambda[1] * t198;
+    const jg_real t224 = C_j[4] * t219 - C_j[1] * t220 + (s_j[2] * t223 - s_j[0] * t217 + (C_j[7] * t215 - C_j[4] *
+        t216) + (C_j[1] * t211 - C_j[7] * t214));
+    const jg_real t225 = v_0_in_j_2 * t223 - v_0_in_j_0 * t217 + t224;
+    const jg_real t226 = C_j[5] * t219 - C_j[2] * t220 + (s_j[0] * t218 - s_j[1] * t223 + (C_j[8] * t215 - C_j[5] *
+        t216) + (C_j[2] * t211 - C_j[8] * t214));
+    jac_phi_q_t_lambda_A_i[34] = sine_1 * (lambda[3] * t177 - lambda[5] * t176) + cosine_1 * (lambda[4] * t180 -
+        lambda[5] * t171);
+    jac_phi_q_t_lambda_A_i[35] = lambda[3] * t179 - lambda[4] * t175;
+    jac_phi_q_t_lambda_A_i[41] = t217;
+    jac_phi_q_t_lambda_A_i[40] = t218;
+    jac_phi_q_t_lambda_A_i[42] = t221;
+    jac_phi_q_t_lambda_A_i[39] = t223;
+    jac_phi_q_t_lambda_A_i[43] = t224;
+    jac_phi_q_t_lambda_A_i[44] = t226;
+    const jg_real t227 = v_0_in_j_0 * t218 - v_0_in_j_1 * t223 + t226;
+    const jg_real t228 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t229 = t228 * h_star_in_i_1 + A_j[1] * h_star_in_i_2;
+    const jg_real t230 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t231 = t230 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
+    const jg_real t232 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t233 = t232 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
+    const jg_real t234 = C_j[3] * t229 + C_j[4] * t231 + C_j[5] * t233;
+    const jg_real t235 = t228 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
+    const jg_real t236 = t230 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
+    const jg_real t237 = t232 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
+    const jg_real t238 = C_j[0] * t235 + C_j[1] * t236 + C_j[2] * t237;
+    const jg_real t239 = C_j[3] * t235 + C_j[4] * t236 + C_j[5] * t237;
+    const jg_real t240 = t234 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t238 - (g_star_in_joint_j_1 * (C_j[0] *
+        t229 + C_j[1] * t231 + C_j[2] * t233) + h_star_in_joint_j_0 * t239);
+    const jg_real t241 = lambda[5] * t240;
+    const jg_real t242 = C_j[6] * t229 + C_j[7] * t231 + C_j[8] * t233;
+    const jg_real t243 = h_star_in_joint_j_2 * t239 + g_star_in_joint_j_1 * t242 - (t234 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t235 + C_j[7] * t236 + C_j[8] * t237));
+    const jg_real t244 = lambda[5] * t243;
+    const jg_real t245 = lambda[4] * t234;
+    const jg_real t246 = lambda[4] * t242;
+    const jg_real t247 = lambda[2] * A_j[7] + lambda[1] * t232;
+    const jg_real t248 = lambda[2] * A_j[4] + lambda[1] * t230;
+    jac_phi_q_t_lambda_A_i[36] = -(A_ji_0 * t222 + A_ji_1 * t225 + A_ji_2 * t227);
+    jac_phi_q_t_lambda_A_i[37] = -(t202 * v_6_in_j_2 + A_ji_5 * t227 + (t198 * v_6_in_j_0 + A_ji_3 * t222 + (t200 *
+        v_6_in_j_1 + A_ji_4 * t225)));
+    jac_phi_q_t_lambda_A_i[38] = -(t131 + A_ji_8 * t227 + (t109 + A_ji_6 * t222 + (t121 + A_ji_7 * t225)));
+    jac_phi_q_t_lambda_A_i[45] = lambda[5] * (H_22 * t209 - H_21 * t204) + lambda[4] * (sine_2 * t208 + H_21 * t213)
+        - lambda[3] * (sine_2 * t212 + H_22 * t210);
+    jac_phi_q_t_lambda_A_i[46] = sine_1 * (lambda[3] * t210 - lambda[5] * t209) + cosine_1 * (lambda[4] * t213 -
+        lambda[5] * t204);
+    jac_phi_q_t_lambda_A_i[47] = lambda[3] * t212 - lambda[4] * t208;
+    jac_phi_q_t_lambda_A_i[53] = t247;
+    jac_phi_q_t_lambda_A_i[52] = t248;
+    const jg_real t249 = lambda[3] * t238;
+    const jg_real t250 = lambda[3] * t239;
+    const jg_real t251 = C_j[3] * t249 - C_j[0] * t250 + (s_j[1] * t247 - s_j[2] * t248 + (C_j[6] * t245 - C_j[3] *
+        t246) + (C_j[0] * t241 - C_j[6] * t244));
+    const jg_real t252 = v_0_in_j_1 * t247 - v_0_in_j_2 * t248 + t251;
+    const jg_real t253 = lambda[2] * A_j[1] + lambda[1] * t228;
+    const jg_real t254 = C_j[4] * t249 - C_j[1] * t250 + (s_j[2] * t253 - s_j[0] * t247 + (C_j[7] * t245 - C_j[4] *
+        t246) + (C_j[1] * t241 - C_j[7] * t244));
+    const jg_real t255 = v_0_in_j_2 * t253 - v_0_in_j_0 * t247 + t254;
+    const jg_real t256 = C_j[5] * t249 - C_j[2] * t250 + (s_j[0] * t248 - s_j[1] * t253 + (C_j[8] * t245 - C_j[5] *
+        t246) + (C_j[2] * t241 - C_j[8] * t244));
+    const jg_real t257 = v_0_in_j_0 * t248 - v_0_in_j_1 * t253 + t256;
+    jac_phi_q_t_lambda_A_i[54] = t251;
+    jac_phi_q_t_lambda_A_i[51] = t253;
+    jac_phi_q_t_lambda_A_i[55] = t254;
+    jac_phi_q_t_lambda_A_i[56] = t256;
+    jac_phi_q_t_lambda_A_i[48] = -(A_ji_0 * t252 + A_ji_1 * t255 + A_ji_2 * t257);
+    jac_phi_q_t_lambda_A_i[49] = -(t232 * v_6_in_j_2 + A_ji_5 * t257 + (t228 * v_6_in_j_0 + A_ji_3 * t252 + (t230 *
+        v_6_in_j_1 + A_ji_4 * t255)));
+    jac_phi_q_t_lambda_A_i[50] = -(t164 + A_ji_8 * t257 + (t157 + A_ji_6 * t252 + (t161 + A_ji_7 * t255)));
+    jac_phi_q_t_lambda_A_i[57] = lambda[5] * (H_22 * t239 - H_21 * t234) + lambda[4] * (sine_2 * t238 + H_21 * t243)
+        - lambda[3] * (sine_2 * t242 + H_22 * t240);
+    const jg_real t258 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t259 = t258 * h_star_in_i_1 + A_j[2] * h_star_in_i_2;
+    const jg_real t260 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t261 = t260 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
+    const jg_real t262 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t263 = t262 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
+    const jg_real t264 = C_j[3] * t259 + C_j[4] * t261 + C_j[5] * t263;
+    const jg_real t265 = t258 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
+    const jg_real t266 = t260 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
+    const jg_real t267 = t262 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
+    const jg_real t268 = C_j[0] * t265 + C_j[1] * t266 + C_j[2] * t267;
+    const jg_real t269 = C_j[3] * t265 + C_j[4] * t266 + C_j[5] * t267;
+    const jg_real t270 = t264 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t268 - (g_star_in_joint_j_1 * (C_j[0] *
+        t259 + C_j[1] * t261 + C_j[2] * t263) + h_star_in_joint_j_0 * t269);
+    const jg_real t271 = lambda[5] * t270;
+    const jg_real t272 = C_j[6] * t259 + C_j[7] * t261 + C_j[8] * t263;
+    const jg_real t273 = h_star_in_joint_j_2 * t269 + g_star_in_joint_j_1 * t272 - (t264 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t265 + C_j[7] * t266 + C_j[8] * t267));
+    const jg_real t274 = lambda[5] * t273;
+    const jg_real t275 = lambda[4] * t264;
+    const jg_real t276 = lambda[4] * t272;
+    const jg_real t277 = lambda[2] * A_j[8] + lambda[1] * t262;
+    const jg_real t278 = lambda[2] * A_j[5] + lambda[1] * t260;
+    const jg_real t279 = lambda[3] * t268;
+    const jg_real t280 = lambda[3] * t269;
+    const jg_real t281 = C_j[3] * t279 - C_j[0] * t280 + (s_j[1] * t277 - s_j[2] * t278 + (C_j[6] * t275 - C_j[3] *
+        t276) + (C_j[0] * t271 - C_j[6] * t274));
+    const jg_real t282 = v_0_in_j_1 * t277 - v_0_in_j_2 * t278 + t281;
+    const jg_real t283 = lambda[2] * A_j[2] + lambda[1] * t258;
+    const jg_real t284 = C_j[4] * t279 - C_j[1] * t280 + (s_j[2] * t283 - s_j[0] * t277 + (C_j[7] * t275 - C_j[4] *
+        t276) + (C_j[1] * t271 - C_j[7] * t274));
+    const jg_real t285 = v_0_in_j_2 * t283 - v_0_in_j_0 * t277 + t284;
+    const jg_real t286 = C_j[5] * t279 - C_j[2] * t280 + (s_j[0] * t278 - s_j[1] * t283 + (C_j[8] * t275 - C_j[5] *
+        t276) + (C_j[2] * t271 - C_j[8] * t274));
+    jac_phi_q_t_lambda_A_i[58] = sine_1 * (lambda[3] * t240 - lambda[5] * t239) + cosine_1 * (lambda[4] * t243 -
+        lambda[5] * t234);
+    jac_phi_q_t_lambda_A_i[59] = lambda[3] * t242 - lambda[4] * t238;
+    jac_phi_q_t_lambda_A_i[65] = t277;
+    jac_phi_q_t_lambda_A_i[64] = t278;
+    jac_phi_q_t_lambda_A_i[66] = t281;
+    jac_phi_q_t_lambda_A_i[63] = t283;
+    jac_phi_q_t_lambda_A_i[67] = t284;
+    jac_phi_q_t_lambda_A_i[68] = t286;
+    const jg_real t287 = v_0_in_j_0 * t278 - v_0_in_j_1 * t283 + t286;
+    jac_phi_q_t_lambda_A_i[60] = -(A_ji_0 * t282 + A_ji_1 * t285 + A_ji_2 * t287);
+    jac_phi_q_t_lambda_A_i[61] = -(t262 * v_6_in_j_2 + A_ji_5 * t287 + (t258 * v_6_in_j_0 + A_ji_3 * t282 + (t260 *
+        v_6_in_j_1 + A_ji_4 * t285)));
+    jac_phi_q_t_lambda_A_i[62] = -(t197 + A_ji_8 * t287 + (t190 + A_ji_6 * t282 + (t194 + A_ji_7 * t285)));
+    jac_phi_q_t_lambda_A_i[69] = lambda[5] * (H_22 * t269 - H_21 * t264) + lambda[4] * (sine_2 * t268 + H_21 * t273)
+        - lambda[3] * (sine_2 * t272 + H_22 * t270);
+    jac_phi_q_t_lambda_A_i[70] = sine_1 * (lambda[3] * t270 - lambda[5] * t269) + cosine_1 * (lambda[4] * t273 -
+        lambda[5] * t264);
+    jac_phi_q_t_lambda_A_i[71] = lambda[3] * t272 - lambda[4] * t268;
     jac_phi_q_t_lambda_r_j[0] = -t15;
     jac_phi_q_t_lambda_r_j[1] = -t16;
+    const jg_real t288 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
+    const jg_real t289 = A_i[6] * A_ji_2 - A_i[0] * A_ji_8;
+    const jg_real t290 = t289 * h_star_in_i_1;
+    const jg_real t291 = A_i[0] * A_ji_7 - A_i[6] * A_ji_1;
+    const jg_real t292 = t291 * h_star_in_i_1;
+    const jg_real t293 = C_j[3] * t288 - C_j[4] * t290 - C_j[5] * t292;
+    const jg_real t294 = A_i[0] * g_star_in_i_0 + A_i[6] * g_star_in_i_2;
+    const jg_real t295 = t289 * g_star_in_i_1;
+    const jg_real t296 = t291 * g_star_in_i_1;
+    const jg_real t297 = C_j[0] * t294 - C_j[1] * t295 - C_j[2] * t296;
+    const jg_real t298 = C_j[3] * t294 - C_j[4] * t295 - C_j[5] * t296;
+    const jg_real t299 = t293 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t297 - (g_star_in_joint_j_1 * (C_j[0] *
+        t288 - C_j[1] * t290 - C_j[2] * t292) + h_star_in_joint_j_0 * t298);
+    const jg_real t300 = lambda[5] * t299;
+    const jg_real t301 = C_j[6] * t288 - C_j[7] * t290 - C_j[8] * t292;
+    const jg_real t302 = h_star_in_joint_j_2 * t298 + g_star_in_joint_j_1 * t301 - (t293 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t294 - C_j[7] * t295 - C_j[8] * t296));
+    const jg_real t303 = lambda[5] * t302;
+    const jg_real t304 = lambda[4] * t293;
+    const jg_real t305 = lambda[4] * t301;
+    const jg_real t306 = lambda[1] * t289;
     jac_phi_q_t_lambda_r_j[2] = -t17;
     jac_phi_q_t_lambda_r_j[3] = -t21;
     jac_phi_q_t_lambda_r_j[4] = -t22;
@@ -2294,875 +2323,852 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_r_j[6] = -t27;
     jac_phi_q_t_lambda_r_j[7] = -t28;
     jac_phi_q_t_lambda_r_j[8] = -t29;
-    const jg_real t286 = A_i[6] * A_ji_2 - A_i[0] * A_ji_8;
-    const jg_real t287 = t286 * t41;
-    const jg_real t288 = A_i[0] * t42 + A_i[6] * t43;
-    const jg_real t289 = A_i[0] * A_ji_7 - A_i[6] * A_ji_1;
-    const jg_real t290 = t289 * t41;
-    const jg_real t291 = C_j[1] * t287 - C_j[0] * t288 + C_j[2] * t290;
-    const jg_real t292 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
-    const jg_real t293 = t286 * h_star_in_i_1;
-    const jg_real t294 = t289 * h_star_in_i_1;
-    const jg_real t295 = C_j[3] * t292 - C_j[4] * t293 - C_j[5] * t294;
-    const jg_real t296 = C_j[4] * t287 - C_j[3] * t288 + C_j[5] * t290;
-    const jg_real t297 = h_star_in_joint_j_1 * t291 - t295 * t69 - (h_star_in_joint_j_0 * t296 - t47 * (C_j[0] *
-        t292 - C_j[1] * t293 - C_j[2] * t294));
-    const jg_real t298 = lambda[5] * t297;
-    const jg_real t299 = C_j[6] * t292 - C_j[7] * t293 - C_j[8] * t294;
-    const jg_real t300 = h_star_in_joint_j_2 * t296 - t47 * t299 - (h_star_in_joint_j_1 * (C_j[7] * t287 - C_j[6] *
-        t288 + C_j[8] * t290) - t295 * t74);
-    const jg_real t301 = lambda[5] * t300;
-    const jg_real t302 = lambda[4] * t295;
-    const jg_real t303 = lambda[4] * t299;
-    const jg_real t304 = lambda[1] * t286;
-    jac_phi_q_t_lambda_A_j[39] = t304;
-    const jg_real t305 = s_j[2] * t304;
-    const jg_real t306 = lambda[1] * t289;
-    jac_phi_q_t_lambda_A_j[75] = t306;
-    const jg_real t307 = s_j[1] * t306;
-    const jg_real t308 = lambda[3] * t291;
-    const jg_real t309 = lambda[3] * t296;
-    const jg_real t310 = C_j[3] * t308 - C_j[0] * t309 + (t305 - t307 + (C_j[6] * t302 - C_j[3] * t303) + (C_j[0] *
-        t298 - C_j[6] * t301));
-    jac_phi_q_t_lambda_A_j[6] = t310;
-    const jg_real t311 = v_0_in_j_2 * t304;
-    const jg_real t312 = v_0_in_j_1 * t306;
-    const jg_real t313 = t311 - t312 + t310;
-    const jg_real t314 = lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t314;
-    jac_phi_q_t_lambda_A_j[40] = t314;
-    jac_phi_q_t_lambda_A_j[77] = t314;
-    const jg_real t315 = s_j[2] * t314;
-    const jg_real t316 = C_j[4] * t308 - C_j[1] * t309 + (t315 + s_j[0] * t306 + (C_j[7] * t302 - C_j[4] * t303) +
-        (C_j[1] * t298 - C_j[7] * t301));
-    jac_phi_q_t_lambda_A_j[7] = t316;
-    const jg_real t317 = v_0_world_0 * lambda_0_1_2_in_j_2;
-    const jg_real t318 = v_0_in_j_2 * t314;
-    const jg_real t319 = t318 - (t317 - v_0_in_j_0 * t306) + t316;
-    const jg_real t320 = s_j[1] * t314;
-    const jg_real t321 = C_j[5] * t308 - C_j[2] * t309 + (C_j[8] * t302 - C_j[5] * t303 - (t320 + s_j[0] * t304) +
-        (C_j[2] * t298 - C_j[8] * t301));
-    jac_phi_q_t_lambda_A_j[8] = t321;
-    const jg_real t322 = v_0_world_0 * lambda_0_1_2_in_j_1;
-    const jg_real t323 = v_0_in_j_1 * t314;
-    const jg_real t324 = t322 - v_0_in_j_0 * t304 - t323 + t321;
-    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_6_in_j_0 + A_ji_0 * t313 + A_ji_1 * t319 + A_ji_2 * t324);
-    jac_phi_q_t_lambda_A_j[1] = -(A_ji_5 * t324 - t289 * v_6_in_j_2 + (A_ji_4 * t319 - t286 * v_6_in_j_1 + A_ji_3 *
-        t313));
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_6_in_j_0 + A_ji_6 * t313 + A_ji_7 * t319 + A_ji_8 * t324);
-    jac_phi_q_t_lambda_A_j[4] = -t304;
-    jac_phi_q_t_lambda_A_j[5] = -t306;
-    jac_phi_q_t_lambda_A_j[9] = lambda[5] * (H_22 * t296 - H_21 * t295) + lambda[4] * (sine_2 * t291 + H_21 * t300)
-        - lambda[3] * (sine_2 * t299 + H_22 * t297);
-    jac_phi_q_t_lambda_A_j[10] = cosine_1 * (lambda[4] * t300 - lambda[5] * t295) + sine_1 * (lambda[3] * t297 -
-        lambda[5] * t296);
-    jac_phi_q_t_lambda_A_j[11] = lambda[3] * t299 - lambda[4] * t291;
-    const jg_real t325 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
-    const jg_real t326 = t325 * t41;
-    const jg_real t327 = A_i[1] * t42 + A_i[7] * t43;
-    const jg_real t328 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
-    const jg_real t329 = t328 * t41;
-    const jg_real t330 = C_j[1] * t326 - C_j[0] * t327 + C_j[2] * t329;
-    const jg_real t331 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
-    const jg_real t332 = t325 * h_star_in_i_1;
-    const jg_real t333 = t328 * h_star_in_i_1;
-    const jg_real t334 = C_j[3] * t331 - C_j[4] * t332 - C_j[5] * t333;
-    const jg_real t335 = C_j[4] * t326 - C_j[3] * t327 + C_j[5] * t329;
-    const jg_real t336 = h_star_in_joint_j_1 * t330 - t334 * t69 - (h_star_in_joint_j_0 * t335 - t47 * (C_j[0] *
-        t331 - C_j[1] * t332 - C_j[2] * t333));
-    const jg_real t337 = lambda[5] * t336;
-    const jg_real t338 = C_j[6] * t331 - C_j[7] * t332 - C_j[8] * t333;
-    const jg_real t339 = h_star_in_joint_j_2 * t335 - t47 * t338 - (h_star_in_joint_j_1 * (C_j[7] * t326 - C_j[6] *
-        t327 + C_j[8] * t329) - t334 * t74);
-    const jg_real t340 = lambda[5] * t339;
-    const jg_real t341 = lambda[4] * t334;
-    const jg_real t342 = lambda[4] * t338;
-    const jg_real t343 = lambda[1] * t325;
-    jac_phi_q_t_lambda_A_j[51] = t343;
-    const jg_real t344 = s_j[2] * t343;
+    jac_phi_q_t_lambda_A_j[39] = t306;
+    const jg_real t307 = s_j[2] * t306;
+    const jg_real t308 = lambda[1] * t291;
+    const jg_real t309 = s_j[1] * t308;
+    const jg_real t310 = lambda[3] * t297;
+    const jg_real t311 = lambda[3] * t298;
+    const jg_real t312 = C_j[3] * t310 - C_j[0] * t311 + (t307 - t309 + (C_j[6] * t304 - C_j[3] * t305) + (C_j[0] *
+        t300 - C_j[6] * t303));
+    const jg_real t313 = t306 * v_0_in_j_2;
+    const jg_real t314 = v_0_in_j_1 * t308;
+    const jg_real t315 = t313 - t314 + t312;
+    const jg_real t316 = lambda[0] * A_i[0] + lambda[2] * A_i[6];
+    const jg_real t317 = s_j[2] * t316;
+    const jg_real t318 = C_j[4] * t310 - C_j[1] * t311 + (t317 + s_j[0] * t308 + (C_j[7] * t304 - C_j[4] * t305) +
+        (C_j[1] * t300 - C_j[7] * t303));
+    const jg_real t319 = v_0_world_0 * lambda_0_1_2_in_j_2;
+    const jg_real t320 = v_0_in_j_2 * t316;
+    const jg_real t321 = t320 - (t319 - t308 * v_0_in_j_0) + t318;
+    const jg_real t322 = s_j[1] * t316;
+    const jg_real t323 = C_j[5] * t310 - C_j[2] * t311 + (C_j[8] * t304 - C_j[5] * t305 - (t322 + s_j[0] * t306) +
+        (C_j[2] * t300 - C_j[8] * t303));
+    const jg_real t324 = v_0_world_0 * lambda_0_1_2_in_j_1;
+    const jg_real t325 = v_0_in_j_1 * t316;
+    const jg_real t326 = t324 - t306 * v_0_in_j_0 - t325 + t323;
+    jac_phi_q_t_lambda_A_j[75] = t308;
+    jac_phi_q_t_lambda_A_j[6] = t312;
+    jac_phi_q_t_lambda_A_j[3] = t316;
+    jac_phi_q_t_lambda_A_j[40] = t316;
+    jac_phi_q_t_lambda_A_j[77] = t316;
+    jac_phi_q_t_lambda_A_j[7] = t318;
+    jac_phi_q_t_lambda_A_j[8] = t323;
+    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_6_in_j_0 + A_ji_0 * t315 + A_ji_1 * t321 + A_ji_2 * t326);
+    const jg_real t327 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
+    const jg_real t328 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
+    const jg_real t329 = t328 * h_star_in_i_1;
+    const jg_real t330 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
+    const jg_real t331 = t330 * h_star_in_i_1;
+    const jg_real t332 = C_j[3] * t327 - C_j[4] * t329 - C_j[5] * t331;
+    const jg_real t333 = A_i[1] * g_star_in_i_0 + A_i[7] * g_star_in_i_2;
+    const jg_real t334 = t328 * g_star_in_i_1;
+    const jg_real t335 = t330 * g_star_in_i_1;
+    const jg_real t336 = C_j[0] * t333 - C_j[1] * t334 - C_j[2] * t335;
+    const jg_real t337 = C_j[3] * t333 - C_j[4] * t334 - C_j[5] * t335;
+    const jg_real t338 = t332 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t336 - (g_star_in_joint_j_1 * (C_j[0] *
+        t327 - C_j[1] * t329 - C_j[2] * t331) + h_star_in_joint_j_0 * t337);
+    const jg_real t339 = lambda[5] * t338;
+    const jg_real t340 = C_j[6] * t327 - C_j[7] * t329 - C_j[8] * t331;
+    const jg_real t341 = h_star_in_joint_j_2 * t337 + g_star_in_joint_j_1 * t340 - (t332 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t333 - C_j[7] * t334 - C_j[8] * t335));
+    const jg_real t342 = lambda[5] * t341;
+    const jg_real t343 = lambda[4] * t332;
+    const jg_real t344 = lambda[4] * t340;
     const jg_real t345 = lambda[1] * t328;
-    jac_phi_q_t_lambda_A_j[87] = t345;
-    const jg_real t346 = s_j[1] * t345;
-    const jg_real t347 = lambda[3] * t330;
-    const jg_real t348 = lambda[3] * t335;
-    const jg_real t349 = C_j[3] * t347 - C_j[0] * t348 + (t344 - t346 + (C_j[6] * t341 - C_j[3] * t342) + (C_j[0] *
-        t337 - C_j[6] * t340));
-    jac_phi_q_t_lambda_A_j[18] = t349;
-    const jg_real t350 = v_0_in_j_2 * t343;
-    const jg_real t351 = v_0_in_j_1 * t345;
-    const jg_real t352 = t350 - t351 + t349;
-    const jg_real t353 = lambda[0] * A_i[1] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[15] = t353;
-    jac_phi_q_t_lambda_A_j[52] = t353;
-    jac_phi_q_t_lambda_A_j[89] = t353;
-    const jg_real t354 = s_j[2] * t353;
-    const jg_real t355 = C_j[4] * t347 - C_j[1] * t348 + (t354 + s_j[0] * t345 + (C_j[7] * t341 - C_j[4] * t342) +
-        (C_j[1] * t337 - C_j[7] * t340));
-    jac_phi_q_t_lambda_A_j[19] = t355;
-    const jg_real t356 = v_0_world_1 * lambda_0_1_2_in_j_2;
-    const jg_real t357 = v_0_in_j_2 * t353;
-    const jg_real t358 = t357 - (t356 - v_0_in_j_0 * t345) + t355;
-    const jg_real t359 = s_j[1] * t353;
-    const jg_real t360 = C_j[5] * t347 - C_j[2] * t348 + (C_j[8] * t341 - C_j[5] * t342 - (t359 + s_j[0] * t343) +
-        (C_j[2] * t337 - C_j[8] * t340));
-    jac_phi_q_t_lambda_A_j[20] = t360;
-    const jg_real t361 = v_0_world_1 * lambda_0_1_2_in_j_1;
-    const jg_real t362 = v_0_in_j_1 * t353;
-    const jg_real t363 = t361 - v_0_in_j_0 * t343 - t362 + t360;
-    jac_phi_q_t_lambda_A_j[12] = -(A_i[1] * v_6_in_j_0 + A_ji_0 * t352 + A_ji_1 * t358 + A_ji_2 * t363);
-    jac_phi_q_t_lambda_A_j[13] = -(A_ji_5 * t363 - t328 * v_6_in_j_2 + (A_ji_4 * t358 - t325 * v_6_in_j_1 + A_ji_3 *
-        t352));
-    jac_phi_q_t_lambda_A_j[14] = -(A_i[7] * v_6_in_j_0 + A_ji_6 * t352 + A_ji_7 * t358 + A_ji_8 * t363);
-    jac_phi_q_t_lambda_A_j[16] = -t343;
-    jac_phi_q_t_lambda_A_j[17] = -t345;
-    jac_phi_q_t_lambda_A_j[21] = lambda[5] * (H_22 * t335 - H_21 * t334) + lambda[4] * (sine_2 * t330 + H_21 * t339)
-        - lambda[3] * (sine_2 * t338 + H_22 * t336);
-    jac_phi_q_t_lambda_A_j[22] = cosine_1 * (lambda[4] * t339 - lambda[5] * t334) + sine_1 * (lambda[3] * t336 -
-        lambda[5] * t335);
-    jac_phi_q_t_lambda_A_j[23] = lambda[3] * t338 - lambda[4] * t330;
-    const jg_real t364 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
-    const jg_real t365 = t364 * t41;
-    const jg_real t366 = A_i[2] * t42 + A_i[8] * t43;
-    const jg_real t367 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
-    const jg_real t368 = t367 * t41;
-    const jg_real t369 = C_j[1] * t365 - C_j[0] * t366 + C_j[2] * t368;
-    const jg_real t370 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
-    const jg_real t371 = t364 * h_star_in_i_1;
-    const jg_real t372 = t367 * h_star_in_i_1;
-    const jg_real t373 = C_j[3] * t370 - C_j[4] * t371 - C_j[5] * t372;
-    const jg_real t374 = C_j[4] * t365 - C_j[3] * t366 + C_j[5] * t368;
-    const jg_real t375 = h_star_in_joint_j_1 * t369 - t373 * t69 - (h_star_in_joint_j_0 * t374 - t47 * (C_j[0] *
-        t370 - C_j[1] * t371 - C_j[2] * t372));
-    const jg_real t376 = lambda[5] * t375;
-    const jg_real t377 = C_j[6] * t370 - C_j[7] * t371 - C_j[8] * t372;
-    const jg_real t378 = h_star_in_joint_j_2 * t374 - t47 * t377 - (h_star_in_joint_j_1 * (C_j[7] * t365 - C_j[6] *
-        t366 + C_j[8] * t368) - t373 * t74);
-    const jg_real t379 = lambda[5] * t378;
-    const jg_real t380 = lambda[4] * t373;
-    const jg_real t381 = lambda[4] * t377;
-    const jg_real t382 = lambda[1] * t364;
-    jac_phi_q_t_lambda_A_j[63] = t382;
-    const jg_real t383 = s_j[2] * t382;
+    jac_phi_q_t_lambda_A_j[1] = -(A_ji_5 * t326 - t291 * v_6_in_j_2 + (A_ji_4 * t321 - t289 * v_6_in_j_1 + A_ji_3 *
+        t315));
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_6_in_j_0 + A_ji_6 * t315 + A_ji_7 * t321 + A_ji_8 * t326);
+    jac_phi_q_t_lambda_A_j[4] = -t306;
+    jac_phi_q_t_lambda_A_j[5] = -t308;
+    jac_phi_q_t_lambda_A_j[9] = lambda[5] * (H_22 * t298 - H_21 * t293) + lambda[4] * (sine_2 * t297 + H_21 * t302)
+        - lambda[3] * (sine_2 * t301 + H_22 * t299);
+    jac_phi_q_t_lambda_A_j[10] = sine_1 * (lambda[3] * t299 - lambda[5] * t298) + cosine_1 * (lambda[4] * t302 -
+        lambda[5] * t293);
+    jac_phi_q_t_lambda_A_j[11] = lambda[3] * t301 - lambda[4] * t297;
+    jac_phi_q_t_lambda_A_j[51] = t345;
+    const jg_real t346 = s_j[2] * t345;
+    const jg_real t347 = lambda[1] * t330;
+    const jg_real t348 = s_j[1] * t347;
+    const jg_real t349 = lambda[3] * t336;
+    const jg_real t350 = lambda[3] * t337;
+    const jg_real t351 = C_j[3] * t349 - C_j[0] * t350 + (t346 - t348 + (C_j[6] * t343 - C_j[3] * t344) + (C_j[0] *
+        t339 - C_j[6] * t342));
+    const jg_real t352 = t345 * v_0_in_j_2;
+    const jg_real t353 = v_0_in_j_1 * t347;
+    const jg_real t354 = t352 - t353 + t351;
+    const jg_real t355 = lambda[0] * A_i[1] + lambda[2] * A_i[7];
+    const jg_real t356 = s_j[2] * t355;
+    const jg_real t357 = C_j[4] * t349 - C_j[1] * t350 + (t356 + s_j[0] * t347 + (C_j[7] * t343 - C_j[4] * t344) +
+        (C_j[1] * t339 - C_j[7] * t342));
+    const jg_real t358 = v_0_world_1 * lambda_0_1_2_in_j_2;
+    const jg_real t359 = v_0_in_j_2 * t355;
+    const jg_real t360 = t359 - (t358 - t347 * v_0_in_j_0) + t357;
+    const jg_real t361 = s_j[1] * t355;
+    const jg_real t362 = C_j[5] * t349 - C_j[2] * t350 + (C_j[8] * t343 - C_j[5] * t344 - (t361 + s_j[0] * t345) +
+        (C_j[2] * t339 - C_j[8] * t342));
+    const jg_real t363 = v_0_world_1 * lambda_0_1_2_in_j_1;
+    const jg_real t364 = v_0_in_j_1 * t355;
+    const jg_real t365 = t363 - t345 * v_0_in_j_0 - t364 + t362;
+    jac_phi_q_t_lambda_A_j[87] = t347;
+    jac_phi_q_t_lambda_A_j[18] = t351;
+    jac_phi_q_t_lambda_A_j[15] = t355;
+    jac_phi_q_t_lambda_A_j[52] = t355;
+    jac_phi_q_t_lambda_A_j[89] = t355;
+    jac_phi_q_t_lambda_A_j[19] = t357;
+    jac_phi_q_t_lambda_A_j[20] = t362;
+    jac_phi_q_t_lambda_A_j[12] = -(A_i[1] * v_6_in_j_0 + A_ji_0 * t354 + A_ji_1 * t360 + A_ji_2 * t365);
+    const jg_real t366 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
+    const jg_real t367 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
+    const jg_real t368 = t367 * h_star_in_i_1;
+    const jg_real t369 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
+    const jg_real t370 = t369 * h_star_in_i_1;
+    const jg_real t371 = C_j[3] * t366 - C_j[4] * t368 - C_j[5] * t370;
+    const jg_real t372 = A_i[2] * g_star_in_i_0 + A_i[8] * g_star_in_i_2;
+    const jg_real t373 = t367 * g_star_in_i_1;
+    const jg_real t374 = t369 * g_star_in_i_1;
+    const jg_real t375 = C_j[0] * t372 - C_j[1] * t373 - C_j[2] * t374;
+    const jg_real t376 = C_j[3] * t372 - C_j[4] * t373 - C_j[5] * t374;
+    const jg_real t377 = t371 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t375 - (g_star_in_joint_j_1 * (C_j[0] *
+        t366 - C_j[1] * t368 - C_j[2] * t370) + h_star_in_joint_j_0 * t376);
+    const jg_real t378 = lambda[5] * t377;
+    const jg_real t379 = C_j[6] * t366 - C_j[7] * t368 - C_j[8] * t370;
+    const jg_real t380 = h_star_in_joint_j_2 * t376 + g_star_in_joint_j_1 * t379 - (t371 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t372 - C_j[7] * t373 - C_j[8] * t374));
+    const jg_real t381 = lambda[5] * t380;
+    const jg_real t382 = lambda[4] * t371;
+    const jg_real t383 = lambda[4] * t379;
     const jg_real t384 = lambda[1] * t367;
-    jac_phi_q_t_lambda_A_j[99] = t384;
-    const jg_real t385 = s_j[1] * t384;
-    const jg_real t386 = lambda[3] * t369;
-    const jg_real t387 = lambda[3] * t374;
-    const jg_real t388 = C_j[3] * t386 - C_j[0] * t387 + (t383 - t385 + (C_j[6] * t380 - C_j[3] * t381) + (C_j[0] *
-        t376 - C_j[6] * t379));
-    jac_phi_q_t_lambda_A_j[30] = t388;
-    const jg_real t389 = v_0_in_j_2 * t382;
-    const jg_real t390 = v_0_in_j_1 * t384;
-    const jg_real t391 = t389 - t390 + t388;
-    const jg_real t392 = lambda[0] * A_i[2] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[27] = t392;
-    jac_phi_q_t_lambda_A_j[64] = t392;
-    jac_phi_q_t_lambda_A_j[101] = t392;
-    const jg_real t393 = s_j[2] * t392;
-    const jg_real t394 = C_j[4] * t386 - C_j[1] * t387 + (t393 + s_j[0] * t384 + (C_j[7] * t380 - C_j[4] * t381) +
-        (C_j[1] * t376 - C_j[7] * t379));
-    jac_phi_q_t_lambda_A_j[31] = t394;
-    const jg_real t395 = v_0_world_2 * lambda_0_1_2_in_j_2;
-    const jg_real t396 = v_0_in_j_2 * t392;
-    const jg_real t397 = t396 - (t395 - v_0_in_j_0 * t384) + t394;
-    const jg_real t398 = s_j[1] * t392;
-    const jg_real t399 = C_j[5] * t386 - C_j[2] * t387 + (C_j[8] * t380 - C_j[5] * t381 - (t398 + s_j[0] * t382) +
-        (C_j[2] * t376 - C_j[8] * t379));
-    jac_phi_q_t_lambda_A_j[32] = t399;
-    const jg_real t400 = v_0_world_2 * lambda_0_1_2_in_j_1;
-    const jg_real t401 = v_0_in_j_1 * t392;
-    const jg_real t402 = t400 - v_0_in_j_0 * t382 - t401 + t399;
-    jac_phi_q_t_lambda_A_j[24] = -(A_i[2] * v_6_in_j_0 + A_ji_0 * t391 + A_ji_1 * t397 + A_ji_2 * t402);
-    jac_phi_q_t_lambda_A_j[25] = -(A_ji_5 * t402 - t367 * v_6_in_j_2 + (A_ji_4 * t397 - t364 * v_6_in_j_1 + A_ji_3 *
-        t391));
-    jac_phi_q_t_lambda_A_j[26] = -(A_i[8] * v_6_in_j_0 + A_ji_6 * t391 + A_ji_7 * t397 + A_ji_8 * t402);
-    jac_phi_q_t_lambda_A_j[28] = -t382;
-    jac_phi_q_t_lambda_A_j[29] = -t384;
-    jac_phi_q_t_lambda_A_j[33] = lambda[5] * (H_22 * t374 - H_21 * t373) + lambda[4] * (sine_2 * t369 + H_21 * t378)
-        - lambda[3] * (sine_2 * t377 + H_22 * t375);
-    jac_phi_q_t_lambda_A_j[34] = cosine_1 * (lambda[4] * t378 - lambda[5] * t373) + sine_1 * (lambda[3] * t375 -
-        lambda[5] * t374);
-    jac_phi_q_t_lambda_A_j[35] = lambda[3] * t377 - lambda[4] * t369;
-    const jg_real t403 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
-    const jg_real t404 = t403 * t41;
-    const jg_real t405 = C_j[2] * t404 - (C_j[0] * t287 + C_j[1] * t288);
-    const jg_real t406 = t403 * h_star_in_i_1;
-    const jg_real t407 = C_j[3] * t293 + C_j[4] * t292 - C_j[5] * t406;
-    const jg_real t408 = C_j[5] * t404 - (C_j[3] * t287 + C_j[4] * t288);
-    const jg_real t409 = h_star_in_joint_j_1 * t405 - t407 * t69 - (h_star_in_joint_j_0 * t408 - t47 * (C_j[0] *
-        t293 + C_j[1] * t292 - C_j[2] * t406));
-    const jg_real t410 = lambda[5] * t409;
-    const jg_real t411 = C_j[6] * t293 + C_j[7] * t292 - C_j[8] * t406;
-    const jg_real t412 = h_star_in_joint_j_2 * t408 - t47 * t411 - (h_star_in_joint_j_1 * (C_j[8] * t404 - (C_j[6] *
-        t287 + C_j[7] * t288)) - t407 * t74);
-    const jg_real t413 = lambda[5] * t412;
-    const jg_real t414 = lambda[4] * t407;
-    const jg_real t415 = lambda[4] * t411;
-    const jg_real t416 = lambda[1] * t403;
-    jac_phi_q_t_lambda_A_j[76] = t416;
-    const jg_real t417 = lambda[3] * t405;
-    const jg_real t418 = lambda[3] * t408;
-    const jg_real t419 = C_j[3] * t417 - C_j[0] * t418 + (C_j[6] * t414 - C_j[3] * t415 - (t315 + s_j[1] * t416) +
-        (C_j[0] * t410 - C_j[6] * t413));
-    jac_phi_q_t_lambda_A_j[42] = t419;
-    const jg_real t420 = t317 - v_0_in_j_1 * t416 - t318 + t419;
-    const jg_real t421 = s_j[0] * t416;
-    const jg_real t422 = C_j[4] * t417 - C_j[1] * t418 + (t305 + t421 + (C_j[7] * t414 - C_j[4] * t415) + (C_j[1] *
-        t410 - C_j[7] * t413));
-    jac_phi_q_t_lambda_A_j[43] = t422;
-    const jg_real t423 = v_0_in_j_0 * t416;
-    const jg_real t424 = t311 + t423 + t422;
-    const jg_real t425 = s_j[0] * t314;
-    const jg_real t426 = C_j[5] * t417 - C_j[2] * t418 + (t425 - s_j[1] * t304 + (C_j[8] * t414 - C_j[5] * t415) +
-        (C_j[2] * t410 - C_j[8] * t413));
-    jac_phi_q_t_lambda_A_j[44] = t426;
-    const jg_real t427 = v_0_world_0 * lambda_0_1_2_in_j_0;
-    const jg_real t428 = v_0_in_j_0 * t314;
-    const jg_real t429 = t428 - (t427 + v_0_in_j_1 * t304) + t426;
-    jac_phi_q_t_lambda_A_j[36] = -(A_i[0] * v_6_in_j_1 + A_ji_1 * t424 + A_ji_0 * t420 + A_ji_2 * t429);
-    jac_phi_q_t_lambda_A_j[37] = -(A_ji_5 * t429 - t403 * v_6_in_j_2 + (t286 * v_6_in_j_0 + A_ji_3 * t420 + A_ji_4 *
-        t424));
-    jac_phi_q_t_lambda_A_j[38] = -(A_i[6] * v_6_in_j_1 + A_ji_7 * t424 + A_ji_6 * t420 + A_ji_8 * t429);
-    jac_phi_q_t_lambda_A_j[41] = -t416;
-    jac_phi_q_t_lambda_A_j[45] = lambda[5] * (H_22 * t408 - H_21 * t407) + lambda[4] * (sine_2 * t405 + H_21 * t412)
-        - lambda[3] * (sine_2 * t411 + H_22 * t409);
-    jac_phi_q_t_lambda_A_j[46] = cosine_1 * (lambda[4] * t412 - lambda[5] * t407) + sine_1 * (lambda[3] * t409 -
-        lambda[5] * t408);
-    jac_phi_q_t_lambda_A_j[47] = lambda[3] * t411 - lambda[4] * t405;
-    const jg_real t430 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
-    const jg_real t431 = t430 * t41;
-    const jg_real t432 = C_j[2] * t431 - (C_j[0] * t326 + C_j[1] * t327);
-    const jg_real t433 = t430 * h_star_in_i_1;
-    const jg_real t434 = C_j[3] * t332 + C_j[4] * t331 - C_j[5] * t433;
-    const jg_real t435 = C_j[5] * t431 - (C_j[3] * t326 + C_j[4] * t327);
-    const jg_real t436 = h_star_in_joint_j_1 * t432 - t434 * t69 - (h_star_in_joint_j_0 * t435 - t47 * (C_j[0] *
-        t332 + C_j[1] * t331 - C_j[2] * t433));
-    const jg_real t437 = lambda[5] * t436;
-    const jg_real t438 = C_j[6] * t332 + C_j[7] * t331 - C_j[8] * t433;
-    const jg_real t439 = h_star_in_joint_j_2 * t435 - t47 * t438 - (h_star_in_joint_j_1 * (C_j[8] * t431 - (C_j[6] *
-        t326 + C_j[7] * t327)) - t434 * t74);
-    const jg_real t440 = lambda[5] * t439;
-    const jg_real t441 = lambda[4] * t434;
-    const jg_real t442 = lambda[4] * t438;
-    const jg_real t443 = lambda[1] * t430;
-    jac_phi_q_t_lambda_A_j[88] = t443;
-    const jg_real t444 = lambda[3] * t432;
-    const jg_real t445 = lambda[3] * t435;
-    const jg_real t446 = C_j[3] * t444 - C_j[0] * t445 + (C_j[6] * t441 - C_j[3] * t442 - (t354 + s_j[1] * t443) +
-        (C_j[0] * t437 - C_j[6] * t440));
-    jac_phi_q_t_lambda_A_j[54] = t446;
-    const jg_real t447 = t356 - v_0_in_j_1 * t443 - t357 + t446;
-    const jg_real t448 = s_j[0] * t443;
-    const jg_real t449 = C_j[4] * t444 - C_j[1] * t445 + (t344 + t448 + (C_j[7] * t441 - C_j[4] * t442) + (C_j[1] *
-        t437 - C_j[7] * t440));
-    jac_phi_q_t_lambda_A_j[55] = t449;
-    const jg_real t450 = v_0_in_j_0 * t443;
-    const jg_real t451 = t350 + t450 + t449;
-    const jg_real t452 = s_j[0] * t353;
-    const jg_real t453 = C_j[5] * t444 - C_j[2] * t445 + (t452 - s_j[1] * t343 + (C_j[8] * t441 - C_j[5] * t442) +
-        (C_j[2] * t437 - C_j[8] * t440));
-    jac_phi_q_t_lambda_A_j[56] = t453;
-    const jg_real t454 = v_0_world_1 * lambda_0_1_2_in_j_0;
-    const jg_real t455 = v_0_in_j_0 * t353;
-    const jg_real t456 = t455 - (t454 + v_0_in_j_1 * t343) + t453;
-    jac_phi_q_t_lambda_A_j[48] = -(A_i[1] * v_6_in_j_1 + A_ji_1 * t451 + A_ji_0 * t447 + A_ji_2 * t456);
-    jac_phi_q_t_lambda_A_j[49] = -(A_ji_5 * t456 - t430 * v_6_in_j_2 + (t325 * v_6_in_j_0 + A_ji_3 * t447 + A_ji_4 *
-        t451));
-    jac_phi_q_t_lambda_A_j[50] = -(A_i[7] * v_6_in_j_1 + A_ji_7 * t451 + A_ji_6 * t447 + A_ji_8 * t456);
-    jac_phi_q_t_lambda_A_j[53] = -t443;
-    jac_phi_q_t_lambda_A_j[57] = lambda[5] * (H_22 * t435 - H_21 * t434) + lambda[4] * (sine_2 * t432 + H_21 * t439)
-        - lambda[3] * (sine_2 * t438 + H_22 * t436);
-    jac_phi_q_t_lambda_A_j[58] = cosine_1 * (lambda[4] * t439 - lambda[5] * t434) + sine_1 * (lambda[3] * t436 -
-        lambda[5] * t435);
-    jac_phi_q_t_lambda_A_j[59] = lambda[3] * t438 - lambda[4] * t432;
-    const jg_real t457 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
-    const jg_real t458 = t457 * t41;
-    const jg_real t459 = C_j[2] * t458 - (C_j[0] * t365 + C_j[1] * t366);
-    const jg_real t460 = t457 * h_star_in_i_1;
-    const jg_real t461 = C_j[3] * t371 + C_j[4] * t370 - C_j[5] * t460;
-    const jg_real t462 = C_j[5] * t458 - (C_j[3] * t365 + C_j[4] * t366);
-    const jg_real t463 = h_star_in_joint_j_1 * t459 - t461 * t69 - (h_star_in_joint_j_0 * t462 - t47 * (C_j[0] *
-        t371 + C_j[1] * t370 - C_j[2] * t460));
-    const jg_real t464 = lambda[5] * t463;
-    const jg_real t465 = C_j[6] * t371 + C_j[7] * t370 - C_j[8] * t460;
-    const jg_real t466 = h_star_in_joint_j_2 * t462 - t47 * t465 - (h_star_in_joint_j_1 * (C_j[8] * t458 - (C_j[6] *
-        t365 + C_j[7] * t366)) - t461 * t74);
-    const jg_real t467 = lambda[5] * t466;
-    const jg_real t468 = lambda[4] * t461;
-    const jg_real t469 = lambda[4] * t465;
-    const jg_real t470 = lambda[1] * t457;
-    jac_phi_q_t_lambda_A_j[100] = t470;
-    const jg_real t471 = lambda[3] * t459;
-    const jg_real t472 = lambda[3] * t462;
-    const jg_real t473 = C_j[3] * t471 - C_j[0] * t472 + (C_j[6] * t468 - C_j[3] * t469 - (t393 + s_j[1] * t470) +
-        (C_j[0] * t464 - C_j[6] * t467));
-    jac_phi_q_t_lambda_A_j[66] = t473;
-    const jg_real t474 = t395 - v_0_in_j_1 * t470 - t396 + t473;
-    const jg_real t475 = s_j[0] * t470;
-    const jg_real t476 = C_j[4] * t471 - C_j[1] * t472 + (t383 + t475 + (C_j[7] * t468 - C_j[4] * t469) + (C_j[1] *
-        t464 - C_j[7] * t467));
-    jac_phi_q_t_lambda_A_j[67] = t476;
-    const jg_real t477 = v_0_in_j_0 * t470;
-    const jg_real t478 = t389 + t477 + t476;
-    const jg_real t479 = s_j[0] * t392;
-    const jg_real t480 = C_j[5] * t471 - C_j[2] * t472 + (t479 - s_j[1] * t382 + (C_j[8] * t468 - C_j[5] * t469) +
-        (C_j[2] * t464 - C_j[8] * t467));
-    jac_phi_q_t_lambda_A_j[68] = t480;
-    const jg_real t481 = v_0_world_2 * lambda_0_1_2_in_j_0;
-    const jg_real t482 = v_0_in_j_0 * t392;
-    const jg_real t483 = t482 - (t481 + v_0_in_j_1 * t382) + t480;
-    jac_phi_q_t_lambda_A_j[60] = -(A_i[2] * v_6_in_j_1 + A_ji_1 * t478 + A_ji_0 * t474 + A_ji_2 * t483);
-    jac_phi_q_t_lambda_A_j[61] = -(A_ji_5 * t483 - t457 * v_6_in_j_2 + (t364 * v_6_in_j_0 + A_ji_3 * t474 + A_ji_4 *
-        t478));
-    jac_phi_q_t_lambda_A_j[62] = -(A_i[8] * v_6_in_j_1 + A_ji_7 * t478 + A_ji_6 * t474 + A_ji_8 * t483);
-    jac_phi_q_t_lambda_A_j[65] = -t470;
-    jac_phi_q_t_lambda_A_j[69] = lambda[5] * (H_22 * t462 - H_21 * t461) + lambda[4] * (sine_2 * t459 + H_21 * t466)
-        - lambda[3] * (sine_2 * t465 + H_22 * t463);
-    jac_phi_q_t_lambda_A_j[70] = cosine_1 * (lambda[4] * t466 - lambda[5] * t461) + sine_1 * (lambda[3] * t463 -
-        lambda[5] * t462);
-    jac_phi_q_t_lambda_A_j[71] = lambda[3] * t465 - lambda[4] * t459;
-    const jg_real t484 = C_j[3] * t290 + C_j[4] * t404 + C_j[5] * t288;
-    const jg_real t485 = C_j[3] * t294 + C_j[4] * t406 + C_j[5] * t292;
-    const jg_real t486 = C_j[0] * t290 + C_j[1] * t404 + C_j[2] * t288;
-    const jg_real t487 = t47 * (C_j[0] * t294 + C_j[1] * t406 + C_j[2] * t292) + h_star_in_joint_j_0 * t484 - (t485
-        * t69 + h_star_in_joint_j_1 * t486);
-    const jg_real t488 = lambda[5] * t487;
-    const jg_real t489 = C_j[6] * t294 + C_j[7] * t406 + C_j[8] * t292;
-    const jg_real t490 = t485 * t74 + h_star_in_joint_j_1 * (C_j[6] * t290 + C_j[7] * t404 + C_j[8] * t288) - (t47 *
-        t489 + h_star_in_joint_j_2 * t484);
-    const jg_real t491 = lambda[5] * t490;
-    const jg_real t492 = lambda[4] * t485;
-    const jg_real t493 = lambda[4] * t489;
-    const jg_real t494 = lambda[3] * t484;
-    const jg_real t495 = lambda[3] * t486;
-    const jg_real t496 = C_j[0] * t494 - C_j[3] * t495 + (t320 - s_j[2] * t416 + (C_j[6] * t492 - C_j[3] * t493) +
-        (C_j[0] * t488 - C_j[6] * t491));
-    jac_phi_q_t_lambda_A_j[78] = t496;
-    const jg_real t497 = t323 - (v_0_in_j_2 * t416 + t322) + t496;
-    const jg_real t498 = C_j[1] * t494 - C_j[4] * t495 + (s_j[2] * t306 - t425 + (C_j[7] * t492 - C_j[4] * t493) +
-        (C_j[1] * t488 - C_j[7] * t491));
-    jac_phi_q_t_lambda_A_j[79] = t498;
-    const jg_real t499 = v_0_in_j_2 * t306 + t427 - t428 + t498;
-    const jg_real t500 = C_j[2] * t494 - C_j[5] * t495 + (t421 - t307 + (C_j[8] * t492 - C_j[5] * t493) + (C_j[2] *
-        t488 - C_j[8] * t491));
-    jac_phi_q_t_lambda_A_j[80] = t500;
-    const jg_real t501 = t423 - t312 + t500;
-    jac_phi_q_t_lambda_A_j[72] = -(A_i[0] * v_6_in_j_2 + A_ji_2 * t501 + (A_ji_0 * t497 + A_ji_1 * t499));
-    jac_phi_q_t_lambda_A_j[73] = -(t289 * v_6_in_j_0 + A_ji_3 * t497 + (t403 * v_6_in_j_1 + A_ji_4 * t499) + A_ji_5
-        * t501);
-    jac_phi_q_t_lambda_A_j[74] = -(A_i[6] * v_6_in_j_2 + A_ji_8 * t501 + (A_ji_6 * t497 + A_ji_7 * t499));
-    jac_phi_q_t_lambda_A_j[81] = lambda[4] * (H_21 * t490 - sine_2 * t486) - lambda[5] * (H_21 * t485 + H_22 * t484)
-        - lambda[3] * (sine_2 * t489 + H_22 * t487);
-    jac_phi_q_t_lambda_A_j[82] = cosine_1 * (lambda[4] * t490 - lambda[5] * t485) + sine_1 * (lambda[5] * t484 +
-        lambda[3] * t487);
-    jac_phi_q_t_lambda_A_j[83] = lambda[3] * t489 + lambda[4] * t486;
-    const jg_real t502 = C_j[3] * t329 + C_j[4] * t431 + C_j[5] * t327;
-    const jg_real t503 = C_j[3] * t333 + C_j[4] * t433 + C_j[5] * t331;
-    const jg_real t504 = C_j[0] * t329 + C_j[1] * t431 + C_j[2] * t327;
-    const jg_real t505 = t47 * (C_j[0] * t333 + C_j[1] * t433 + C_j[2] * t331) + h_star_in_joint_j_0 * t502 - (t503
-        * t69 + h_star_in_joint_j_1 * t504);
-    const jg_real t506 = lambda[5] * t505;
-    const jg_real t507 = C_j[6] * t333 + C_j[7] * t433 + C_j[8] * t331;
-    const jg_real t508 = t503 * t74 + h_star_in_joint_j_1 * (C_j[6] * t329 + C_j[7] * t431 + C_j[8] * t327) - (t47 *
-        t507 + h_star_in_joint_j_2 * t502);
-    const jg_real t509 = lambda[5] * t508;
-    const jg_real t510 = lambda[4] * t503;
-    const jg_real t511 = lambda[4] * t507;
-    const jg_real t512 = lambda[3] * t502;
-    const jg_real t513 = lambda[3] * t504;
-    const jg_real t514 = C_j[0] * t512 - C_j[3] * t513 + (t359 - s_j[2] * t443 + (C_j[6] * t510 - C_j[3] * t511) +
-        (C_j[0] * t506 - C_j[6] * t509));
-    jac_phi_q_t_lambda_A_j[90] = t514;
-    const jg_real t515 = t362 - (v_0_in_j_2 * t443 + t361) + t514;
-    const jg_real t516 = C_j[1] * t512 - C_j[4] * t513 + (s_j[2] * t345 - t452 + (C_j[7] * t510 - C_j[4] * t511) +
-        (C_j[1] * t506 - C_j[7] * t509));
-    jac_phi_q_t_lambda_A_j[91] = t516;
-    const jg_real t517 = v_0_in_j_2 * t345 + t454 - t455 + t516;
-    const jg_real t518 = C_j[2] * t512 - C_j[5] * t513 + (t448 - t346 + (C_j[8] * t510 - C_j[5] * t511) + (C_j[2] *
-        t506 - C_j[8] * t509));
-    jac_phi_q_t_lambda_A_j[92] = t518;
-    const jg_real t519 = t450 - t351 + t518;
-    jac_phi_q_t_lambda_A_j[84] = -(A_i[1] * v_6_in_j_2 + A_ji_2 * t519 + (A_ji_0 * t515 + A_ji_1 * t517));
-    jac_phi_q_t_lambda_A_j[85] = -(t328 * v_6_in_j_0 + A_ji_3 * t515 + (t430 * v_6_in_j_1 + A_ji_4 * t517) + A_ji_5
-        * t519);
-    jac_phi_q_t_lambda_A_j[86] = -(A_i[7] * v_6_in_j_2 + A_ji_8 * t519 + (A_ji_6 * t515 + A_ji_7 * t517));
-    jac_phi_q_t_lambda_A_j[93] = lambda[4] * (H_21 * t508 - sine_2 * t504) - lambda[5] * (H_21 * t503 + H_22 * t502)
-        - lambda[3] * (sine_2 * t507 + H_22 * t505);
-    jac_phi_q_t_lambda_A_j[94] = cosine_1 * (lambda[4] * t508 - lambda[5] * t503) + sine_1 * (lambda[5] * t502 +
-        lambda[3] * t505);
-    jac_phi_q_t_lambda_A_j[95] = lambda[3] * t507 + lambda[4] * t504;
-    const jg_real t520 = C_j[3] * t368 + C_j[4] * t458 + C_j[5] * t366;
-    const jg_real t521 = C_j[3] * t372 + C_j[4] * t460 + C_j[5] * t370;
-    const jg_real t522 = C_j[0] * t368 + C_j[1] * t458 + C_j[2] * t366;
-    const jg_real t523 = t47 * (C_j[0] * t372 + C_j[1] * t460 + C_j[2] * t370) + h_star_in_joint_j_0 * t520 - (t521
-        * t69 + h_star_in_joint_j_1 * t522);
-    const jg_real t524 = lambda[5] * t523;
-    const jg_real t525 = C_j[6] * t372 + C_j[7] * t460 + C_j[8] * t370;
-    const jg_real t526 = t521 * t74 + h_star_in_joint_j_1 * (C_j[6] * t368 + C_j[7] * t458 + C_j[8] * t366) - (t47 *
-        t525 + h_star_in_joint_j_2 * t520);
-    const jg_real t527 = lambda[5] * t526;
-    const jg_real t528 = lambda[4] * t521;
-    const jg_real t529 = lambda[4] * t525;
-    const jg_real t530 = lambda[3] * t520;
-    const jg_real t531 = lambda[3] * t522;
-    const jg_real t532 = C_j[0] * t530 - C_j[3] * t531 + (t398 - s_j[2] * t470 + (C_j[6] * t528 - C_j[3] * t529) +
-        (C_j[0] * t524 - C_j[6] * t527));
-    jac_phi_q_t_lambda_A_j[102] = t532;
-    const jg_real t533 = t401 - (v_0_in_j_2 * t470 + t400) + t532;
-    const jg_real t534 = C_j[1] * t530 - C_j[4] * t531 + (s_j[2] * t384 - t479 + (C_j[7] * t528 - C_j[4] * t529) +
-        (C_j[1] * t524 - C_j[7] * t527));
-    jac_phi_q_t_lambda_A_j[103] = t534;
-    const jg_real t535 = v_0_in_j_2 * t384 + t481 - t482 + t534;
-    const jg_real t536 = C_j[2] * t530 - C_j[5] * t531 + (t475 - t385 + (C_j[8] * t528 - C_j[5] * t529) + (C_j[2] *
-        t524 - C_j[8] * t527));
-    jac_phi_q_t_lambda_A_j[104] = t536;
-    const jg_real t537 = t477 - t390 + t536;
-    jac_phi_q_t_lambda_A_j[96] = -(A_i[2] * v_6_in_j_2 + A_ji_2 * t537 + (A_ji_0 * t533 + A_ji_1 * t535));
-    jac_phi_q_t_lambda_A_j[97] = -(t367 * v_6_in_j_0 + A_ji_3 * t533 + (t457 * v_6_in_j_1 + A_ji_4 * t535) + A_ji_5
-        * t537);
-    jac_phi_q_t_lambda_A_j[98] = -(A_i[8] * v_6_in_j_2 + A_ji_8 * t537 + (A_ji_6 * t533 + A_ji_7 * t535));
-    jac_phi_q_t_lambda_A_j[105] = lambda[4] * (H_21 * t526 - sine_2 * t522) - lambda[5] * (H_21 * t521 + H_22 *
-        t520) - lambda[3] * (sine_2 * t525 + H_22 * t523);
-    jac_phi_q_t_lambda_A_j[106] = cosine_1 * (lambda[4] * t526 - lambda[5] * t521) + sine_1 * (lambda[5] * t520 +
-        lambda[3] * t523);
-    jac_phi_q_t_lambda_A_j[107] = lambda[3] * t525 + lambda[4] * t522;
-    const jg_real t538 = C_i[1] * t50 + C_i[4] * H_02;
-    const jg_real t539 = C_i[0] * t50 + C_i[3] * H_02;
-    const jg_real t540 = C_i[2] * t50 + C_i[5] * H_02;
-    const jg_real t541 = A_ji_3 * t538 + A_ji_0 * t539 + A_ji_6 * t540;
-    const jg_real t542 = A_ji_4 * t538 + A_ji_1 * t539 + A_ji_7 * t540;
-    const jg_real t543 = A_ji_5 * t538 + A_ji_2 * t539 + A_ji_8 * t540;
-    const jg_real t544 = C_i[1] * H_11 + C_i[4] * t37;
-    const jg_real t545 = C_i[0] * H_11 + C_i[3] * t37;
-    const jg_real t546 = C_i[2] * H_11 + C_i[5] * t37;
-    const jg_real t547 = A_ji_3 * t544 + A_ji_0 * t545 + A_ji_6 * t546;
-    const jg_real t548 = A_ji_4 * t544 + A_ji_1 * t545 + A_ji_7 * t546;
-    const jg_real t549 = A_ji_5 * t544 + A_ji_2 * t545 + A_ji_8 * t546;
-    const jg_real t550 = C_j[3] * t547 + C_j[4] * t548 + C_j[5] * t549;
-    const jg_real t551 = C_j[3] * t541 + C_j[4] * t542 + C_j[5] * t543;
-    const jg_real t552 = C_j[0] * t547 + C_j[1] * t548 + C_j[2] * t549;
-    const jg_real t553 = t47 * (C_j[0] * t541 + C_j[1] * t542 + C_j[2] * t543) + h_star_in_joint_j_0 * t550 - (t551
-        * t69 + h_star_in_joint_j_1 * t552);
-    const jg_real t554 = lambda[5] * t553;
-    const jg_real t555 = C_j[6] * t541 + C_j[7] * t542 + C_j[8] * t543;
-    const jg_real t556 = t551 * t74 + h_star_in_joint_j_1 * (C_j[6] * t547 + C_j[7] * t548 + C_j[8] * t549) - (t47 *
-        t555 + h_star_in_joint_j_2 * t550);
-    const jg_real t557 = lambda[5] * t556;
-    const jg_real t558 = lambda[4] * t551;
-    const jg_real t559 = lambda[4] * t555;
-    const jg_real t560 = lambda[3] * t550;
-    const jg_real t561 = lambda[3] * t552;
-    const jg_real t562 = C_j[0] * t560 - C_j[3] * t561 + (C_j[6] * t558 - C_j[3] * t559 + (C_j[0] * t554 - C_j[6] *
-        t557));
-    jac_phi_q_t_lambda_alpha[3] = t562;
-    const jg_real t563 = C_j[1] * t560 - C_j[4] * t561 + (C_j[7] * t558 - C_j[4] * t559 + (C_j[1] * t554 - C_j[7] *
-        t557));
-    jac_phi_q_t_lambda_alpha[4] = t563;
-    const jg_real t564 = C_j[2] * t560 - C_j[5] * t561 + (C_j[8] * t558 - C_j[5] * t559 + (C_j[2] * t554 - C_j[8] *
-        t557));
-    jac_phi_q_t_lambda_alpha[5] = t564;
-    jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t562 + A_ji_1 * t563 + A_ji_2 * t564);
-    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t562 + A_ji_4 * t563 + A_ji_5 * t564);
-    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t562 + A_ji_7 * t563 + A_ji_8 * t564);
-    jac_phi_q_t_lambda_alpha[6] = lambda[4] * (H_21 * t556 - sine_2 * t552) - lambda[5] * (H_21 * t551 + H_22 *
-        t550) - lambda[3] * (sine_2 * t555 + H_22 * t553);
-    jac_phi_q_t_lambda_alpha[7] = cosine_1 * (lambda[4] * t556 - lambda[5] * t551) + sine_1 * (lambda[5] * t550 +
-        lambda[3] * t553);
-    jac_phi_q_t_lambda_alpha[8] = lambda[3] * t555 + lambda[4] * t552;
-    const jg_real t565 = cosine_0 * cosine_2;
-    const jg_real t566 = sine_1 * t565;
-    const jg_real t567 = sine_0 * cosine_2;
-    const jg_real t568 = sine_1 * t567;
-    const jg_real t569 = sine_1 * sine_2;
-    const jg_real t570 = C_i[1] * t566 + C_i[4] * t568 - C_i[7] * t569;
-    const jg_real t571 = C_i[0] * t566 + C_i[3] * t568 - C_i[6] * t569;
-    const jg_real t572 = C_i[2] * t566 + C_i[5] * t568 - C_i[8] * t569;
+    jac_phi_q_t_lambda_A_j[13] = -(A_ji_5 * t365 - t330 * v_6_in_j_2 + (A_ji_4 * t360 - t328 * v_6_in_j_1 + A_ji_3 *
+        t354));
+    jac_phi_q_t_lambda_A_j[14] = -(A_i[7] * v_6_in_j_0 + A_ji_6 * t354 + A_ji_7 * t360 + A_ji_8 * t365);
+    jac_phi_q_t_lambda_A_j[16] = -t345;
+    jac_phi_q_t_lambda_A_j[17] = -t347;
+    jac_phi_q_t_lambda_A_j[21] = lambda[5] * (H_22 * t337 - H_21 * t332) + lambda[4] * (sine_2 * t336 + H_21 * t341)
+        - lambda[3] * (sine_2 * t340 + H_22 * t338);
+    jac_phi_q_t_lambda_A_j[22] = sine_1 * (lambda[3] * t338 - lambda[5] * t337) + cosine_1 * (lambda[4] * t341 -
+        lambda[5] * t332);
+    jac_phi_q_t_lambda_A_j[23] = lambda[3] * t340 - lambda[4] * t336;
+    jac_phi_q_t_lambda_A_j[63] = t384;
+    const jg_real t385 = s_j[2] * t384;
+    const jg_real t386 = lambda[1] * t369;
+    const jg_real t387 = s_j[1] * t386;
+    const jg_real t388 = lambda[3] * t375;
+    const jg_real t389 = lambda[3] * t376;
+    const jg_real t390 = C_j[3] * t388 - C_j[0] * t389 + (t385 - t387 + (C_j[6] * t382 - C_j[3] * t383) + (C_j[0] *
+        t378 - C_j[6] * t381));
+    const jg_real t391 = t384 * v_0_in_j_2;
+    const jg_real t392 = v_0_in_j_1 * t386;
+    const jg_real t393 = t391 - t392 + t390;
+    const jg_real t394 = lambda[0] * A_i[2] + lambda[2] * A_i[8];
+    const jg_real t395 = s_j[2] * t394;
+    const jg_real t396 = C_j[4] * t388 - C_j[1] * t389 + (t395 + s_j[0] * t386 + (C_j[7] * t382 - C_j[4] * t383) +
+        (C_j[1] * t378 - C_j[7] * t381));
+    const jg_real t397 = v_0_world_2 * lambda_0_1_2_in_j_2;
+    const jg_real t398 = v_0_in_j_2 * t394;
+    const jg_real t399 = t398 - (t397 - t386 * v_0_in_j_0) + t396;
+    const jg_real t400 = s_j[1] * t394;
+    const jg_real t401 = C_j[5] * t388 - C_j[2] * t389 + (C_j[8] * t382 - C_j[5] * t383 - (t400 + s_j[0] * t384) +
+        (C_j[2] * t378 - C_j[8] * t381));
+    const jg_real t402 = v_0_world_2 * lambda_0_1_2_in_j_1;
+    const jg_real t403 = v_0_in_j_1 * t394;
+    const jg_real t404 = t402 - t384 * v_0_in_j_0 - t403 + t401;
+    jac_phi_q_t_lambda_A_j[99] = t386;
+    jac_phi_q_t_lambda_A_j[30] = t390;
+    jac_phi_q_t_lambda_A_j[27] = t394;
+    jac_phi_q_t_lambda_A_j[64] = t394;
+    jac_phi_q_t_lambda_A_j[101] = t394;
+    jac_phi_q_t_lambda_A_j[31] = t396;
+    jac_phi_q_t_lambda_A_j[32] = t401;
+    jac_phi_q_t_lambda_A_j[24] = -(A_i[2] * v_6_in_j_0 + A_ji_0 * t393 + A_ji_1 * t399 + A_ji_2 * t404);
+    const jg_real t405 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
+    const jg_real t406 = t405 * h_star_in_i_1;
+    const jg_real t407 = C_j[3] * t290 + C_j[4] * t288 - C_j[5] * t406;
+    const jg_real t408 = t405 * g_star_in_i_1;
+    const jg_real t409 = C_j[0] * t295 + C_j[1] * t294 - C_j[2] * t408;
+    const jg_real t410 = C_j[3] * t295 + C_j[4] * t294 - C_j[5] * t408;
+    const jg_real t411 = t407 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t409 - (g_star_in_joint_j_1 * (C_j[0] *
+        t290 + C_j[1] * t288 - C_j[2] * t406) + h_star_in_joint_j_0 * t410);
+    const jg_real t412 = lambda[5] * t411;
+    const jg_real t413 = C_j[6] * t290 + C_j[7] * t288 - C_j[8] * t406;
+    const jg_real t414 = h_star_in_joint_j_2 * t410 + g_star_in_joint_j_1 * t413 - (t407 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t295 + C_j[7] * t294 - C_j[8] * t408));
+    const jg_real t415 = lambda[5] * t414;
+    const jg_real t416 = lambda[4] * t407;
+    const jg_real t417 = lambda[4] * t413;
+    const jg_real t418 = lambda[1] * t405;
+    jac_phi_q_t_lambda_A_j[25] = -(A_ji_5 * t404 - t369 * v_6_in_j_2 + (A_ji_4 * t399 - t367 * v_6_in_j_1 + A_ji_3 *
+        t393));
+    jac_phi_q_t_lambda_A_j[26] = -(A_i[8] * v_6_in_j_0 + A_ji_6 * t393 + A_ji_7 * t399 + A_ji_8 * t404);
+    jac_phi_q_t_lambda_A_j[28] = -t384;
+    jac_phi_q_t_lambda_A_j[29] = -t386;
+    jac_phi_q_t_lambda_A_j[33] = lambda[5] * (H_22 * t376 - H_21 * t371) + lambda[4] * (sine_2 * t375 + H_21 * t380)
+        - lambda[3] * (sine_2 * t379 + H_22 * t377);
+    jac_phi_q_t_lambda_A_j[34] = sine_1 * (lambda[3] * t377 - lambda[5] * t376) + cosine_1 * (lambda[4] * t380 -
+        lambda[5] * t371);
+    jac_phi_q_t_lambda_A_j[35] = lambda[3] * t379 - lambda[4] * t375;
+    jac_phi_q_t_lambda_A_j[76] = t418;
+    const jg_real t419 = lambda[3] * t409;
+    const jg_real t420 = lambda[3] * t410;
+    const jg_real t421 = C_j[3] * t419 - C_j[0] * t420 + (C_j[6] * t416 - C_j[3] * t417 - (t317 + s_j[1] * t418) +
+        (C_j[0] * t412 - C_j[6] * t415));
+    const jg_real t422 = t319 - v_0_in_j_1 * t418 - t320 + t421;
+    const jg_real t423 = s_j[0] * t418;
+    const jg_real t424 = C_j[4] * t419 - C_j[1] * t420 + (t307 + t423 + (C_j[7] * t416 - C_j[4] * t417) + (C_j[1] *
+        t412 - C_j[7] * t415));
+    const jg_real t425 = v_0_in_j_0 * t418;
+    const jg_real t426 = t313 + t425 + t424;
+    const jg_real t427 = s_j[0] * t316;
+    const jg_real t428 = C_j[5] * t419 - C_j[2] * t420 + (t427 - s_j[1] * t306 + (C_j[8] * t416 - C_j[5] * t417) +
+        (C_j[2] * t412 - C_j[8] * t415));
+    const jg_real t429 = v_0_world_0 * lambda_0_1_2_in_j_0;
+    const jg_real t430 = v_0_in_j_0 * t316;
+    const jg_real t431 = t430 - (t429 + v_0_in_j_1 * t306) + t428;
+    jac_phi_q_t_lambda_A_j[42] = t421;
+    jac_phi_q_t_lambda_A_j[43] = t424;
+    jac_phi_q_t_lambda_A_j[44] = t428;
+    jac_phi_q_t_lambda_A_j[36] = -(A_i[0] * v_6_in_j_1 + A_ji_1 * t426 + A_ji_0 * t422 + A_ji_2 * t431);
+    jac_phi_q_t_lambda_A_j[37] = -(A_ji_5 * t431 - t405 * v_6_in_j_2 + (t289 * v_6_in_j_0 + A_ji_3 * t422 + A_ji_4 *
+        t426));
+    jac_phi_q_t_lambda_A_j[38] = -(A_i[6] * v_6_in_j_1 + A_ji_7 * t426 + A_ji_6 * t422 + A_ji_8 * t431);
+    jac_phi_q_t_lambda_A_j[41] = -t418;
+    jac_phi_q_t_lambda_A_j[45] = lambda[5] * (H_22 * t410 - H_21 * t407) + lambda[4] * (sine_2 * t409 + H_21 * t414)
+        - lambda[3] * (sine_2 * t413 + H_22 * t411);
+    const jg_real t432 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
+    const jg_real t433 = t432 * h_star_in_i_1;
+    const jg_real t434 = C_j[3] * t329 + C_j[4] * t327 - C_j[5] * t433;
+    const jg_real t435 = t432 * g_star_in_i_1;
+    const jg_real t436 = C_j[0] * t334 + C_j[1] * t333 - C_j[2] * t435;
+    const jg_real t437 = C_j[3] * t334 + C_j[4] * t333 - C_j[5] * t435;
+    const jg_real t438 = t434 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t436 - (g_star_in_joint_j_1 * (C_j[0] *
+        t329 + C_j[1] * t327 - C_j[2] * t433) + h_star_in_joint_j_0 * t437);
+    const jg_real t439 = lambda[5] * t438;
+    const jg_real t440 = C_j[6] * t329 + C_j[7] * t327 - C_j[8] * t433;
+    const jg_real t441 = h_star_in_joint_j_2 * t437 + g_star_in_joint_j_1 * t440 - (t434 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t334 + C_j[7] * t333 - C_j[8] * t435));
+    const jg_real t442 = lambda[5] * t441;
+    const jg_real t443 = lambda[4] * t434;
+    const jg_real t444 = lambda[4] * t440;
+    const jg_real t445 = lambda[1] * t432;
+    const jg_real t446 = lambda[3] * t436;
+    const jg_real t447 = lambda[3] * t437;
+    const jg_real t448 = C_j[3] * t446 - C_j[0] * t447 + (C_j[6] * t443 - C_j[3] * t444 - (t356 + s_j[1] * t445) +
+        (C_j[0] * t439 - C_j[6] * t442));
+    const jg_real t449 = t358 - v_0_in_j_1 * t445 - t359 + t448;
+    const jg_real t450 = s_j[0] * t445;
+    const jg_real t451 = C_j[4] * t446 - C_j[1] * t447 + (t346 + t450 + (C_j[7] * t443 - C_j[4] * t444) + (C_j[1] *
+        t439 - C_j[7] * t442));
+    const jg_real t452 = v_0_in_j_0 * t445;
+    const jg_real t453 = t352 + t452 + t451;
+    const jg_real t454 = s_j[0] * t355;
+    const jg_real t455 = C_j[5] * t446 - C_j[2] * t447 + (t454 - s_j[1] * t345 + (C_j[8] * t443 - C_j[5] * t444) +
+        (C_j[2] * t439 - C_j[8] * t442));
+    const jg_real t456 = v_0_world_1 * lambda_0_1_2_in_j_0;
+    const jg_real t457 = v_0_in_j_0 * t355;
+    const jg_real t458 = t457 - (t456 + v_0_in_j_1 * t345) + t455;
+    jac_phi_q_t_lambda_A_j[46] = sine_1 * (lambda[3] * t411 - lambda[5] * t410) + cosine_1 * (lambda[4] * t414 -
+        lambda[5] * t407);
+    jac_phi_q_t_lambda_A_j[47] = lambda[3] * t413 - lambda[4] * t409;
+    jac_phi_q_t_lambda_A_j[88] = t445;
+    jac_phi_q_t_lambda_A_j[54] = t448;
+    jac_phi_q_t_lambda_A_j[55] = t451;
+    jac_phi_q_t_lambda_A_j[56] = t455;
+    jac_phi_q_t_lambda_A_j[48] = -(A_i[1] * v_6_in_j_1 + A_ji_1 * t453 + A_ji_0 * t449 + A_ji_2 * t458);
+    jac_phi_q_t_lambda_A_j[49] = -(A_ji_5 * t458 - t432 * v_6_in_j_2 + (t328 * v_6_in_j_0 + A_ji_3 * t449 + A_ji_4 *
+        t453));
+    const jg_real t459 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
+    const jg_real t460 = t459 * h_star_in_i_1;
+    const jg_real t461 = C_j[3] * t368 + C_j[4] * t366 - C_j[5] * t460;
+    const jg_real t462 = t459 * g_star_in_i_1;
+    const jg_real t463 = C_j[0] * t373 + C_j[1] * t372 - C_j[2] * t462;
+    const jg_real t464 = C_j[3] * t373 + C_j[4] * t372 - C_j[5] * t462;
+    const jg_real t465 = t461 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t463 - (g_star_in_joint_j_1 * (C_j[0] *
+        t368 + C_j[1] * t366 - C_j[2] * t460) + h_star_in_joint_j_0 * t464);
+    const jg_real t466 = lambda[5] * t465;
+    const jg_real t467 = C_j[6] * t368 + C_j[7] * t366 - C_j[8] * t460;
+    const jg_real t468 = h_star_in_joint_j_2 * t464 + g_star_in_joint_j_1 * t467 - (t461 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t373 + C_j[7] * t372 - C_j[8] * t462));
+    const jg_real t469 = lambda[5] * t468;
+    const jg_real t470 = lambda[4] * t461;
+    const jg_real t471 = lambda[4] * t467;
+    const jg_real t472 = lambda[1] * t459;
+    const jg_real t473 = lambda[3] * t463;
+    const jg_real t474 = lambda[3] * t464;
+    const jg_real t475 = C_j[3] * t473 - C_j[0] * t474 + (C_j[6] * t470 - C_j[3] * t471 - (t395 + s_j[1] * t472) +
+        (C_j[0] * t466 - C_j[6] * t469));
+    const jg_real t476 = t397 - v_0_in_j_1 * t472 - t398 + t475;
+    const jg_real t477 = s_j[0] * t472;
+    const jg_real t478 = C_j[4] * t473 - C_j[1] * t474 + (t385 + t477 + (C_j[7] * t470 - C_j[4] * t471) + (C_j[1] *
+        t466 - C_j[7] * t469));
+    jac_phi_q_t_lambda_A_j[50] = -(A_i[7] * v_6_in_j_1 + A_ji_7 * t453 + A_ji_6 * t449 + A_ji_8 * t458);
+    jac_phi_q_t_lambda_A_j[53] = -t445;
+    jac_phi_q_t_lambda_A_j[57] = lambda[5] * (H_22 * t437 - H_21 * t434) + lambda[4] * (sine_2 * t436 + H_21 * t441)
+        - lambda[3] * (sine_2 * t440 + H_22 * t438);
+    jac_phi_q_t_lambda_A_j[58] = sine_1 * (lambda[3] * t438 - lambda[5] * t437) + cosine_1 * (lambda[4] * t441 -
+        lambda[5] * t434);
+    jac_phi_q_t_lambda_A_j[59] = lambda[3] * t440 - lambda[4] * t436;
+    jac_phi_q_t_lambda_A_j[100] = t472;
+    jac_phi_q_t_lambda_A_j[66] = t475;
+    jac_phi_q_t_lambda_A_j[67] = t478;
+    const jg_real t479 = v_0_in_j_0 * t472;
+    const jg_real t480 = t391 + t479 + t478;
+    const jg_real t481 = s_j[0] * t394;
+    const jg_real t482 = C_j[5] * t473 - C_j[2] * t474 + (t481 - s_j[1] * t384 + (C_j[8] * t470 - C_j[5] * t471) +
+        (C_j[2] * t466 - C_j[8] * t469));
+    const jg_real t483 = v_0_world_2 * lambda_0_1_2_in_j_0;
+    const jg_real t484 = v_0_in_j_0 * t394;
+    const jg_real t485 = t484 - (t483 + v_0_in_j_1 * t384) + t482;
+    jac_phi_q_t_lambda_A_j[68] = t482;
+    jac_phi_q_t_lambda_A_j[60] = -(A_i[2] * v_6_in_j_1 + A_ji_1 * t480 + A_ji_0 * t476 + A_ji_2 * t485);
+    jac_phi_q_t_lambda_A_j[61] = -(A_ji_5 * t485 - t459 * v_6_in_j_2 + (t367 * v_6_in_j_0 + A_ji_3 * t476 + A_ji_4 *
+        t480));
+    jac_phi_q_t_lambda_A_j[62] = -(A_i[8] * v_6_in_j_1 + A_ji_7 * t480 + A_ji_6 * t476 + A_ji_8 * t485);
+    jac_phi_q_t_lambda_A_j[65] = -t472;
+    jac_phi_q_t_lambda_A_j[69] = lambda[5] * (H_22 * t464 - H_21 * t461) + lambda[4] * (sine_2 * t463 + H_21 * t468)
+        - lambda[3] * (sine_2 * t467 + H_22 * t465);
+    jac_phi_q_t_lambda_A_j[70] = sine_1 * (lambda[3] * t465 - lambda[5] * t464) + cosine_1 * (lambda[4] * t468 -
+        lambda[5] * t461);
+    jac_phi_q_t_lambda_A_j[71] = lambda[3] * t467 - lambda[4] * t463;
+    const jg_real t486 = C_j[3] * t292 + C_j[4] * t406 + C_j[5] * t288;
+    const jg_real t487 = C_j[0] * t296 + C_j[1] * t408 + C_j[2] * t294;
+    const jg_real t488 = C_j[3] * t296 + C_j[4] * t408 + C_j[5] * t294;
+    const jg_real t489 = t486 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t487 - (g_star_in_joint_j_1 * (C_j[0] *
+        t292 + C_j[1] * t406 + C_j[2] * t288) + h_star_in_joint_j_0 * t488);
+    const jg_real t490 = lambda[5] * t489;
+    const jg_real t491 = C_j[6] * t292 + C_j[7] * t406 + C_j[8] * t288;
+    const jg_real t492 = h_star_in_joint_j_2 * t488 + g_star_in_joint_j_1 * t491 - (t486 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t296 + C_j[7] * t408 + C_j[8] * t294));
+    const jg_real t493 = lambda[5] * t492;
+    const jg_real t494 = lambda[4] * t486;
+    const jg_real t495 = lambda[4] * t491;
+    const jg_real t496 = lambda[3] * t487;
+    const jg_real t497 = lambda[3] * t488;
+    const jg_real t498 = C_j[3] * t496 - C_j[0] * t497 + (t322 - s_j[2] * t418 + (C_j[6] * t494 - C_j[3] * t495) +
+        (C_j[0] * t490 - C_j[6] * t493));
+    const jg_real t499 = t325 - (v_0_in_j_2 * t418 + t324) + t498;
+    const jg_real t500 = C_j[4] * t496 - C_j[1] * t497 + (s_j[2] * t308 - t427 + (C_j[7] * t494 - C_j[4] * t495) +
+        (C_j[1] * t490 - C_j[7] * t493));
+    const jg_real t501 = t429 + t308 * v_0_in_j_2 - t430 + t500;
+    const jg_real t502 = C_j[5] * t496 - C_j[2] * t497 + (t423 - t309 + (C_j[8] * t494 - C_j[5] * t495) + (C_j[2] *
+        t490 - C_j[8] * t493));
+    const jg_real t503 = t425 - t314 + t502;
+    jac_phi_q_t_lambda_A_j[78] = t498;
+    jac_phi_q_t_lambda_A_j[79] = t500;
+    jac_phi_q_t_lambda_A_j[80] = t502;
+    jac_phi_q_t_lambda_A_j[72] = -(A_i[0] * v_6_in_j_2 + A_ji_2 * t503 + (A_ji_0 * t499 + A_ji_1 * t501));
+    jac_phi_q_t_lambda_A_j[73] = -(t291 * v_6_in_j_0 + A_ji_3 * t499 + (t405 * v_6_in_j_1 + A_ji_4 * t501) + A_ji_5
+        * t503);
+    jac_phi_q_t_lambda_A_j[74] = -(A_i[6] * v_6_in_j_2 + A_ji_8 * t503 + (A_ji_6 * t499 + A_ji_7 * t501));
+    jac_phi_q_t_lambda_A_j[81] = lambda[5] * (H_22 * t488 - H_21 * t486) + lambda[4] * (sine_2 * t487 + H_21 * t492)
+        - lambda[3] * (sine_2 * t491 + H_22 * t489);
+    jac_phi_q_t_lambda_A_j[82] = sine_1 * (lambda[3] * t489 - lambda[5] * t488) + cosine_1 * (lambda[4] * t492 -
+        lambda[5] * t486);
+    const jg_real t504 = C_j[3] * t331 + C_j[4] * t433 + C_j[5] * t327;
+    const jg_real t505 = C_j[0] * t335 + C_j[1] * t435 + C_j[2] * t333;
+    const jg_real t506 = C_j[3] * t335 + C_j[4] * t435 + C_j[5] * t333;
+    const jg_real t507 = t504 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t505 - (g_star_in_joint_j_1 * (C_j[0] *
+        t331 + C_j[1] * t433 + C_j[2] * t327) + h_star_in_joint_j_0 * t506);
+    const jg_real t508 = lambda[5] * t507;
+    const jg_real t509 = C_j[6] * t331 + C_j[7] * t433 + C_j[8] * t327;
+    const jg_real t510 = h_star_in_joint_j_2 * t506 + g_star_in_joint_j_1 * t509 - (t504 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t335 + C_j[7] * t435 + C_j[8] * t333));
+    const jg_real t511 = lambda[5] * t510;
+    const jg_real t512 = lambda[4] * t504;
+    const jg_real t513 = lambda[4] * t509;
+    const jg_real t514 = lambda[3] * t505;
+    const jg_real t515 = lambda[3] * t506;
+    const jg_real t516 = C_j[3] * t514 - C_j[0] * t515 + (t361 - s_j[2] * t445 + (C_j[6] * t512 - C_j[3] * t513) +
+        (C_j[0] * t508 - C_j[6] * t511));
+    const jg_real t517 = t364 - (v_0_in_j_2 * t445 + t363) + t516;
+    const jg_real t518 = C_j[4] * t514 - C_j[1] * t515 + (s_j[2] * t347 - t454 + (C_j[7] * t512 - C_j[4] * t513) +
+        (C_j[1] * t508 - C_j[7] * t511));
+    const jg_real t519 = t456 + t347 * v_0_in_j_2 - t457 + t518;
+    const jg_real t520 = C_j[5] * t514 - C_j[2] * t515 + (t450 - t348 + (C_j[8] * t512 - C_j[5] * t513) + (C_j[2] *
+        t508 - C_j[8] * t511));
+    const jg_real t521 = t452 - t353 + t520;
+    jac_phi_q_t_lambda_A_j[83] = lambda[3] * t491 - lambda[4] * t487;
+    jac_phi_q_t_lambda_A_j[90] = t516;
+    jac_phi_q_t_lambda_A_j[91] = t518;
+    jac_phi_q_t_lambda_A_j[92] = t520;
+    jac_phi_q_t_lambda_A_j[84] = -(A_i[1] * v_6_in_j_2 + A_ji_2 * t521 + (A_ji_0 * t517 + A_ji_1 * t519));
+    jac_phi_q_t_lambda_A_j[85] = -(t330 * v_6_in_j_0 + A_ji_3 * t517 + (t432 * v_6_in_j_1 + A_ji_4 * t519) + A_ji_5
+        * t521);
+    jac_phi_q_t_lambda_A_j[86] = -(A_i[7] * v_6_in_j_2 + A_ji_8 * t521 + (A_ji_6 * t517 + A_ji_7 * t519));
+    jac_phi_q_t_lambda_A_j[93] = lambda[5] * (H_22 * t506 - H_21 * t504) + lambda[4] * (sine_2 * t505 + H_21 * t510)
+        - lambda[3] * (sine_2 * t509 + H_22 * t507);
+    const jg_real t522 = C_j[3] * t370 + C_j[4] * t460 + C_j[5] * t366;
+    const jg_real t523 = C_j[0] * t374 + C_j[1] * t462 + C_j[2] * t372;
+    const jg_real t524 = C_j[3] * t374 + C_j[4] * t462 + C_j[5] * t372;
+    const jg_real t525 = t522 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t523 - (g_star_in_joint_j_1 * (C_j[0] *
+        t370 + C_j[1] * t460 + C_j[2] * t366) + h_star_in_joint_j_0 * t524);
+    const jg_real t526 = lambda[5] * t525;
+    const jg_real t527 = C_j[6] * t370 + C_j[7] * t460 + C_j[8] * t366;
+    const jg_real t528 = h_star_in_joint_j_2 * t524 + g_star_in_joint_j_1 * t527 - (t522 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t374 + C_j[7] * t462 + C_j[8] * t372));
+    const jg_real t529 = lambda[5] * t528;
+    const jg_real t530 = lambda[4] * t522;
+    const jg_real t531 = lambda[4] * t527;
+    const jg_real t532 = lambda[3] * t523;
+    const jg_real t533 = lambda[3] * t524;
+    const jg_real t534 = C_j[3] * t532 - C_j[0] * t533 + (t400 - s_j[2] * t472 + (C_j[6] * t530 - C_j[3] * t531) +
+        (C_j[0] * t526 - C_j[6] * t529));
+    const jg_real t535 = t403 - (v_0_in_j_2 * t472 + t402) + t534;
+    const jg_real t536 = C_j[4] * t532 - C_j[1] * t533 + (s_j[2] * t386 - t481 + (C_j[7] * t530 - C_j[4] * t531) +
+        (C_j[1] * t526 - C_j[7] * t529));
+    const jg_real t537 = t483 + t386 * v_0_in_j_2 - t484 + t536;
+    const jg_real t538 = C_j[5] * t532 - C_j[2] * t533 + (t477 - t387 + (C_j[8] * t530 - C_j[5] * t531) + (C_j[2] *
+        t526 - C_j[8] * t529));
+    const jg_real t539 = t479 - t392 + t538;
+    jac_phi_q_t_lambda_A_j[94] = sine_1 * (lambda[3] * t507 - lambda[5] * t506) + cosine_1 * (lambda[4] * t510 -
+        lambda[5] * t504);
+    jac_phi_q_t_lambda_A_j[95] = lambda[3] * t509 - lambda[4] * t505;
+    jac_phi_q_t_lambda_A_j[102] = t534;
+    jac_phi_q_t_lambda_A_j[103] = t536;
+    jac_phi_q_t_lambda_A_j[104] = t538;
+    jac_phi_q_t_lambda_A_j[96] = -(A_i[2] * v_6_in_j_2 + A_ji_2 * t539 + (A_ji_0 * t535 + A_ji_1 * t537));
+    jac_phi_q_t_lambda_A_j[97] = -(t369 * v_6_in_j_0 + A_ji_3 * t535 + (t459 * v_6_in_j_1 + A_ji_4 * t537) + A_ji_5
+        * t539);
+    jac_phi_q_t_lambda_A_j[98] = -(A_i[8] * v_6_in_j_2 + A_ji_8 * t539 + (A_ji_6 * t535 + A_ji_7 * t537));
+    const jg_real t540 = C_i[4] * H_02 - C_i[1] * t39;
+    const jg_real t541 = C_i[3] * H_02 - C_i[0] * t39;
+    const jg_real t542 = C_i[5] * H_02 - C_i[2] * t39;
+    const jg_real t543 = A_ji_3 * t540 + A_ji_0 * t541 + A_ji_6 * t542;
+    const jg_real t544 = A_ji_4 * t540 + A_ji_1 * t541 + A_ji_7 * t542;
+    const jg_real t545 = A_ji_5 * t540 + A_ji_2 * t541 + A_ji_8 * t542;
+    const jg_real t546 = C_j[3] * t543 + C_j[4] * t544 + C_j[5] * t545;
+    const jg_real t547 = C_i[4] * H_01 - C_i[1] * H_11;
+    const jg_real t548 = C_i[3] * H_01 - C_i[0] * H_11;
+    const jg_real t549 = C_i[5] * H_01 - C_i[2] * H_11;
+    const jg_real t550 = A_ji_3 * t547 + A_ji_0 * t548 + A_ji_6 * t549;
+    const jg_real t551 = A_ji_4 * t547 + A_ji_1 * t548 + A_ji_7 * t549;
+    const jg_real t552 = A_ji_5 * t547 + A_ji_2 * t548 + A_ji_8 * t549;
+    const jg_real t553 = C_j[0] * t550 + C_j[1] * t551 + C_j[2] * t552;
+    const jg_real t554 = C_j[3] * t550 + C_j[4] * t551 + C_j[5] * t552;
+    const jg_real t555 = t546 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t553 - (g_star_in_joint_j_1 * (C_j[0] *
+        t543 + C_j[1] * t544 + C_j[2] * t545) + h_star_in_joint_j_0 * t554);
+    const jg_real t556 = lambda[5] * t555;
+    const jg_real t557 = C_j[6] * t543 + C_j[7] * t544 + C_j[8] * t545;
+    const jg_real t558 = h_star_in_joint_j_2 * t554 + g_star_in_joint_j_1 * t557 - (t546 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t550 + C_j[7] * t551 + C_j[8] * t552));
+    const jg_real t559 = lambda[5] * t558;
+    const jg_real t560 = lambda[4] * t546;
+    const jg_real t561 = lambda[4] * t557;
+    const jg_real t562 = lambda[3] * t553;
+    const jg_real t563 = lambda[3] * t554;
+    const jg_real t564 = C_j[3] * t562 - C_j[0] * t563 + (C_j[6] * t560 - C_j[3] * t561 + (C_j[0] * t556 - C_j[6] *
+        t559));
+    const jg_real t565 = C_j[4] * t562 - C_j[1] * t563 + (C_j[7] * t560 - C_j[4] * t561 + (C_j[1] * t556 - C_j[7] *
+        t559));
+    const jg_real t566 = C_j[5] * t562 - C_j[2] * t563 + (C_j[8] * t560 - C_j[5] * t561 + (C_j[2] * t556 - C_j[8] *
+        t559));
+    jac_phi_q_t_lambda_A_j[105] = lambda[5] * (H_22 * t524 - H_21 * t522) + lambda[4] * (sine_2 * t523 + H_21 *
+        t528) - lambda[3] * (sine_2 * t527 + H_22 * t525);
+    jac_phi_q_t_lambda_A_j[106] = sine_1 * (lambda[3] * t525 - lambda[5] * t524) + cosine_1 * (lambda[4] * t528 -
+        lambda[5] * t522);
+    jac_phi_q_t_lambda_A_j[107] = lambda[3] * t527 - lambda[4] * t523;
+    jac_phi_q_t_lambda_alpha[3] = t564;
+    jac_phi_q_t_lambda_alpha[4] = t565;
+    jac_phi_q_t_lambda_alpha[5] = t566;
+    jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t564 + A_ji_1 * t565 + A_ji_2 * t566);
+    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t564 + A_ji_4 * t565 + A_ji_5 * t566);
+    const jg_real t567 = t41 * cosine_2;
+    const jg_real t568 = t35 * cosine_2;
+    const jg_real t569 = cosine_1 * sine_2;
+    const jg_real t570 = C_i[1] * t567 + C_i[4] * t568 - C_i[7] * t569;
+    const jg_real t571 = C_i[0] * t567 + C_i[3] * t568 - C_i[6] * t569;
+    const jg_real t572 = C_i[2] * t567 + C_i[5] * t568 - C_i[8] * t569;
     const jg_real t573 = A_ji_3 * t570 + A_ji_0 * t571 + A_ji_6 * t572;
     const jg_real t574 = A_ji_4 * t570 + A_ji_1 * t571 + A_ji_7 * t572;
     const jg_real t575 = A_ji_5 * t570 + A_ji_2 * t571 + A_ji_8 * t572;
-    const jg_real t576 = C_j[0] * t573 + C_j[1] * t574 + C_j[2] * t575;
-    const jg_real t577 = cosine_1 * t565;
-    const jg_real t578 = cosine_1 * t567;
-    const jg_real t579 = cosine_1 * sine_2;
-    const jg_real t580 = C_i[1] * t577 + C_i[4] * t578 - C_i[7] * t579;
-    const jg_real t581 = C_i[0] * t577 + C_i[3] * t578 - C_i[6] * t579;
-    const jg_real t582 = C_i[2] * t577 + C_i[5] * t578 - C_i[8] * t579;
+    const jg_real t576 = C_j[3] * t573 + C_j[4] * t574 + C_j[5] * t575;
+    const jg_real t577 = t40 * cosine_2;
+    const jg_real t578 = t38 * cosine_2;
+    const jg_real t579 = sine_1 * sine_2;
+    const jg_real t580 = C_i[4] * t577 + C_i[1] * t578 - C_i[7] * t579;
+    const jg_real t581 = C_i[3] * t577 + C_i[0] * t578 - C_i[6] * t579;
+    const jg_real t582 = C_i[2] * t578 + C_i[5] * t577 - C_i[8] * t579;
     const jg_real t583 = A_ji_3 * t580 + A_ji_0 * t581 + A_ji_6 * t582;
     const jg_real t584 = A_ji_4 * t580 + A_ji_1 * t581 + A_ji_7 * t582;
     const jg_real t585 = A_ji_5 * t580 + A_ji_2 * t581 + A_ji_8 * t582;
-    const jg_real t586 = C_j[3] * t583 + C_j[4] * t584 + C_j[5] * t585;
-    const jg_real t587 = C_j[3] * t573 + C_j[4] * t574 + C_j[5] * t575;
-    const jg_real t588 = h_star_in_joint_j_1 * t576 - t586 * t69 - (h_star_in_joint_j_0 * t587 - t47 * (C_j[0] *
-        t583 + C_j[1] * t584 + C_j[2] * t585));
+    const jg_real t586 = C_j[0] * t583 + C_j[1] * t584 + C_j[2] * t585;
+    const jg_real t587 = C_j[3] * t583 + C_j[4] * t584 + C_j[5] * t585;
+    const jg_real t588 = t576 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t586 - (g_star_in_joint_j_1 * (C_j[0] *
+        t573 + C_j[1] * t574 + C_j[2] * t575) + h_star_in_joint_j_0 * t587);
     const jg_real t589 = lambda[5] * t588;
-    const jg_real t590 = C_j[6] * t583 + C_j[7] * t584 + C_j[8] * t585;
-    const jg_real t591 = h_star_in_joint_j_2 * t587 - t47 * t590 - (h_star_in_joint_j_1 * (C_j[6] * t573 + C_j[7] *
-        t574 + C_j[8] * t575) - t586 * t74);
+    const jg_real t590 = C_j[6] * t573 + C_j[7] * t574 + C_j[8] * t575;
+    const jg_real t591 = h_star_in_joint_j_2 * t587 + g_star_in_joint_j_1 * t590 - (t576 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t583 + C_j[7] * t584 + C_j[8] * t585));
     const jg_real t592 = lambda[5] * t591;
-    const jg_real t593 = lambda[4] * t586;
+    const jg_real t593 = lambda[4] * t576;
     const jg_real t594 = lambda[4] * t590;
-    const jg_real t595 = lambda[3] * t576;
+    const jg_real t595 = lambda[3] * t586;
     const jg_real t596 = lambda[3] * t587;
     const jg_real t597 = C_j[3] * t595 - C_j[0] * t596 + (C_j[6] * t593 - C_j[3] * t594 + (C_j[0] * t589 - C_j[6] *
         t592));
-    jac_phi_q_t_lambda_alpha[12] = t597;
     const jg_real t598 = C_j[4] * t595 - C_j[1] * t596 + (C_j[7] * t593 - C_j[4] * t594 + (C_j[1] * t589 - C_j[7] *
         t592));
-    jac_phi_q_t_lambda_alpha[13] = t598;
     const jg_real t599 = C_j[5] * t595 - C_j[2] * t596 + (C_j[8] * t593 - C_j[5] * t594 + (C_j[2] * t589 - C_j[8] *
         t592));
+    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t564 + A_ji_7 * t565 + A_ji_8 * t566);
+    jac_phi_q_t_lambda_alpha[6] = lambda[5] * (H_22 * t554 - H_21 * t546) + lambda[4] * (sine_2 * t553 + H_21 *
+        t558) - lambda[3] * (sine_2 * t557 + H_22 * t555);
+    jac_phi_q_t_lambda_alpha[7] = sine_1 * (lambda[3] * t555 - lambda[5] * t554) + cosine_1 * (lambda[4] * t558 -
+        lambda[5] * t546);
+    jac_phi_q_t_lambda_alpha[8] = lambda[3] * t557 - lambda[4] * t553;
+    jac_phi_q_t_lambda_alpha[12] = t597;
+    jac_phi_q_t_lambda_alpha[13] = t598;
     jac_phi_q_t_lambda_alpha[14] = t599;
     jac_phi_q_t_lambda_alpha[9] = -(A_ji_0 * t597 + A_ji_1 * t598 + A_ji_2 * t599);
-    jac_phi_q_t_lambda_alpha[10] = -(A_ji_3 * t597 + A_ji_4 * t598 + A_ji_5 * t599);
-    jac_phi_q_t_lambda_alpha[11] = -(A_ji_6 * t597 + A_ji_7 * t598 + A_ji_8 * t599);
-    jac_phi_q_t_lambda_alpha[15] = lambda[5] * (t579 * t47 + H_22 * t587 - (H_21 * t586 - t569 *
-        h_star_in_joint_j_1)) + lambda[4] * (sine_2 * t576 - cosine_2 * t69 + (H_21 * t591 - t569 *
-        f_star_in_joint_j_0)) - lambda[3] * (cosine_2 * h_star_in_joint_j_2 + sine_2 * t590 + (H_22 * t588 - t579 *
-        f_star_in_joint_j_2));
-    jac_phi_q_t_lambda_alpha[16] = cosine_1 * (lambda[4] * t591 - lambda[5] * t586) + sine_1 * (lambda[3] * t588 -
-        lambda[5] * t587);
-    jac_phi_q_t_lambda_alpha[17] = lambda[3] * t590 - lambda[4] * t576;
-    const jg_real t600 = lambda[4] * t47;
-    const jg_real t601 = lambda[4] * t74;
+    const jg_real t600 = lambda[4] * g_star_in_joint_j_2;
+    const jg_real t601 = lambda[4] * g_star_in_joint_j_1;
     const jg_real t602 = lambda[3] * h_star_in_joint_j_0;
     const jg_real t603 = lambda[3] * h_star_in_joint_j_1;
-    const jg_real t604 = C_j[6] * t600 - C_j[3] * t601 + (C_j[3] * t602 - C_j[0] * t603);
+    const jg_real t604 = C_j[3] * t600 - C_j[6] * t601 + (C_j[3] * t602 - C_j[0] * t603);
+    const jg_real t605 = C_j[4] * t600 - C_j[7] * t601 + (C_j[4] * t602 - C_j[1] * t603);
+    const jg_real t606 = C_j[5] * t600 - C_j[8] * t601 + (C_j[5] * t602 - C_j[2] * t603);
+    jac_phi_q_t_lambda_alpha[10] = -(A_ji_3 * t597 + A_ji_4 * t598 + A_ji_5 * t599);
+    jac_phi_q_t_lambda_alpha[11] = -(A_ji_6 * t597 + A_ji_7 * t598 + A_ji_8 * t599);
+    jac_phi_q_t_lambda_alpha[15] = lambda[5] * (H_22 * t587 - t569 * g_star_in_joint_j_1 - (H_21 * t576 - t579 *
+        h_star_in_joint_j_1)) + lambda[4] * (cosine_2 * g_star_in_joint_j_0 + sine_2 * t586 + (H_21 * t591 - t579 *
+        f_star_in_joint_j_0)) - lambda[3] * (cosine_2 * h_star_in_joint_j_2 + sine_2 * t590 + (H_22 * t588 - t569 *
+        f_star_in_joint_j_2));
+    jac_phi_q_t_lambda_alpha[16] = sine_1 * (lambda[3] * t588 - lambda[5] * t587) + cosine_1 * (lambda[4] * t591 -
+        lambda[5] * t576);
+    jac_phi_q_t_lambda_alpha[17] = lambda[3] * t590 - lambda[4] * t586;
     jac_phi_q_t_lambda_alpha[21] = t604;
-    const jg_real t605 = C_j[7] * t600 - C_j[4] * t601 + (C_j[4] * t602 - C_j[1] * t603);
     jac_phi_q_t_lambda_alpha[22] = t605;
-    const jg_real t606 = C_j[8] * t600 - C_j[5] * t601 + (C_j[5] * t602 - C_j[2] * t603);
     jac_phi_q_t_lambda_alpha[23] = t606;
-    jac_phi_q_t_lambda_alpha[18] = -(A_ji_0 * t604 + A_ji_1 * t605 + A_ji_2 * t606);
-    jac_phi_q_t_lambda_alpha[19] = -(A_ji_3 * t604 + A_ji_4 * t605 + A_ji_5 * t606);
-    jac_phi_q_t_lambda_alpha[20] = -(A_ji_6 * t604 + A_ji_7 * t605 + A_ji_8 * t606);
-    jac_phi_q_t_lambda_alpha[24] = lambda[4] * (sine_2 * h_star_in_joint_j_0 + H_22 * f_star_in_joint_j_0) -
-        lambda[3] * (sine_2 * t74 - H_21 * f_star_in_joint_j_2);
-    const jg_real t607 = lambda[5] * t47;
+    const jg_real t607 = lambda[5] * g_star_in_joint_j_1;
     const jg_real t608 = lambda[5] * h_star_in_joint_j_1;
-    jac_phi_q_t_lambda_alpha[25] = cosine_1 * (t607 + lambda[3] * f_star_in_joint_j_2) - sine_1 * t608 - (sine_1 *
-        (lambda[4] * f_star_in_joint_j_0 - t608) + cosine_1 * t607);
-    jac_phi_q_t_lambda_alpha[26] = lambda[3] * t74 - lambda[4] * h_star_in_joint_j_0;
     const jg_real t609 = A_ji_0 * H_02;
     const jg_real t610 = A_ji_1 * H_02;
     const jg_real t611 = A_ji_2 * H_02;
-    const jg_real t612 = A_ji_0 * t37;
-    const jg_real t613 = A_ji_1 * t37;
-    const jg_real t614 = A_ji_2 * t37;
-    const jg_real t615 = C_j[3] * t612 + C_j[4] * t613 + C_j[5] * t614;
-    const jg_real t616 = C_j[3] * t609 + C_j[4] * t610 + C_j[5] * t611;
-    const jg_real t617 = C_j[0] * t612 + C_j[1] * t613 + C_j[2] * t614;
-    const jg_real t618 = t47 * (C_j[0] * t609 + C_j[1] * t610 + C_j[2] * t611) + h_star_in_joint_j_0 * t615 - (t616
-        * t69 + h_star_in_joint_j_1 * t617);
+    const jg_real t612 = C_j[3] * t609 + C_j[4] * t610 + C_j[5] * t611;
+    const jg_real t613 = A_ji_0 * H_01;
+    const jg_real t614 = A_ji_1 * H_01;
+    const jg_real t615 = A_ji_2 * H_01;
+    const jg_real t616 = C_j[0] * t613 + C_j[1] * t614 + C_j[2] * t615;
+    const jg_real t617 = C_j[3] * t613 + C_j[4] * t614 + C_j[5] * t615;
+    const jg_real t618 = t612 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t616 - (g_star_in_joint_j_1 * (C_j[0] *
+        t609 + C_j[1] * t610 + C_j[2] * t611) + h_star_in_joint_j_0 * t617);
     const jg_real t619 = lambda[5] * t618;
     const jg_real t620 = C_j[6] * t609 + C_j[7] * t610 + C_j[8] * t611;
-    const jg_real t621 = t616 * t74 + h_star_in_joint_j_1 * (C_j[6] * t612 + C_j[7] * t613 + C_j[8] * t614) - (t47 *
-        t620 + h_star_in_joint_j_2 * t615);
+    const jg_real t621 = h_star_in_joint_j_2 * t617 + g_star_in_joint_j_1 * t620 - (t612 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t613 + C_j[7] * t614 + C_j[8] * t615));
     const jg_real t622 = lambda[5] * t621;
-    const jg_real t623 = lambda[4] * t616;
+    const jg_real t623 = lambda[4] * t612;
     const jg_real t624 = lambda[4] * t620;
-    const jg_real t625 = lambda[3] * t615;
+    const jg_real t625 = lambda[3] * t616;
     const jg_real t626 = lambda[3] * t617;
-    const jg_real t627 = C_j[0] * t625 - C_j[3] * t626 + (C_j[6] * t623 - C_j[3] * t624 + (C_j[0] * t619 - C_j[6] *
+    const jg_real t627 = C_j[3] * t625 - C_j[0] * t626 + (C_j[6] * t623 - C_j[3] * t624 + (C_j[0] * t619 - C_j[6] *
         t622));
+    const jg_real t628 = C_j[4] * t625 - C_j[1] * t626 + (C_j[7] * t623 - C_j[4] * t624 + (C_j[1] * t619 - C_j[7] *
+        t622));
+    jac_phi_q_t_lambda_alpha[18] = -(A_ji_0 * t604 + A_ji_1 * t605 + A_ji_2 * t606);
+    jac_phi_q_t_lambda_alpha[19] = -(A_ji_3 * t604 + A_ji_4 * t605 + A_ji_5 * t606);
+    jac_phi_q_t_lambda_alpha[20] = -(A_ji_6 * t604 + A_ji_7 * t605 + A_ji_8 * t606);
+    jac_phi_q_t_lambda_alpha[24] = lambda[3] * (sine_2 * g_star_in_joint_j_2 + H_21 * f_star_in_joint_j_2) +
+        lambda[4] * (sine_2 * h_star_in_joint_j_0 + H_22 * f_star_in_joint_j_0);
+    jac_phi_q_t_lambda_alpha[25] = cosine_1 * (lambda[3] * f_star_in_joint_j_2 - t607) - sine_1 * t608 + (cosine_1 *
+        t607 - sine_1 * (lambda[4] * f_star_in_joint_j_0 - t608));
+    jac_phi_q_t_lambda_alpha[26] = -(lambda[3] * g_star_in_joint_j_2 + lambda[4] * h_star_in_joint_j_0);
     jac_phi_q_t_lambda_geometry[3] = t627;
-    const jg_real t628 = C_j[1] * t625 - C_j[4] * t626 + (C_j[7] * t623 - C_j[4] * t624 + (C_j[1] * t619 - C_j[7] *
-        t622));
     jac_phi_q_t_lambda_geometry[4] = t628;
-    const jg_real t629 = C_j[2] * t625 - C_j[5] * t626 + (C_j[8] * t623 - C_j[5] * t624 + (C_j[2] * t619 - C_j[8] *
+    const jg_real t629 = C_j[5] * t625 - C_j[2] * t626 + (C_j[8] * t623 - C_j[5] * t624 + (C_j[2] * t619 - C_j[8] *
         t622));
+    const jg_real t630 = A_ji_3 * H_02;
+    const jg_real t631 = A_ji_4 * H_02;
+    const jg_real t632 = A_ji_5 * H_02;
+    const jg_real t633 = C_j[3] * t630 + C_j[4] * t631 + C_j[5] * t632;
+    const jg_real t634 = A_ji_3 * H_01;
+    const jg_real t635 = A_ji_4 * H_01;
+    const jg_real t636 = A_ji_5 * H_01;
+    const jg_real t637 = C_j[0] * t634 + C_j[1] * t635 + C_j[2] * t636;
+    const jg_real t638 = C_j[3] * t634 + C_j[4] * t635 + C_j[5] * t636;
+    const jg_real t639 = t633 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t637 - (g_star_in_joint_j_1 * (C_j[0] *
+        t630 + C_j[1] * t631 + C_j[2] * t632) + h_star_in_joint_j_0 * t638);
+    const jg_real t640 = lambda[5] * t639;
+    const jg_real t641 = C_j[6] * t630 + C_j[7] * t631 + C_j[8] * t632;
+    const jg_real t642 = h_star_in_joint_j_2 * t638 + g_star_in_joint_j_1 * t641 - (t633 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t634 + C_j[7] * t635 + C_j[8] * t636));
+    const jg_real t643 = lambda[5] * t642;
+    const jg_real t644 = lambda[4] * t633;
+    const jg_real t645 = lambda[4] * t641;
+    const jg_real t646 = lambda[3] * t637;
+    const jg_real t647 = lambda[3] * t638;
+    const jg_real t648 = C_j[3] * t646 - C_j[0] * t647 + (C_j[6] * t644 - C_j[3] * t645 + (C_j[0] * t640 - C_j[6] *
+        t643));
     jac_phi_q_t_lambda_geometry[5] = t629;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t627 + A_ji_1 * t628 + A_ji_2 * t629);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t627 + A_ji_4 * t628 + A_ji_5 * t629);
     jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t627 + A_ji_7 * t628 + A_ji_8 * t629);
-    jac_phi_q_t_lambda_geometry[6] = lambda[4] * (H_21 * t621 - sine_2 * t617) - lambda[5] * (H_21 * t616 + H_22 *
-        t615) - lambda[3] * (sine_2 * t620 + H_22 * t618);
-    jac_phi_q_t_lambda_geometry[7] = cosine_1 * (lambda[4] * t621 - lambda[5] * t616) + sine_1 * (lambda[5] * t615 +
-        lambda[3] * t618);
-    jac_phi_q_t_lambda_geometry[8] = lambda[3] * t620 + lambda[4] * t617;
-    const jg_real t630 = A_ji_3 * H_02;
-    const jg_real t631 = A_ji_4 * H_02;
-    const jg_real t632 = A_ji_5 * H_02;
-    const jg_real t633 = A_ji_3 * t37;
-    const jg_real t634 = A_ji_4 * t37;
-    const jg_real t635 = A_ji_5 * t37;
-    const jg_real t636 = C_j[3] * t633 + C_j[4] * t634 + C_j[5] * t635;
-    const jg_real t637 = C_j[3] * t630 + C_j[4] * t631 + C_j[5] * t632;
-    const jg_real t638 = C_j[0] * t633 + C_j[1] * t634 + C_j[2] * t635;
-    const jg_real t639 = t47 * (C_j[0] * t630 + C_j[1] * t631 + C_j[2] * t632) + h_star_in_joint_j_0 * t636 - (t637
-        * t69 + h_star_in_joint_j_1 * t638);
-    const jg_real t640 = lambda[5] * t639;
-    const jg_real t641 = C_j[6] * t630 + C_j[7] * t631 + C_j[8] * t632;
-    const jg_real t642 = t637 * t74 + h_star_in_joint_j_1 * (C_j[6] * t633 + C_j[7] * t634 + C_j[8] * t635) - (t47 *
-        t641 + h_star_in_joint_j_2 * t636);
-    const jg_real t643 = lambda[5] * t642;
-    const jg_real t644 = lambda[4] * t637;
-    const jg_real t645 = lambda[4] * t641;
-    const jg_real t646 = lambda[3] * t636;
-    const jg_real t647 = lambda[3] * t638;
-    const jg_real t648 = C_j[0] * t646 - C_j[3] * t647 + (C_j[6] * t644 - C_j[3] * t645 + (C_j[0] * t640 - C_j[6] *
-        t643));
+    jac_phi_q_t_lambda_geometry[6] = lambda[5] * (H_22 * t617 - H_21 * t612) + lambda[4] * (sine_2 * t616 + H_21 *
+        t621) - lambda[3] * (sine_2 * t620 + H_22 * t618);
+    jac_phi_q_t_lambda_geometry[7] = sine_1 * (lambda[3] * t618 - lambda[5] * t617) + cosine_1 * (lambda[4] * t621 -
+        lambda[5] * t612);
+    jac_phi_q_t_lambda_geometry[8] = lambda[3] * t620 - lambda[4] * t616;
     jac_phi_q_t_lambda_geometry[12] = t648;
-    const jg_real t649 = C_j[1] * t646 - C_j[4] * t647 + (C_j[7] * t644 - C_j[4] * t645 + (C_j[1] * t640 - C_j[7] *
+    const jg_real t649 = C_j[4] * t646 - C_j[1] * t647 + (C_j[7] * t644 - C_j[4] * t645 + (C_j[1] * t640 - C_j[7] *
+        t643));
+    const jg_real t650 = C_j[5] * t646 - C_j[2] * t647 + (C_j[8] * t644 - C_j[5] * t645 + (C_j[2] * t640 - C_j[8] *
         t643));
     jac_phi_q_t_lambda_geometry[13] = t649;
-    const jg_real t650 = C_j[2] * t646 - C_j[5] * t647 + (C_j[8] * t644 - C_j[5] * t645 + (C_j[2] * t640 - C_j[8] *
-        t643));
     jac_phi_q_t_lambda_geometry[14] = t650;
     jac_phi_q_t_lambda_geometry[9] = -(A_ji_0 * t648 + A_ji_1 * t649 + A_ji_2 * t650);
     jac_phi_q_t_lambda_geometry[10] = -(A_ji_3 * t648 + A_ji_4 * t649 + A_ji_5 * t650);
     jac_phi_q_t_lambda_geometry[11] = -(A_ji_6 * t648 + A_ji_7 * t649 + A_ji_8 * t650);
-    jac_phi_q_t_lambda_geometry[15] = lambda[4] * (H_21 * t642 - sine_2 * t638) - lambda[5] * (H_21 * t637 + H_22 *
-        t636) - lambda[3] * (sine_2 * t641 + H_22 * t639);
-    jac_phi_q_t_lambda_geometry[16] = cosine_1 * (lambda[4] * t642 - lambda[5] * t637) + sine_1 * (lambda[5] * t636
-        + lambda[3] * t639);
-    jac_phi_q_t_lambda_geometry[17] = lambda[3] * t641 + lambda[4] * t638;
+    jac_phi_q_t_lambda_geometry[15] = lambda[5] * (H_22 * t638 - H_21 * t633) + lambda[4] * (sine_2 * t637 + H_21 *
+        t642) - lambda[3] * (sine_2 * t641 + H_22 * t639);
+    jac_phi_q_t_lambda_geometry[16] = sine_1 * (lambda[3] * t639 - lambda[5] * t638) + cosine_1 * (lambda[4] * t642
+        - lambda[5] * t633);
+    jac_phi_q_t_lambda_geometry[17] = lambda[3] * t641 - lambda[4] * t637;
     const jg_real t651 = A_ji_6 * H_02;
     const jg_real t652 = A_ji_7 * H_02;
     const jg_real t653 = A_ji_8 * H_02;
-    const jg_real t654 = A_ji_6 * t37;
-    const jg_real t655 = A_ji_7 * t37;
-    const jg_real t656 = A_ji_8 * t37;
-    const jg_real t657 = C_j[3] * t654 + C_j[4] * t655 + C_j[5] * t656;
-    const jg_real t658 = C_j[3] * t651 + C_j[4] * t652 + C_j[5] * t653;
-    const jg_real t659 = C_j[0] * t654 + C_j[1] * t655 + C_j[2] * t656;
-    const jg_real t660 = t47 * (C_j[0] * t651 + C_j[1] * t652 + C_j[2] * t653) + h_star_in_joint_j_0 * t657 - (t658
-        * t69 + h_star_in_joint_j_1 * t659);
+    const jg_real t654 = C_j[3] * t651 + C_j[4] * t652 + C_j[5] * t653;
+    const jg_real t655 = A_ji_6 * H_01;
+    const jg_real t656 = A_ji_7 * H_01;
+    const jg_real t657 = A_ji_8 * H_01;
+    const jg_real t658 = C_j[0] * t655 + C_j[1] * t656 + C_j[2] * t657;
+    const jg_real t659 = C_j[3] * t655 + C_j[4] * t656 + C_j[5] * t657;
+    const jg_real t660 = t654 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t658 - (g_star_in_joint_j_1 * (C_j[0] *
+        t651 + C_j[1] * t652 + C_j[2] * t653) + h_star_in_joint_j_0 * t659);
     const jg_real t661 = lambda[5] * t660;
     const jg_real t662 = C_j[6] * t651 + C_j[7] * t652 + C_j[8] * t653;
-    const jg_real t663 = t658 * t74 + h_star_in_joint_j_1 * (C_j[6] * t654 + C_j[7] * t655 + C_j[8] * t656) - (t47 *
-        t662 + h_star_in_joint_j_2 * t657);
+    const jg_real t663 = h_star_in_joint_j_2 * t659 + g_star_in_joint_j_1 * t662 - (t654 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t655 + C_j[7] * t656 + C_j[8] * t657));
     const jg_real t664 = lambda[5] * t663;
-    const jg_real t665 = lambda[4] * t658;
+    const jg_real t665 = lambda[4] * t654;
     const jg_real t666 = lambda[4] * t662;
-    const jg_real t667 = lambda[3] * t657;
+    const jg_real t667 = lambda[3] * t658;
     const jg_real t668 = lambda[3] * t659;
-    const jg_real t669 = C_j[0] * t667 - C_j[3] * t668 + (C_j[6] * t665 - C_j[3] * t666 + (C_j[0] * t661 - C_j[6] *
+    const jg_real t669 = C_j[3] * t667 - C_j[0] * t668 + (C_j[6] * t665 - C_j[3] * t666 + (C_j[0] * t661 - C_j[6] *
+        t664));
+    const jg_real t670 = C_j[4] * t667 - C_j[1] * t668 + (C_j[7] * t665 - C_j[4] * t666 + (C_j[1] * t661 - C_j[7] *
+        t664));
+    const jg_real t671 = C_j[5] * t667 - C_j[2] * t668 + (C_j[8] * t665 - C_j[5] * t666 + (C_j[2] * t661 - C_j[8] *
         t664));
     jac_phi_q_t_lambda_geometry[21] = t669;
-    const jg_real t670 = C_j[1] * t667 - C_j[4] * t668 + (C_j[7] * t665 - C_j[4] * t666 + (C_j[1] * t661 - C_j[7] *
-        t664));
     jac_phi_q_t_lambda_geometry[22] = t670;
-    const jg_real t671 = C_j[2] * t667 - C_j[5] * t668 + (C_j[8] * t665 - C_j[5] * t666 + (C_j[2] * t661 - C_j[8] *
-        t664));
     jac_phi_q_t_lambda_geometry[23] = t671;
     jac_phi_q_t_lambda_geometry[18] = -(A_ji_0 * t669 + A_ji_1 * t670 + A_ji_2 * t671);
     jac_phi_q_t_lambda_geometry[19] = -(A_ji_3 * t669 + A_ji_4 * t670 + A_ji_5 * t671);
     jac_phi_q_t_lambda_geometry[20] = -(A_ji_6 * t669 + A_ji_7 * t670 + A_ji_8 * t671);
-    jac_phi_q_t_lambda_geometry[24] = lambda[4] * (H_21 * t663 - sine_2 * t659) - lambda[5] * (H_21 * t658 + H_22 *
-        t657) - lambda[3] * (sine_2 * t662 + H_22 * t660);
-    jac_phi_q_t_lambda_geometry[25] = cosine_1 * (lambda[4] * t663 - lambda[5] * t658) + sine_1 * (lambda[5] * t657
-        + lambda[3] * t660);
-    jac_phi_q_t_lambda_geometry[26] = lambda[3] * t662 + lambda[4] * t659;
-    const jg_real t672 = A_ji_0 * t50;
-    const jg_real t673 = A_ji_1 * t50;
-    const jg_real t674 = A_ji_2 * t50;
+    jac_phi_q_t_lambda_geometry[24] = lambda[5] * (H_22 * t659 - H_21 * t654) + lambda[4] * (sine_2 * t658 + H_21 *
+        t663) - lambda[3] * (sine_2 * t662 + H_22 * t660);
+    jac_phi_q_t_lambda_geometry[25] = sine_1 * (lambda[3] * t660 - lambda[5] * t659) + cosine_1 * (lambda[4] * t663
+        - lambda[5] * t654);
+    const jg_real t672 = A_ji_0 * t39;
+    const jg_real t673 = A_ji_1 * t39;
+    const jg_real t674 = A_ji_2 * t39;
     const jg_real t675 = C_j[3] * t672 + C_j[4] * t673 + C_j[5] * t674;
     const jg_real t676 = A_ji_0 * H_11;
     const jg_real t677 = A_ji_1 * H_11;
     const jg_real t678 = A_ji_2 * H_11;
     const jg_real t679 = C_j[0] * t676 + C_j[1] * t677 + C_j[2] * t678;
     const jg_real t680 = C_j[3] * t676 + C_j[4] * t677 + C_j[5] * t678;
-    const jg_real t681 = t675 * t69 + h_star_in_joint_j_1 * t679 - (t47 * (C_j[0] * t672 + C_j[1] * t673 + C_j[2] *
-        t674) + h_star_in_joint_j_0 * t680);
+    const jg_real t681 = t675 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t679 - (g_star_in_joint_j_1 * (C_j[0] *
+        t672 + C_j[1] * t673 + C_j[2] * t674) + h_star_in_joint_j_0 * t680);
     const jg_real t682 = lambda[5] * t681;
     const jg_real t683 = C_j[6] * t672 + C_j[7] * t673 + C_j[8] * t674;
-    const jg_real t684 = t47 * t683 + h_star_in_joint_j_2 * t680 - (t675 * t74 + h_star_in_joint_j_1 * (C_j[6] *
-        t676 + C_j[7] * t677 + C_j[8] * t678));
+    const jg_real t684 = h_star_in_joint_j_2 * t680 + g_star_in_joint_j_1 * t683 - (t675 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t676 + C_j[7] * t677 + C_j[8] * t678));
     const jg_real t685 = lambda[5] * t684;
-    const jg_real t686 = lambda[4] * t683;
-    const jg_real t687 = lambda[4] * t675;
+    const jg_real t686 = lambda[4] * t675;
+    const jg_real t687 = lambda[4] * t683;
     const jg_real t688 = lambda[3] * t679;
     const jg_real t689 = lambda[3] * t680;
-    const jg_real t690 = C_j[3] * t688 - C_j[0] * t689 + (C_j[3] * t686 - C_j[6] * t687 + (C_j[0] * t682 - C_j[6] *
+    const jg_real t690 = C_j[3] * t688 - C_j[0] * t689 + (C_j[6] * t686 - C_j[3] * t687 + (C_j[0] * t682 - C_j[6] *
         t685));
+    const jg_real t691 = C_j[4] * t688 - C_j[1] * t689 + (C_j[7] * t686 - C_j[4] * t687 + (C_j[1] * t682 - C_j[7] *
+        t685));
+    const jg_real t692 = C_j[5] * t688 - C_j[2] * t689 + (C_j[8] * t686 - C_j[5] * t687 + (C_j[2] * t682 - C_j[8] *
+        t685));
+    jac_phi_q_t_lambda_geometry[26] = lambda[3] * t662 - lambda[4] * t658;
     jac_phi_q_t_lambda_geometry[30] = t690;
-    const jg_real t691 = C_j[4] * t688 - C_j[1] * t689 + (C_j[4] * t686 - C_j[7] * t687 + (C_j[1] * t682 - C_j[7] *
-        t685));
     jac_phi_q_t_lambda_geometry[31] = t691;
-    const jg_real t692 = C_j[5] * t688 - C_j[2] * t689 + (C_j[5] * t686 - C_j[8] * t687 + (C_j[2] * t682 - C_j[8] *
-        t685));
     jac_phi_q_t_lambda_geometry[32] = t692;
     jac_phi_q_t_lambda_geometry[27] = -(A_ji_0 * t690 + A_ji_1 * t691 + A_ji_2 * t692);
     jac_phi_q_t_lambda_geometry[28] = -(A_ji_3 * t690 + A_ji_4 * t691 + A_ji_5 * t692);
     jac_phi_q_t_lambda_geometry[29] = -(A_ji_6 * t690 + A_ji_7 * t691 + A_ji_8 * t692);
-    jac_phi_q_t_lambda_geometry[33] = lambda[5] * (H_21 * t675 + H_22 * t680) + lambda[4] * (sine_2 * t679 + H_21 *
-        t684) - lambda[3] * (H_22 * t681 - sine_2 * t683);
-    jac_phi_q_t_lambda_geometry[34] = cosine_1 * (lambda[5] * t675 + lambda[4] * t684) + sine_1 * (lambda[3] * t681
-        - lambda[5] * t680);
-    jac_phi_q_t_lambda_geometry[35] = -(lambda[3] * t683 + lambda[4] * t679);
-    const jg_real t693 = A_ji_3 * t50;
-    const jg_real t694 = A_ji_4 * t50;
-    const jg_real t695 = A_ji_5 * t50;
+    jac_phi_q_t_lambda_geometry[33] = lambda[5] * (H_22 * t680 - H_21 * t675) + lambda[4] * (sine_2 * t679 + H_21 *
+        t684) - lambda[3] * (sine_2 * t683 + H_22 * t681);
+    const jg_real t693 = A_ji_3 * t39;
+    const jg_real t694 = A_ji_4 * t39;
+    const jg_real t695 = A_ji_5 * t39;
     const jg_real t696 = C_j[3] * t693 + C_j[4] * t694 + C_j[5] * t695;
     const jg_real t697 = A_ji_3 * H_11;
     const jg_real t698 = A_ji_4 * H_11;
     const jg_real t699 = A_ji_5 * H_11;
     const jg_real t700 = C_j[0] * t697 + C_j[1] * t698 + C_j[2] * t699;
     const jg_real t701 = C_j[3] * t697 + C_j[4] * t698 + C_j[5] * t699;
-    const jg_real t702 = t696 * t69 + h_star_in_joint_j_1 * t700 - (t47 * (C_j[0] * t693 + C_j[1] * t694 + C_j[2] *
-        t695) + h_star_in_joint_j_0 * t701);
+    const jg_real t702 = t696 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t700 - (g_star_in_joint_j_1 * (C_j[0] *
+        t693 + C_j[1] * t694 + C_j[2] * t695) + h_star_in_joint_j_0 * t701);
     const jg_real t703 = lambda[5] * t702;
     const jg_real t704 = C_j[6] * t693 + C_j[7] * t694 + C_j[8] * t695;
-    const jg_real t705 = t47 * t704 + h_star_in_joint_j_2 * t701 - (t696 * t74 + h_star_in_joint_j_1 * (C_j[6] *
-        t697 + C_j[7] * t698 + C_j[8] * t699));
+    const jg_real t705 = h_star_in_joint_j_2 * t701 + g_star_in_joint_j_1 * t704 - (t696 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t697 + C_j[7] * t698 + C_j[8] * t699));
     const jg_real t706 = lambda[5] * t705;
-    const jg_real t707 = lambda[4] * t704;
-    const jg_real t708 = lambda[4] * t696;
+    const jg_real t707 = lambda[4] * t696;
+    const jg_real t708 = lambda[4] * t704;
     const jg_real t709 = lambda[3] * t700;
     const jg_real t710 = lambda[3] * t701;
-    const jg_real t711 = C_j[3] * t709 - C_j[0] * t710 + (C_j[3] * t707 - C_j[6] * t708 + (C_j[0] * t703 - C_j[6] *
+    const jg_real t711 = C_j[3] * t709 - C_j[0] * t710 + (C_j[6] * t707 - C_j[3] * t708 + (C_j[0] * t703 - C_j[6] *
         t706));
+    const jg_real t712 = C_j[4] * t709 - C_j[1] * t710 + (C_j[7] * t707 - C_j[4] * t708 + (C_j[1] * t703 - C_j[7] *
+        t706));
+    const jg_real t713 = C_j[5] * t709 - C_j[2] * t710 + (C_j[8] * t707 - C_j[5] * t708 + (C_j[2] * t703 - C_j[8] *
+        t706));
+    jac_phi_q_t_lambda_geometry[34] = sine_1 * (lambda[3] * t681 - lambda[5] * t680) + cosine_1 * (lambda[4] * t684
+        - lambda[5] * t675);
+    jac_phi_q_t_lambda_geometry[35] = lambda[3] * t683 - lambda[4] * t679;
     jac_phi_q_t_lambda_geometry[39] = t711;
-    const jg_real t712 = C_j[4] * t709 - C_j[1] * t710 + (C_j[4] * t707 - C_j[7] * t708 + (C_j[1] * t703 - C_j[7] *
-        t706));
     jac_phi_q_t_lambda_geometry[40] = t712;
-    const jg_real t713 = C_j[5] * t709 - C_j[2] * t710 + (C_j[5] * t707 - C_j[8] * t708 + (C_j[2] * t703 - C_j[8] *
-        t706));
     jac_phi_q_t_lambda_geometry[41] = t713;
     jac_phi_q_t_lambda_geometry[36] = -(A_ji_0 * t711 + A_ji_1 * t712 + A_ji_2 * t713);
     jac_phi_q_t_lambda_geometry[37] = -(A_ji_3 * t711 + A_ji_4 * t712 + A_ji_5 * t713);
     jac_phi_q_t_lambda_geometry[38] = -(A_ji_6 * t711 + A_ji_7 * t712 + A_ji_8 * t713);
-    jac_phi_q_t_lambda_geometry[42] = lambda[5] * (H_21 * t696 + H_22 * t701) + lambda[4] * (sine_2 * t700 + H_21 *
-        t705) - lambda[3] * (H_22 * t702 - sine_2 * t704);
-    jac_phi_q_t_lambda_geometry[43] = cosine_1 * (lambda[5] * t696 + lambda[4] * t705) + sine_1 * (lambda[3] * t702
-        - lambda[5] * t701);
-    jac_phi_q_t_lambda_geometry[44] = -(lambda[3] * t704 + lambda[4] * t700);
-    const jg_real t714 = A_ji_6 * t50;
-    const jg_real t715 = A_ji_7 * t50;
-    const jg_real t716 = A_ji_8 * t50;
+    const jg_real t714 = A_ji_6 * t39;
+    const jg_real t715 = A_ji_7 * t39;
+    const jg_real t716 = A_ji_8 * t39;
     const jg_real t717 = C_j[3] * t714 + C_j[4] * t715 + C_j[5] * t716;
     const jg_real t718 = A_ji_6 * H_11;
     const jg_real t719 = A_ji_7 * H_11;
     const jg_real t720 = A_ji_8 * H_11;
     const jg_real t721 = C_j[0] * t718 + C_j[1] * t719 + C_j[2] * t720;
     const jg_real t722 = C_j[3] * t718 + C_j[4] * t719 + C_j[5] * t720;
-    const jg_real t723 = t717 * t69 + h_star_in_joint_j_1 * t721 - (t47 * (C_j[0] * t714 + C_j[1] * t715 + C_j[2] *
-        t716) + h_star_in_joint_j_0 * t722);
+    const jg_real t723 = t717 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t721 - (g_star_in_joint_j_1 * (C_j[0] *
+        t714 + C_j[1] * t715 + C_j[2] * t716) + h_star_in_joint_j_0 * t722);
     const jg_real t724 = lambda[5] * t723;
     const jg_real t725 = C_j[6] * t714 + C_j[7] * t715 + C_j[8] * t716;
-    const jg_real t726 = t47 * t725 + h_star_in_joint_j_2 * t722 - (t717 * t74 + h_star_in_joint_j_1 * (C_j[6] *
-        t718 + C_j[7] * t719 + C_j[8] * t720));
+    const jg_real t726 = h_star_in_joint_j_2 * t722 + g_star_in_joint_j_1 * t725 - (t717 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t718 + C_j[7] * t719 + C_j[8] * t720));
     const jg_real t727 = lambda[5] * t726;
-    const jg_real t728 = lambda[4] * t725;
-    const jg_real t729 = lambda[4] * t717;
+    const jg_real t728 = lambda[4] * t717;
+    const jg_real t729 = lambda[4] * t725;
     const jg_real t730 = lambda[3] * t721;
     const jg_real t731 = lambda[3] * t722;
-    const jg_real t732 = C_j[3] * t730 - C_j[0] * t731 + (C_j[3] * t728 - C_j[6] * t729 + (C_j[0] * t724 - C_j[6] *
+    const jg_real t732 = C_j[3] * t730 - C_j[0] * t731 + (C_j[6] * t728 - C_j[3] * t729 + (C_j[0] * t724 - C_j[6] *
         t727));
+    const jg_real t733 = C_j[4] * t730 - C_j[1] * t731 + (C_j[7] * t728 - C_j[4] * t729 + (C_j[1] * t724 - C_j[7] *
+        t727));
+    const jg_real t734 = C_j[5] * t730 - C_j[2] * t731 + (C_j[8] * t728 - C_j[5] * t729 + (C_j[2] * t724 - C_j[8] *
+        t727));
+    jac_phi_q_t_lambda_geometry[42] = lambda[5] * (H_22 * t701 - H_21 * t696) + lambda[4] * (sine_2 * t700 + H_21 *
+        t705) - lambda[3] * (sine_2 * t704 + H_22 * t702);
+    jac_phi_q_t_lambda_geometry[43] = sine_1 * (lambda[3] * t702 - lambda[5] * t701) + cosine_1 * (lambda[4] * t705
+        - lambda[5] * t696);
+    jac_phi_q_t_lambda_geometry[44] = lambda[3] * t704 - lambda[4] * t700;
     jac_phi_q_t_lambda_geometry[48] = t732;
-    const jg_real t733 = C_j[4] * t730 - C_j[1] * t731 + (C_j[4] * t728 - C_j[7] * t729 + (C_j[1] * t724 - C_j[7] *
-        t727));
     jac_phi_q_t_lambda_geometry[49] = t733;
-    const jg_real t734 = C_j[5] * t730 - C_j[2] * t731 + (C_j[5] * t728 - C_j[8] * t729 + (C_j[2] * t724 - C_j[8] *
-        t727));
     jac_phi_q_t_lambda_geometry[50] = t734;
     jac_phi_q_t_lambda_geometry[45] = -(A_ji_0 * t732 + A_ji_1 * t733 + A_ji_2 * t734);
     jac_phi_q_t_lambda_geometry[46] = -(A_ji_3 * t732 + A_ji_4 * t733 + A_ji_5 * t734);
-    jac_phi_q_t_lambda_geometry[47] = -(A_ji_6 * t732 + A_ji_7 * t733 + A_ji_8 * t734);
-    jac_phi_q_t_lambda_geometry[51] = lambda[5] * (H_21 * t717 + H_22 * t722) + lambda[4] * (sine_2 * t721 + H_21 *
-        t726) - lambda[3] * (H_22 * t723 - sine_2 * t725);
-    jac_phi_q_t_lambda_geometry[52] = cosine_1 * (lambda[5] * t717 + lambda[4] * t726) + sine_1 * (lambda[3] * t723
-        - lambda[5] * t722);
-    jac_phi_q_t_lambda_geometry[53] = -(lambda[3] * t725 + lambda[4] * t721);
-    const jg_real t735 = A_ji_0 * H_21;
-    const jg_real t736 = A_ji_1 * H_21;
-    const jg_real t737 = A_ji_2 * H_21;
-    const jg_real t738 = C_j[0] * t735 + C_j[1] * t736 + C_j[2] * t737;
-    const jg_real t739 = A_ji_0 * H_22;
-    const jg_real t740 = A_ji_1 * H_22;
-    const jg_real t741 = A_ji_2 * H_22;
-    const jg_real t742 = C_j[3] * t739 + C_j[4] * t740 + C_j[5] * t741;
-    const jg_real t743 = C_j[3] * t735 + C_j[4] * t736 + C_j[5] * t737;
-    const jg_real t744 = h_star_in_joint_j_1 * t738 - t742 * t69 - (h_star_in_joint_j_0 * t743 - t47 * (C_j[0] *
-        t739 + C_j[1] * t740 + C_j[2] * t741));
+    const jg_real t735 = A_ji_0 * H_22;
+    const jg_real t736 = A_ji_1 * H_22;
+    const jg_real t737 = A_ji_2 * H_22;
+    const jg_real t738 = C_j[3] * t735 + C_j[4] * t736 + C_j[5] * t737;
+    const jg_real t739 = A_ji_0 * H_21;
+    const jg_real t740 = A_ji_1 * H_21;
+    const jg_real t741 = A_ji_2 * H_21;
+    const jg_real t742 = C_j[0] * t739 + C_j[1] * t740 + C_j[2] * t741;
+    const jg_real t743 = C_j[3] * t739 + C_j[4] * t740 + C_j[5] * t741;
+    const jg_real t744 = t738 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t742 - (g_star_in_joint_j_1 * (C_j[0] *
+        t735 + C_j[1] * t736 + C_j[2] * t737) + h_star_in_joint_j_0 * t743);
     const jg_real t745 = lambda[5] * t744;
-    const jg_real t746 = C_j[6] * t739 + C_j[7] * t740 + C_j[8] * t741;
-    const jg_real t747 = h_star_in_joint_j_2 * t743 - t47 * t746 - (h_star_in_joint_j_1 * (C_j[6] * t735 + C_j[7] *
-        t736 + C_j[8] * t737) - t742 * t74);
+    const jg_real t746 = C_j[6] * t735 + C_j[7] * t736 + C_j[8] * t737;
+    const jg_real t747 = h_star_in_joint_j_2 * t743 + g_star_in_joint_j_1 * t746 - (t738 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t739 + C_j[7] * t740 + C_j[8] * t741));
     const jg_real t748 = lambda[5] * t747;
-    const jg_real t749 = lambda[4] * t742;
+    const jg_real t749 = lambda[4] * t738;
     const jg_real t750 = lambda[4] * t746;
-    const jg_real t751 = lambda[3] * t738;
+    const jg_real t751 = lambda[3] * t742;
     const jg_real t752 = lambda[3] * t743;
     const jg_real t753 = C_j[3] * t751 - C_j[0] * t752 + (C_j[6] * t749 - C_j[3] * t750 + (C_j[0] * t745 - C_j[6] *
         t748));
-    jac_phi_q_t_lambda_geometry[57] = t753;
     const jg_real t754 = C_j[4] * t751 - C_j[1] * t752 + (C_j[7] * t749 - C_j[4] * t750 + (C_j[1] * t745 - C_j[7] *
         t748));
-    jac_phi_q_t_lambda_geometry[58] = t754;
     const jg_real t755 = C_j[5] * t751 - C_j[2] * t752 + (C_j[8] * t749 - C_j[5] * t750 + (C_j[2] * t745 - C_j[8] *
         t748));
+    jac_phi_q_t_lambda_geometry[47] = -(A_ji_6 * t732 + A_ji_7 * t733 + A_ji_8 * t734);
+    jac_phi_q_t_lambda_geometry[51] = lambda[5] * (H_22 * t722 - H_21 * t717) + lambda[4] * (sine_2 * t721 + H_21 *
+        t726) - lambda[3] * (sine_2 * t725 + H_22 * t723);
+    jac_phi_q_t_lambda_geometry[52] = sine_1 * (lambda[3] * t723 - lambda[5] * t722) + cosine_1 * (lambda[4] * t726
+        - lambda[5] * t717);
+    jac_phi_q_t_lambda_geometry[53] = lambda[3] * t725 - lambda[4] * t721;
+    jac_phi_q_t_lambda_geometry[57] = t753;
+    jac_phi_q_t_lambda_geometry[58] = t754;
     jac_phi_q_t_lambda_geometry[59] = t755;
     jac_phi_q_t_lambda_geometry[54] = -(A_ji_0 * t753 + A_ji_1 * t754 + A_ji_2 * t755);
-    jac_phi_q_t_lambda_geometry[55] = -(A_ji_3 * t753 + A_ji_4 * t754 + A_ji_5 * t755);
-    jac_phi_q_t_lambda_geometry[56] = -(A_ji_6 * t753 + A_ji_7 * t754 + A_ji_8 * t755);
-    jac_phi_q_t_lambda_geometry[60] = lambda[5] * (H_22 * t743 - H_21 * t742) + lambda[4] * (sine_2 * t738 + H_21 *
-        t747) - lambda[3] * (sine_2 * t746 + H_22 * t744);
-    jac_phi_q_t_lambda_geometry[61] = cosine_1 * (lambda[4] * t747 - lambda[5] * t742) + sine_1 * (lambda[3] * t744
-        - lambda[5] * t743);
-    jac_phi_q_t_lambda_geometry[62] = lambda[3] * t746 - lambda[4] * t738;
-    const jg_real t756 = A_ji_3 * H_21;
-    const jg_real t757 = A_ji_4 * H_21;
-    const jg_real t758 = A_ji_5 * H_21;
-    const jg_real t759 = C_j[0] * t756 + C_j[1] * t757 + C_j[2] * t758;
-    const jg_real t760 = A_ji_3 * H_22;
-    const jg_real t761 = A_ji_4 * H_22;
-    const jg_real t762 = A_ji_5 * H_22;
-    const jg_real t763 = C_j[3] * t760 + C_j[4] * t761 + C_j[5] * t762;
-    const jg_real t764 = C_j[3] * t756 + C_j[4] * t757 + C_j[5] * t758;
-    const jg_real t765 = h_star_in_joint_j_1 * t759 - t763 * t69 - (h_star_in_joint_j_0 * t764 - t47 * (C_j[0] *
-        t760 + C_j[1] * t761 + C_j[2] * t762));
+    const jg_real t756 = A_ji_3 * H_22;
+    const jg_real t757 = A_ji_4 * H_22;
+    const jg_real t758 = A_ji_5 * H_22;
+    const jg_real t759 = C_j[3] * t756 + C_j[4] * t757 + C_j[5] * t758;
+    const jg_real t760 = A_ji_3 * H_21;
+    const jg_real t761 = A_ji_4 * H_21;
+    const jg_real t762 = A_ji_5 * H_21;
+    const jg_real t763 = C_j[0] * t760 + C_j[1] * t761 + C_j[2] * t762;
+    const jg_real t764 = C_j[3] * t760 + C_j[4] * t761 + C_j[5] * t762;
+    const jg_real t765 = t759 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t763 - (g_star_in_joint_j_1 * (C_j[0] *
+        t756 + C_j[1] * t757 + C_j[2] * t758) + h_star_in_joint_j_0 * t764);
     const jg_real t766 = lambda[5] * t765;
-    const jg_real t767 = C_j[6] * t760 + C_j[7] * t761 + C_j[8] * t762;
-    const jg_real t768 = h_star_in_joint_j_2 * t764 - t47 * t767 - (h_star_in_joint_j_1 * (C_j[6] * t756 + C_j[7] *
-        t757 + C_j[8] * t758) - t763 * t74);
+    const jg_real t767 = C_j[6] * t756 + C_j[7] * t757 + C_j[8] * t758;
+    const jg_real t768 = h_star_in_joint_j_2 * t764 + g_star_in_joint_j_1 * t767 - (t759 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t760 + C_j[7] * t761 + C_j[8] * t762));
     const jg_real t769 = lambda[5] * t768;
-    const jg_real t770 = lambda[4] * t763;
+    const jg_real t770 = lambda[4] * t759;
     const jg_real t771 = lambda[4] * t767;
-    const jg_real t772 = lambda[3] * t759;
+    const jg_real t772 = lambda[3] * t763;
     const jg_real t773 = lambda[3] * t764;
     const jg_real t774 = C_j[3] * t772 - C_j[0] * t773 + (C_j[6] * t770 - C_j[3] * t771 + (C_j[0] * t766 - C_j[6] *
         t769));
-    jac_phi_q_t_lambda_geometry[66] = t774;
     const jg_real t775 = C_j[4] * t772 - C_j[1] * t773 + (C_j[7] * t770 - C_j[4] * t771 + (C_j[1] * t766 - C_j[7] *
         t769));
-    jac_phi_q_t_lambda_geometry[67] = t775;
     const jg_real t776 = C_j[5] * t772 - C_j[2] * t773 + (C_j[8] * t770 - C_j[5] * t771 + (C_j[2] * t766 - C_j[8] *
         t769));
+    jac_phi_q_t_lambda_geometry[55] = -(A_ji_3 * t753 + A_ji_4 * t754 + A_ji_5 * t755);
+    jac_phi_q_t_lambda_geometry[56] = -(A_ji_6 * t753 + A_ji_7 * t754 + A_ji_8 * t755);
+    jac_phi_q_t_lambda_geometry[60] = lambda[5] * (H_22 * t743 - H_21 * t738) + lambda[4] * (sine_2 * t742 + H_21 *
+        t747) - lambda[3] * (sine_2 * t746 + H_22 * t744);
+    jac_phi_q_t_lambda_geometry[61] = sine_1 * (lambda[3] * t744 - lambda[5] * t743) + cosine_1 * (lambda[4] * t747
+        - lambda[5] * t738);
+    jac_phi_q_t_lambda_geometry[62] = lambda[3] * t746 - lambda[4] * t742;
+    jac_phi_q_t_lambda_geometry[66] = t774;
+    jac_phi_q_t_lambda_geometry[67] = t775;
     jac_phi_q_t_lambda_geometry[68] = t776;
-    jac_phi_q_t_lambda_geometry[63] = -(A_ji_0 * t774 + A_ji_1 * t775 + A_ji_2 * t776);
-    jac_phi_q_t_lambda_geometry[64] = -(A_ji_3 * t774 + A_ji_4 * t775 + A_ji_5 * t776);
-    jac_phi_q_t_lambda_geometry[65] = -(A_ji_6 * t774 + A_ji_7 * t775 + A_ji_8 * t776);
-    jac_phi_q_t_lambda_geometry[69] = lambda[5] * (H_22 * t764 - H_21 * t763) + lambda[4] * (sine_2 * t759 + H_21 *
-        t768) - lambda[3] * (sine_2 * t767 + H_22 * t765);
-    jac_phi_q_t_lambda_geometry[70] = cosine_1 * (lambda[4] * t768 - lambda[5] * t763) + sine_1 * (lambda[3] * t765
-        - lambda[5] * t764);
-    jac_phi_q_t_lambda_geometry[71] = lambda[3] * t767 - lambda[4] * t759;
-    const jg_real t777 = A_ji_6 * H_21;
-    const jg_real t778 = A_ji_7 * H_21;
-    const jg_real t779 = A_ji_8 * H_21;
-    const jg_real t780 = C_j[0] * t777 + C_j[1] * t778 + C_j[2] * t779;
-    const jg_real t781 = A_ji_6 * H_22;
-    const jg_real t782 = A_ji_7 * H_22;
-    const jg_real t783 = A_ji_8 * H_22;
-    const jg_real t784 = C_j[3] * t781 + C_j[4] * t782 + C_j[5] * t783;
-    const jg_real t785 = C_j[3] * t777 + C_j[4] * t778 + C_j[5] * t779;
-    const jg_real t786 = h_star_in_joint_j_1 * t780 - t784 * t69 - (h_star_in_joint_j_0 * t785 - t47 * (C_j[0] *
-        t781 + C_j[1] * t782 + C_j[2] * t783));
+    const jg_real t777 = A_ji_6 * H_22;
+    const jg_real t778 = A_ji_7 * H_22;
+    const jg_real t779 = A_ji_8 * H_22;
+    const jg_real t780 = C_j[3] * t777 + C_j[4] * t778 + C_j[5] * t779;
+    const jg_real t781 = A_ji_6 * H_21;
+    const jg_real t782 = A_ji_7 * H_21;
+    const jg_real t783 = A_ji_8 * H_21;
+    const jg_real t784 = C_j[0] * t781 + C_j[1] * t782 + C_j[2] * t783;
+    const jg_real t785 = C_j[3] * t781 + C_j[4] * t782 + C_j[5] * t783;
+    const jg_real t786 = t780 * g_star_in_joint_j_0 + h_star_in_joint_j_1 * t784 - (g_star_in_joint_j_1 * (C_j[0] *
+        t777 + C_j[1] * t778 + C_j[2] * t779) + h_star_in_joint_j_0 * t785);
     const jg_real t787 = lambda[5] * t786;
-    const jg_real t788 = C_j[6] * t781 + C_j[7] * t782 + C_j[8] * t783;
-    const jg_real t789 = h_star_in_joint_j_2 * t785 - t47 * t788 - (h_star_in_joint_j_1 * (C_j[6] * t777 + C_j[7] *
-        t778 + C_j[8] * t779) - t784 * t74);
+    const jg_real t788 = C_j[6] * t777 + C_j[7] * t778 + C_j[8] * t779;
+    const jg_real t789 = h_star_in_joint_j_2 * t785 + g_star_in_joint_j_1 * t788 - (t780 * g_star_in_joint_j_2 +
+        h_star_in_joint_j_1 * (C_j[6] * t781 + C_j[7] * t782 + C_j[8] * t783));
     const jg_real t790 = lambda[5] * t789;
-    const jg_real t791 = lambda[4] * t784;
+    const jg_real t791 = lambda[4] * t780;
     const jg_real t792 = lambda[4] * t788;
-    const jg_real t793 = lambda[3] * t780;
+    const jg_real t793 = lambda[3] * t784;
     const jg_real t794 = lambda[3] * t785;
     const jg_real t795 = C_j[3] * t793 - C_j[0] * t794 + (C_j[6] * t791 - C_j[3] * t792 + (C_j[0] * t787 - C_j[6] *
         t790));
-    jac_phi_q_t_lambda_geometry[75] = t795;
     const jg_real t796 = C_j[4] * t793 - C_j[1] * t794 + (C_j[7] * t791 - C_j[4] * t792 + (C_j[1] * t787 - C_j[7] *
         t790));
+    jac_phi_q_t_lambda_geometry[63] = -(A_ji_0 * t774 + A_ji_1 * t775 + A_ji_2 * t776);
+    jac_phi_q_t_lambda_geometry[64] = -(A_ji_3 * t774 + A_ji_4 * t775 + A_ji_5 * t776);
+    jac_phi_q_t_lambda_geometry[65] = -(A_ji_6 * t774 + A_ji_7 * t775 + A_ji_8 * t776);
+    jac_phi_q_t_lambda_geometry[69] = lambda[5] * (H_22 * t764 - H_21 * t759) + lambda[4] * (sine_2 * t763 + H_21 *
+        t768) - lambda[3] * (sine_2 * t767 + H_22 * t765);
+    jac_phi_q_t_lambda_geometry[70] = sine_1 * (lambda[3] * t765 - lambda[5] * t764) + cosine_1 * (lambda[4] * t768
+        - lambda[5] * t759);
+    jac_phi_q_t_lambda_geometry[71] = lambda[3] * t767 - lambda[4] * t763;
+    jac_phi_q_t_lambda_geometry[75] = t795;
     jac_phi_q_t_lambda_geometry[76] = t796;
     const jg_real t797 = C_j[5] * t793 - C_j[2] * t794 + (C_j[8] * t791 - C_j[5] * t792 + (C_j[2] * t787 - C_j[8] *
         t790));
@@ -3170,11 +3176,11 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_geometry[72] = -(A_ji_0 * t795 + A_ji_1 * t796 + A_ji_2 * t797);
     jac_phi_q_t_lambda_geometry[73] = -(A_ji_3 * t795 + A_ji_4 * t796 + A_ji_5 * t797);
     jac_phi_q_t_lambda_geometry[74] = -(A_ji_6 * t795 + A_ji_7 * t796 + A_ji_8 * t797);
-    jac_phi_q_t_lambda_geometry[78] = lambda[5] * (H_22 * t785 - H_21 * t784) + lambda[4] * (sine_2 * t780 + H_21 *
+    jac_phi_q_t_lambda_geometry[78] = lambda[5] * (H_22 * t785 - H_21 * t780) + lambda[4] * (sine_2 * t784 + H_21 *
         t789) - lambda[3] * (sine_2 * t788 + H_22 * t786);
-    jac_phi_q_t_lambda_geometry[79] = cosine_1 * (lambda[4] * t789 - lambda[5] * t784) + sine_1 * (lambda[3] * t786
-        - lambda[5] * t785);
-    jac_phi_q_t_lambda_geometry[80] = lambda[3] * t788 - lambda[4] * t780;
+    jac_phi_q_t_lambda_geometry[79] = sine_1 * (lambda[3] * t786 - lambda[5] * t785) + cosine_1 * (lambda[4] * t789
+        - lambda[5] * t780);
+    jac_phi_q_t_lambda_geometry[80] = lambda[3] * t788 - lambda[4] * t784;
     jac_phi_q_t_lambda_geometry[81] = A_ji_1 * lambda_0_1_2_in_j_2 - A_ji_2 * lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[82] = A_ji_4 * lambda_0_1_2_in_j_2 - A_ji_5 * lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[83] = A_ji_7 * lambda_0_1_2_in_j_2 - A_ji_8 * lambda_0_1_2_in_j_1;
@@ -3184,216 +3190,220 @@ static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_t_lambda_geometry[88] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[90] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[91] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
+    const jg_real t798 = g_star_in_j_0 * h_star_in_joint_j_1 - h_star_in_j_0 * g_star_in_joint_j_1;
+    const jg_real t799 = lambda[5] * t798;
+    const jg_real t800 = lambda[3] * g_star_in_j_0;
+    const jg_real t801 = C_j[3] * t800 - t104 + (v_3_in_joint_j + C_j[0] * t799);
+    const jg_real t802 = C_j[4] * t800 + C_j[1] * t799;
+    const jg_real t803 = C_j[5] * t800 + C_j[2] * t799;
     jac_phi_q_t_lambda_geometry[92] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[93] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[94] = -lambda_0_1_2_in_j_1;
-    const jg_real t798 = h_star_in_j_0 * t47 - t44 * h_star_in_joint_j_1;
-    const jg_real t799 = lambda[5] * t798;
-    const jg_real t800 = lambda[3] * t44;
-    const jg_real t801 = t101 - C_j[3] * t800 + (v_3_in_joint_j + C_j[0] * t799);
     jac_phi_q_t_lambda_geometry[99] = t801;
-    const jg_real t802 = C_j[1] * t799 - C_j[4] * t800;
     jac_phi_q_t_lambda_geometry[100] = t802;
-    const jg_real t803 = C_j[2] * t799 - C_j[5] * t800;
     jac_phi_q_t_lambda_geometry[101] = t803;
     jac_phi_q_t_lambda_geometry[96] = -(A_ji_0 * t801 + A_ji_1 * t802 + A_ji_2 * t803);
     jac_phi_q_t_lambda_geometry[97] = -(A_ji_3 * t801 + A_ji_4 * t802 + A_ji_5 * t803);
-    jac_phi_q_t_lambda_geometry[98] = -(A_ji_6 * t801 + A_ji_7 * t802 + A_ji_8 * t803);
-    jac_phi_q_t_lambda_geometry[102] = -(sine_2 * t44 * lambda[4] + H_22 * t798 * lambda[3]);
-    jac_phi_q_t_lambda_geometry[103] = lambda[3] * t798 * sine_1;
-    jac_phi_q_t_lambda_geometry[104] = lambda[4] * t44;
-    const jg_real t804 = h_star_in_j_1 * t47 - t45 * h_star_in_joint_j_1;
+    const jg_real t804 = g_star_in_j_1 * h_star_in_joint_j_1 - h_star_in_j_1 * g_star_in_joint_j_1;
     const jg_real t805 = lambda[5] * t804;
-    const jg_real t806 = lambda[3] * t45;
-    const jg_real t807 = t101 - C_j[4] * t806 + (v_3_in_joint_j + C_j[1] * t805);
+    const jg_real t806 = lambda[3] * g_star_in_j_1;
+    const jg_real t807 = C_j[4] * t806 - t104 + (v_3_in_joint_j + C_j[1] * t805);
+    const jg_real t808 = C_j[3] * t806 + C_j[0] * t805;
+    const jg_real t809 = C_j[5] * t806 + C_j[2] * t805;
+    jac_phi_q_t_lambda_geometry[98] = -(A_ji_6 * t801 + A_ji_7 * t802 + A_ji_8 * t803);
+    jac_phi_q_t_lambda_geometry[102] = sine_2 * g_star_in_j_0 * lambda[4] - H_22 * t798 * lambda[3];
+    jac_phi_q_t_lambda_geometry[103] = lambda[3] * t798 * sine_1;
+    jac_phi_q_t_lambda_geometry[104] = -(lambda[4] * g_star_in_j_0);
     jac_phi_q_t_lambda_geometry[109] = t807;
-    const jg_real t808 = C_j[0] * t805 - C_j[3] * t806;
     jac_phi_q_t_lambda_geometry[108] = t808;
-    const jg_real t809 = C_j[2] * t805 - C_j[5] * t806;
     jac_phi_q_t_lambda_geometry[110] = t809;
     jac_phi_q_t_lambda_geometry[105] = -(A_ji_0 * t808 + A_ji_1 * t807 + A_ji_2 * t809);
+    const jg_real t810 = g_star_in_j_2 * h_star_in_joint_j_1 - h_star_in_j_2 * g_star_in_joint_j_1;
+    const jg_real t811 = lambda[5] * t810;
+    const jg_real t812 = lambda[3] * g_star_in_j_2;
+    const jg_real t813 = v_3_in_joint_j + C_j[2] * t811 + (C_j[5] * t812 - t104);
+    const jg_real t814 = C_j[3] * t812 + C_j[0] * t811;
+    const jg_real t815 = C_j[4] * t812 + C_j[1] * t811;
     jac_phi_q_t_lambda_geometry[106] = -(A_ji_3 * t808 + A_ji_4 * t807 + A_ji_5 * t809);
     jac_phi_q_t_lambda_geometry[107] = -(A_ji_6 * t808 + A_ji_7 * t807 + A_ji_8 * t809);
-    jac_phi_q_t_lambda_geometry[111] = -(sine_2 * t45 * lambda[4] + H_22 * t804 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[111] = sine_2 * g_star_in_j_1 * lambda[4] - H_22 * t804 * lambda[3];
     jac_phi_q_t_lambda_geometry[112] = lambda[3] * t804 * sine_1;
-    jac_phi_q_t_lambda_geometry[113] = lambda[4] * t45;
-    const jg_real t810 = h_star_in_j_2 * t47 - t46 * h_star_in_joint_j_1;
-    const jg_real t811 = lambda[5] * t810;
-    const jg_real t812 = lambda[3] * t46;
-    const jg_real t813 = t101 - C_j[5] * t812 + (v_3_in_joint_j + C_j[2] * t811);
+    jac_phi_q_t_lambda_geometry[113] = -(lambda[4] * g_star_in_j_1);
     jac_phi_q_t_lambda_geometry[119] = t813;
-    const jg_real t814 = C_j[0] * t811 - C_j[3] * t812;
     jac_phi_q_t_lambda_geometry[117] = t814;
-    const jg_real t815 = C_j[1] * t811 - C_j[4] * t812;
     jac_phi_q_t_lambda_geometry[118] = t815;
+    const jg_real t816 = h_star_in_j_0 * g_star_in_joint_j_0 - g_star_in_j_0 * h_star_in_joint_j_0;
+    const jg_real t817 = lambda[5] * t816;
+    const jg_real t818 = g_star_in_j_0 * h_star_in_joint_j_2 - h_star_in_j_0 * g_star_in_joint_j_2;
+    const jg_real t819 = lambda[5] * t818;
+    const jg_real t820 = lambda[4] * h_star_in_j_0;
+    const jg_real t821 = v_4_in_joint_j_1 - C_j[0] * t800 + (C_j[6] * t820 - t100 + (C_j[0] * t817 - C_j[6] *
+        t819));
+    const jg_real t822 = C_j[1] * t817 - C_j[7] * t819 + C_j[7] * t820 - C_j[1] * t800;
     jac_phi_q_t_lambda_geometry[114] = -(A_ji_0 * t814 + A_ji_1 * t815 + A_ji_2 * t813);
     jac_phi_q_t_lambda_geometry[115] = -(A_ji_3 * t814 + A_ji_4 * t815 + A_ji_5 * t813);
     jac_phi_q_t_lambda_geometry[116] = -(A_ji_6 * t814 + A_ji_7 * t815 + A_ji_8 * t813);
-    jac_phi_q_t_lambda_geometry[120] = -(sine_2 * t46 * lambda[4] + H_22 * t810 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[120] = sine_2 * g_star_in_j_2 * lambda[4] - H_22 * t810 * lambda[3];
     jac_phi_q_t_lambda_geometry[121] = lambda[3] * t810 * sine_1;
-    jac_phi_q_t_lambda_geometry[122] = lambda[4] * t46;
-    const jg_real t816 = t44 * h_star_in_joint_j_0 - h_star_in_j_0 * t69;
-    const jg_real t817 = lambda[5] * t816;
-    const jg_real t818 = h_star_in_j_0 * t74 - t44 * h_star_in_joint_j_2;
-    const jg_real t819 = lambda[5] * t818;
-    const jg_real t820 = lambda[4] * h_star_in_j_0;
-    const jg_real t821 = C_j[0] * t800 - t102 + (C_j[6] * t820 - t98 + (C_j[0] * t817 - C_j[6] * t819));
+    jac_phi_q_t_lambda_geometry[122] = -(lambda[4] * g_star_in_j_2);
     jac_phi_q_t_lambda_geometry[126] = t821;
-    const jg_real t822 = C_j[1] * t817 - C_j[7] * t819 + C_j[7] * t820 + C_j[1] * t800;
     jac_phi_q_t_lambda_geometry[127] = t822;
-    const jg_real t823 = C_j[2] * t817 - C_j[8] * t819 + C_j[8] * t820 + C_j[2] * t800;
+    const jg_real t823 = C_j[2] * t817 - C_j[8] * t819 + C_j[8] * t820 - C_j[2] * t800;
+    const jg_real t824 = h_star_in_j_1 * g_star_in_joint_j_0 - g_star_in_j_1 * h_star_in_joint_j_0;
+    const jg_real t825 = lambda[5] * t824;
+    const jg_real t826 = g_star_in_j_1 * h_star_in_joint_j_2 - h_star_in_j_1 * g_star_in_joint_j_2;
+    const jg_real t827 = lambda[5] * t826;
+    const jg_real t828 = lambda[4] * h_star_in_j_1;
+    const jg_real t829 = C_j[0] * t825 - C_j[6] * t827 + C_j[6] * t828 - C_j[0] * t806;
+    const jg_real t830 = v_4_in_joint_j_1 - C_j[1] * t806 + (C_j[7] * t828 - t100 + (C_j[1] * t825 - C_j[7] *
+        t827));
     jac_phi_q_t_lambda_geometry[128] = t823;
     jac_phi_q_t_lambda_geometry[123] = -(A_ji_0 * t821 + A_ji_1 * t822 + A_ji_2 * t823);
     jac_phi_q_t_lambda_geometry[124] = -(A_ji_3 * t821 + A_ji_4 * t822 + A_ji_5 * t823);
     jac_phi_q_t_lambda_geometry[125] = -(A_ji_6 * t821 + A_ji_7 * t822 + A_ji_8 * t823);
-    jac_phi_q_t_lambda_geometry[129] = H_21 * t818 * lambda[4] - lambda[5] * (H_21 * h_star_in_j_0 + H_22 * t44) -
-        H_22 * t816 * lambda[3];
-    jac_phi_q_t_lambda_geometry[130] = cosine_1 * (lambda[4] * t818 - lambda[5] * h_star_in_j_0) + sine_1 *
-        (lambda[5] * t44 + lambda[3] * t816);
-    const jg_real t824 = t45 * h_star_in_joint_j_0 - h_star_in_j_1 * t69;
-    const jg_real t825 = lambda[5] * t824;
-    const jg_real t826 = h_star_in_j_1 * t74 - t45 * h_star_in_joint_j_2;
-    const jg_real t827 = lambda[5] * t826;
-    const jg_real t828 = lambda[4] * h_star_in_j_1;
-    const jg_real t829 = C_j[0] * t825 - C_j[6] * t827 + C_j[6] * t828 + C_j[0] * t806;
+    jac_phi_q_t_lambda_geometry[129] = lambda[5] * (H_22 * g_star_in_j_0 - H_21 * h_star_in_j_0) + H_21 * t818 *
+        lambda[4] - H_22 * t816 * lambda[3];
+    jac_phi_q_t_lambda_geometry[130] = sine_1 * (lambda[3] * t816 - lambda[5] * g_star_in_j_0) + cosine_1 *
+        (lambda[4] * t818 - lambda[5] * h_star_in_j_0);
     jac_phi_q_t_lambda_geometry[134] = t829;
-    const jg_real t830 = C_j[1] * t806 - t102 + (C_j[7] * t828 - t98 + (C_j[1] * t825 - C_j[7] * t827));
     jac_phi_q_t_lambda_geometry[135] = t830;
-    const jg_real t831 = C_j[2] * t825 - C_j[8] * t827 + C_j[8] * t828 + C_j[2] * t806;
+    const jg_real t831 = C_j[2] * t825 - C_j[8] * t827 + C_j[8] * t828 - C_j[2] * t806;
+    const jg_real t832 = h_star_in_j_2 * g_star_in_joint_j_0 - g_star_in_j_2 * h_star_in_joint_j_0;
+    const jg_real t833 = lambda[5] * t832;
+    const jg_real t834 = g_star_in_j_2 * h_star_in_joint_j_2 - h_star_in_j_2 * g_star_in_joint_j_2;
+    const jg_real t835 = lambda[5] * t834;
+    const jg_real t836 = lambda[4] * h_star_in_j_2;
+    const jg_real t837 = C_j[0] * t833 - C_j[6] * t835 + C_j[6] * t836 - C_j[0] * t812;
+    const jg_real t838 = C_j[1] * t833 - C_j[7] * t835 + C_j[7] * t836 - C_j[1] * t812;
     jac_phi_q_t_lambda_geometry[136] = t831;
     jac_phi_q_t_lambda_geometry[131] = -(A_ji_0 * t829 + A_ji_1 * t830 + A_ji_2 * t831);
     jac_phi_q_t_lambda_geometry[132] = -(A_ji_3 * t829 + A_ji_4 * t830 + A_ji_5 * t831);
     jac_phi_q_t_lambda_geometry[133] = -(A_ji_6 * t829 + A_ji_7 * t830 + A_ji_8 * t831);
-    jac_phi_q_t_lambda_geometry[137] = H_21 * t826 * lambda[4] - lambda[5] * (H_21 * h_star_in_j_1 + H_22 * t45) -
-        H_22 * t824 * lambda[3];
-    jac_phi_q_t_lambda_geometry[138] = cosine_1 * (lambda[4] * t826 - lambda[5] * h_star_in_j_1) + sine_1 *
-        (lambda[5] * t45 + lambda[3] * t824);
-    const jg_real t832 = t46 * h_star_in_joint_j_0 - h_star_in_j_2 * t69;
-    const jg_real t833 = lambda[5] * t832;
-    const jg_real t834 = h_star_in_j_2 * t74 - t46 * h_star_in_joint_j_2;
-    const jg_real t835 = lambda[5] * t834;
-    const jg_real t836 = lambda[4] * h_star_in_j_2;
-    const jg_real t837 = C_j[0] * t833 - C_j[6] * t835 + C_j[6] * t836 + C_j[0] * t812;
+    jac_phi_q_t_lambda_geometry[137] = lambda[5] * (H_22 * g_star_in_j_1 - H_21 * h_star_in_j_1) + H_21 * t826 *
+        lambda[4] - H_22 * t824 * lambda[3];
+    jac_phi_q_t_lambda_geometry[138] = sine_1 * (lambda[3] * t824 - lambda[5] * g_star_in_j_1) + cosine_1 *
+        (lambda[4] * t826 - lambda[5] * h_star_in_j_1);
     jac_phi_q_t_lambda_geometry[142] = t837;
-    const jg_real t838 = C_j[1] * t833 - C_j[7] * t835 + C_j[7] * t836 + C_j[1] * t812;
     jac_phi_q_t_lambda_geometry[143] = t838;
-    const jg_real t839 = C_j[2] * t812 - t102 + (C_j[8] * t836 - t98 + (C_j[2] * t833 - C_j[8] * t835));
+    const jg_real t839 = v_4_in_joint_j_1 - C_j[2] * t812 + (C_j[8] * t836 - t100 + (C_j[2] * t833 - C_j[8] *
+        t835));
+    const jg_real t840 = v_2_in_joint_j_2 - C_j[3] * t820 - (t97 - C_j[6] * t799);
+    const jg_real t841 = C_j[7] * t799 - C_j[4] * t820;
     jac_phi_q_t_lambda_geometry[144] = t839;
     jac_phi_q_t_lambda_geometry[139] = -(A_ji_0 * t837 + A_ji_1 * t838 + A_ji_2 * t839);
     jac_phi_q_t_lambda_geometry[140] = -(A_ji_3 * t837 + A_ji_4 * t838 + A_ji_5 * t839);
     jac_phi_q_t_lambda_geometry[141] = -(A_ji_6 * t837 + A_ji_7 * t838 + A_ji_8 * t839);
-    jac_phi_q_t_lambda_geometry[145] = H_21 * t834 * lambda[4] - lambda[5] * (H_21 * h_star_in_j_2 + H_22 * t46) -
-        H_22 * t832 * lambda[3];
-    jac_phi_q_t_lambda_geometry[146] = cosine_1 * (lambda[4] * t834 - lambda[5] * h_star_in_j_2) + sine_1 *
-        (lambda[5] * t46 + lambda[3] * t832);
-    const jg_real t840 = v_2_in_joint_j_2 - C_j[3] * t820 - (t95 - C_j[6] * t799);
+    jac_phi_q_t_lambda_geometry[145] = lambda[5] * (H_22 * g_star_in_j_2 - H_21 * h_star_in_j_2) + H_21 * t834 *
+        lambda[4] - H_22 * t832 * lambda[3];
+    jac_phi_q_t_lambda_geometry[146] = sine_1 * (lambda[3] * t832 - lambda[5] * g_star_in_j_2) + cosine_1 *
+        (lambda[4] * t834 - lambda[5] * h_star_in_j_2);
     jac_phi_q_t_lambda_geometry[150] = t840;
-    const jg_real t841 = C_j[7] * t799 - C_j[4] * t820;
     jac_phi_q_t_lambda_geometry[151] = t841;
     const jg_real t842 = C_j[8] * t799 - C_j[5] * t820;
+    const jg_real t843 = v_2_in_joint_j_2 - C_j[4] * t828 - (t97 - C_j[7] * t805);
     jac_phi_q_t_lambda_geometry[152] = t842;
     jac_phi_q_t_lambda_geometry[147] = -(A_ji_0 * t840 + A_ji_1 * t841 + A_ji_2 * t842);
     jac_phi_q_t_lambda_geometry[148] = -(A_ji_3 * t840 + A_ji_4 * t841 + A_ji_5 * t842);
     jac_phi_q_t_lambda_geometry[149] = -(A_ji_6 * t840 + A_ji_7 * t841 + A_ji_8 * t842);
-    jac_phi_q_t_lambda_geometry[153] = -(H_21 * t798 * lambda[4] + sine_2 * h_star_in_j_0 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[153] = -(sine_2 * h_star_in_j_0 * lambda[3] + H_21 * t798 * lambda[4]);
     jac_phi_q_t_lambda_geometry[154] = -(lambda[4] * t798 * cosine_1);
     jac_phi_q_t_lambda_geometry[155] = lambda[3] * h_star_in_j_0;
-    const jg_real t843 = v_2_in_joint_j_2 - C_j[4] * t828 - (t95 - C_j[7] * t805);
     jac_phi_q_t_lambda_geometry[160] = t843;
     const jg_real t844 = C_j[6] * t805 - C_j[3] * t828;
-    jac_phi_q_t_lambda_geometry[159] = t844;
     const jg_real t845 = C_j[8] * t805 - C_j[5] * t828;
+    jac_phi_q_t_lambda_geometry[159] = t844;
     jac_phi_q_t_lambda_geometry[161] = t845;
     jac_phi_q_t_lambda_geometry[156] = -(A_ji_0 * t844 + A_ji_1 * t843 + A_ji_2 * t845);
     jac_phi_q_t_lambda_geometry[157] = -(A_ji_3 * t844 + A_ji_4 * t843 + A_ji_5 * t845);
     jac_phi_q_t_lambda_geometry[158] = -(A_ji_6 * t844 + A_ji_7 * t843 + A_ji_8 * t845);
-    jac_phi_q_t_lambda_geometry[162] = -(H_21 * t804 * lambda[4] + sine_2 * h_star_in_j_1 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[162] = -(sine_2 * h_star_in_j_1 * lambda[3] + H_21 * t804 * lambda[4]);
     jac_phi_q_t_lambda_geometry[163] = -(lambda[4] * t804 * cosine_1);
     jac_phi_q_t_lambda_geometry[164] = lambda[3] * h_star_in_j_1;
-    const jg_real t846 = v_2_in_joint_j_2 - C_j[5] * t836 - (t95 - C_j[8] * t811);
-    jac_phi_q_t_lambda_geometry[170] = t846;
+    const jg_real t846 = v_2_in_joint_j_2 - C_j[5] * t836 - (t97 - C_j[8] * t811);
     const jg_real t847 = C_j[6] * t811 - C_j[3] * t836;
-    jac_phi_q_t_lambda_geometry[168] = t847;
     const jg_real t848 = C_j[7] * t811 - C_j[4] * t836;
+    jac_phi_q_t_lambda_geometry[170] = t846;
+    jac_phi_q_t_lambda_geometry[168] = t847;
     jac_phi_q_t_lambda_geometry[169] = t848;
     jac_phi_q_t_lambda_geometry[165] = -(A_ji_0 * t847 + A_ji_1 * t848 + A_ji_2 * t846);
     jac_phi_q_t_lambda_geometry[166] = -(A_ji_3 * t847 + A_ji_4 * t848 + A_ji_5 * t846);
     jac_phi_q_t_lambda_geometry[167] = -(A_ji_6 * t847 + A_ji_7 * t848 + A_ji_8 * t846);
-    jac_phi_q_t_lambda_geometry[171] = -(H_21 * t810 * lambda[4] + sine_2 * h_star_in_j_2 * lambda[3]);
+    jac_phi_q_t_lambda_geometry[171] = -(sine_2 * h_star_in_j_2 * lambda[3] + H_21 * t810 * lambda[4]);
     jac_phi_q_t_lambda_geometry[172] = -(lambda[4] * t810 * cosine_1);
+    const jg_real t849 = A_ji_2 * s_j[1] - s_j[2] * A_ji_1;
+    const jg_real t850 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t849;
+    const jg_real t851 = s_j[2] * A_ji_0 - A_ji_2 * s_j[0];
+    const jg_real t852 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t851;
+    const jg_real t853 = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    const jg_real t854 = A_ji_1 * v_0_in_j_0 - A_ji_0 * v_0_in_j_1 + t853;
     jac_phi_q_t_lambda_geometry[173] = lambda[3] * h_star_in_j_2;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
-    const jg_real t849 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t849;
-    const jg_real t850 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t849;
-    const jg_real t851 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t851;
-    const jg_real t852 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t851;
-    const jg_real t853 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t853;
-    const jg_real t854 = A_ji_1 * v_0_in_j_0 - A_ji_0 * v_0_in_j_1 + t853;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t850 + A_ji_1 * t852 + A_ji_2 * t854);
+    const jg_real t855 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    const jg_real t856 = v_0_in_j_1 * A_ji_5 - A_ji_4 * v_0_in_j_2 + t855;
+    const jg_real t857 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    const jg_real t858 = A_ji_3 * v_0_in_j_2 - A_ji_5 * v_0_in_j_0 + t857;
+    const jg_real t859 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    const jg_real t860 = A_ji_4 * v_0_in_j_0 - A_ji_3 * v_0_in_j_1 + t859;
     jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t850 + A_ji_4 * t852 + A_ji_5 * t854);
     jac_phi_q_t_lambda_lambda[3] = -(A_ji_6 * t850 + A_ji_7 * t852 + A_ji_8 * t854);
-    const jg_real t855 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_t_lambda_lambda[17] = t855;
-    const jg_real t856 = v_0_in_j_1 * A_ji_5 - v_0_in_j_2 * A_ji_4 + t855;
-    const jg_real t857 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     jac_phi_q_t_lambda_lambda[18] = t857;
-    const jg_real t858 = A_ji_3 * v_0_in_j_2 - v_0_in_j_0 * A_ji_5 + t857;
-    const jg_real t859 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_t_lambda_lambda[19] = t859;
-    const jg_real t860 = v_0_in_j_0 * A_ji_4 - v_0_in_j_1 * A_ji_3 + t859;
     jac_phi_q_t_lambda_lambda[11] = -(A_ji_0 * t856 + A_ji_1 * t858 + A_ji_2 * t860);
     jac_phi_q_t_lambda_lambda[12] = -(A_ji_3 * t856 + A_ji_4 * t858 + A_ji_5 * t860);
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t856 + A_ji_7 * t858 + A_ji_8 * t860);
     const jg_real t861 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_t_lambda_lambda[27] = t861;
     const jg_real t862 = A_ji_8 * v_0_in_j_1 - A_ji_7 * v_0_in_j_2 + t861;
     const jg_real t863 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_t_lambda_lambda[28] = t863;
     const jg_real t864 = A_ji_6 * v_0_in_j_2 - A_ji_8 * v_0_in_j_0 + t863;
-    const jg_real t865 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_t_lambda_lambda[29] = t865;
+    const jg_real t865 = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
     const jg_real t866 = A_ji_7 * v_0_in_j_0 - A_ji_6 * v_0_in_j_1 + t865;
+    const jg_real t867 = C_j[3] * g_star_in_joint_j_0 - C_j[0] * g_star_in_joint_j_1;
+    const jg_real t868 = C_j[4] * g_star_in_joint_j_0 - C_j[1] * g_star_in_joint_j_1;
+    jac_phi_q_t_lambda_lambda[27] = t861;
+    jac_phi_q_t_lambda_lambda[28] = t863;
+    jac_phi_q_t_lambda_lambda[29] = t865;
     jac_phi_q_t_lambda_lambda[21] = -(A_ji_0 * t862 + A_ji_1 * t864 + A_ji_2 * t866);
     jac_phi_q_t_lambda_lambda[22] = -(A_ji_3 * t862 + A_ji_4 * t864 + A_ji_5 * t866);
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_6 * t862 + A_ji_7 * t864 + A_ji_8 * t866);
-    const jg_real t867 = C_j[0] * t47 - C_j[3] * t69;
     jac_phi_q_t_lambda_lambda[33] = t867;
-    const jg_real t868 = C_j[1] * t47 - C_j[4] * t69;
     jac_phi_q_t_lambda_lambda[34] = t868;
-    const jg_real t869 = C_j[2] * t47 - C_j[5] * t69;
+    const jg_real t869 = C_j[5] * g_star_in_joint_j_0 - C_j[2] * g_star_in_joint_j_1;
+    const jg_real t870 = C_j[6] * h_star_in_joint_j_1 - C_j[3] * h_star_in_joint_j_2;
+    const jg_real t871 = C_j[7] * h_star_in_joint_j_1 - C_j[4] * h_star_in_joint_j_2;
     jac_phi_q_t_lambda_lambda[35] = t869;
     jac_phi_q_t_lambda_lambda[30] = -(A_ji_0 * t867 + A_ji_1 * t868 + A_ji_2 * t869);
     jac_phi_q_t_lambda_lambda[31] = -(A_ji_3 * t867 + A_ji_4 * t868 + A_ji_5 * t869);
     jac_phi_q_t_lambda_lambda[32] = -(A_ji_6 * t867 + A_ji_7 * t868 + A_ji_8 * t869);
     jac_phi_q_t_lambda_lambda[36] = -(sine_2 * h_star_in_joint_j_2 + H_22 * f_star_in_joint_j_2);
     jac_phi_q_t_lambda_lambda[37] = sine_1 * f_star_in_joint_j_2;
-    const jg_real t870 = C_j[6] * h_star_in_joint_j_1 - C_j[3] * h_star_in_joint_j_2;
     jac_phi_q_t_lambda_lambda[42] = t870;
-    const jg_real t871 = C_j[7] * h_star_in_joint_j_1 - C_j[4] * h_star_in_joint_j_2;
     jac_phi_q_t_lambda_lambda[43] = t871;
     const jg_real t872 = C_j[8] * h_star_in_joint_j_1 - C_j[5] * h_star_in_joint_j_2;
+    const jg_real t873 = C_j[0] * f_star_in_joint_j_2 - C_j[6] * f_star_in_joint_j_0;
     jac_phi_q_t_lambda_lambda[44] = t872;
     jac_phi_q_t_lambda_lambda[39] = -(A_ji_0 * t870 + A_ji_1 * t871 + A_ji_2 * t872);
     jac_phi_q_t_lambda_lambda[40] = -(A_ji_3 * t870 + A_ji_4 * t871 + A_ji_5 * t872);
     jac_phi_q_t_lambda_lambda[41] = -(A_ji_6 * t870 + A_ji_7 * t871 + A_ji_8 * t872);
-    jac_phi_q_t_lambda_lambda[45] = H_21 * f_star_in_joint_j_0 - sine_2 * t69;
+    jac_phi_q_t_lambda_lambda[45] = sine_2 * g_star_in_joint_j_0 + H_21 * f_star_in_joint_j_0;
     jac_phi_q_t_lambda_lambda[46] = cosine_1 * f_star_in_joint_j_0;
-    const jg_real t873 = C_j[0] * f_star_in_joint_j_2 - C_j[6] * f_star_in_joint_j_0;
+    jac_phi_q_t_lambda_lambda[47] = -g_star_in_joint_j_0;
     jac_phi_q_t_lambda_lambda[51] = t873;
     const jg_real t874 = C_j[1] * f_star_in_joint_j_2 - C_j[7] * f_star_in_joint_j_0;
-    jac_phi_q_t_lambda_lambda[52] = t874;
     const jg_real t875 = C_j[2] * f_star_in_joint_j_2 - C_j[8] * f_star_in_joint_j_0;
+    jac_phi_q_t_lambda_lambda[52] = t874;
     jac_phi_q_t_lambda_lambda[53] = t875;
     jac_phi_q_t_lambda_lambda[48] = -(A_ji_0 * t873 + A_ji_1 * t874 + A_ji_2 * t875);
     jac_phi_q_t_lambda_lambda[49] = -(A_ji_3 * t873 + A_ji_4 * t874 + A_ji_5 * t875);
     jac_phi_q_t_lambda_lambda[50] = -(A_ji_6 * t873 + A_ji_7 * t874 + A_ji_8 * t875);
-    jac_phi_q_t_lambda_lambda[54] = -(H_21 * h_star_in_joint_j_1 + H_22 * t47);
-    jac_phi_q_t_lambda_lambda[55] = sine_1 * t47 - cosine_1 * h_star_in_joint_j_1;
+    jac_phi_q_t_lambda_lambda[54] = H_22 * g_star_in_joint_j_1 - H_21 * h_star_in_joint_j_1;
+    jac_phi_q_t_lambda_lambda[55] = -(sine_1 * g_star_in_joint_j_1 + cosine_1 * h_star_in_joint_j_1);
 }
 
 JG_EXPORT int jg_ball_parametric_phi_external(const double **arg, double **res, casadi_int *iw, double *w, int mem);

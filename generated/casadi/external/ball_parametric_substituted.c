@@ -46,17 +46,12 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -79,7 +74,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t15 = A_j[0] * g_star_in_i_0;
     const jg_real t16 = A_j[3] * g_star_in_i_0;
     const jg_real t17 = A_j[6] * g_star_in_i_0;
-    jac_phi_A_i[1] = C_j[6] * t15 + C_j[7] * t16 + C_j[8] * t17;
     const jg_real g_star_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
     const jg_real g_star_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
     /* g_star_world = g_star, world axes */
@@ -88,7 +82,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    jac_phi_geometry[47] = g_star_in_j_2;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
     /* H_10 =  */
@@ -104,113 +97,120 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real f_star_world_2 = A_i[2] * f_star_in_i_0 + A_i[5] * f_star_in_i_1 + A_i[8] * f_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_A_i[1] = C_j[6] * t15 + C_j[7] * t16 + C_j[8] * t17;
+    jac_phi_geometry[47] = g_star_in_j_2;
     jac_phi_geometry[43] = f_star_in_j_1;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
-    jac_phi_geometry[46] = g_star_in_j_1;
     const jg_real t35 = A_j[6] * f_star_in_i_0;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    jac_phi_geometry[44] = f_star_in_j_2;
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
-    jac_phi_geometry[45] = g_star_in_j_0;
     const jg_real t38 = A_j[0] * f_star_in_i_0;
     const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    jac_phi_geometry[46] = g_star_in_j_1;
+    jac_phi_geometry[44] = f_star_in_j_2;
+    jac_phi_geometry[45] = g_star_in_j_0;
     jac_phi_geometry[42] = f_star_in_j_0;
     jac_phi_A_i[2] = C_j[0] * (t17 * f_star_in_j_1 + t27 * g_star_in_j_2 - (t16 * f_star_in_j_2 + t35 *
         g_star_in_j_1)) + C_j[1] * (t15 * f_star_in_j_2 + t35 * g_star_in_j_0 - (t17 * f_star_in_j_0 + t38 *
         g_star_in_j_2)) + C_j[2] * (t16 * f_star_in_j_0 + t38 * g_star_in_j_1 - (t15 * f_star_in_j_1 + t27 *
         g_star_in_j_0));
     jac_phi_A_i[3] = C_j[4] * t27 + C_j[3] * t38 + C_j[5] * t35;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t43 = A_j[1] * g_star_in_i_0;
     const jg_real t44 = A_j[4] * g_star_in_i_0;
     const jg_real t45 = A_j[7] * g_star_in_i_0;
-    jac_phi_A_i[5] = C_j[6] * t43 + C_j[7] * t44 + C_j[8] * t45;
     const jg_real t46 = A_j[4] * f_star_in_i_0;
     const jg_real t47 = A_j[7] * f_star_in_i_0;
     const jg_real t48 = A_j[1] * f_star_in_i_0;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real t52 = A_j[2] * g_star_in_i_0;
+    const jg_real t53 = A_j[5] * g_star_in_i_0;
+    const jg_real t54 = A_j[8] * g_star_in_i_0;
+    const jg_real t55 = A_j[5] * f_star_in_i_0;
+    const jg_real t56 = A_j[8] * f_star_in_i_0;
+    const jg_real t57 = A_j[2] * f_star_in_i_0;
+    jac_phi_A_i[5] = C_j[6] * t43 + C_j[7] * t44 + C_j[8] * t45;
     jac_phi_A_i[6] = C_j[0] * (t45 * f_star_in_j_1 + t46 * g_star_in_j_2 - (t44 * f_star_in_j_2 + t47 *
         g_star_in_j_1)) + C_j[1] * (t43 * f_star_in_j_2 + t47 * g_star_in_j_0 - (t45 * f_star_in_j_0 + t48 *
         g_star_in_j_2)) + C_j[2] * (t44 * f_star_in_j_0 + t48 * g_star_in_j_1 - (t43 * f_star_in_j_1 + t46 *
         g_star_in_j_0));
     jac_phi_A_i[7] = C_j[4] * t46 + C_j[3] * t48 + C_j[5] * t47;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t52 = A_j[2] * g_star_in_i_0;
-    const jg_real t53 = A_j[5] * g_star_in_i_0;
-    const jg_real t54 = A_j[8] * g_star_in_i_0;
     jac_phi_A_i[9] = C_j[6] * t52 + C_j[7] * t53 + C_j[8] * t54;
-    const jg_real t55 = A_j[5] * f_star_in_i_0;
-    const jg_real t56 = A_j[8] * f_star_in_i_0;
-    const jg_real t57 = A_j[2] * f_star_in_i_0;
     jac_phi_A_i[10] = C_j[0] * (t54 * f_star_in_j_1 + t55 * g_star_in_j_2 - (t53 * f_star_in_j_2 + t56 *
         g_star_in_j_1)) + C_j[1] * (t52 * f_star_in_j_2 + t56 * g_star_in_j_0 - (t54 * f_star_in_j_0 + t57 *
         g_star_in_j_2)) + C_j[2] * (t53 * f_star_in_j_0 + t57 * g_star_in_j_1 - (t52 * f_star_in_j_1 + t55 *
         g_star_in_j_0));
-    jac_phi_A_i[11] = C_j[4] * t55 + C_j[3] * t57 + C_j[5] * t56;
     const jg_real t58 = A_j[0] * g_star_in_i_1;
     const jg_real t59 = A_j[3] * g_star_in_i_1;
     const jg_real t60 = A_j[6] * g_star_in_i_1;
-    jac_phi_A_i[13] = C_j[6] * t58 + C_j[7] * t59 + C_j[8] * t60;
     const jg_real t61 = A_j[3] * f_star_in_i_1;
     const jg_real t62 = A_j[6] * f_star_in_i_1;
     const jg_real t63 = A_j[0] * f_star_in_i_1;
+    const jg_real t64 = A_j[1] * g_star_in_i_1;
+    const jg_real t65 = A_j[4] * g_star_in_i_1;
+    const jg_real t66 = A_j[7] * g_star_in_i_1;
+    const jg_real t67 = A_j[4] * f_star_in_i_1;
+    const jg_real t68 = A_j[7] * f_star_in_i_1;
+    const jg_real t69 = A_j[1] * f_star_in_i_1;
+    const jg_real t70 = A_j[2] * g_star_in_i_1;
+    const jg_real t71 = A_j[5] * g_star_in_i_1;
+    const jg_real t72 = A_j[8] * g_star_in_i_1;
+    jac_phi_A_i[11] = C_j[4] * t55 + C_j[3] * t57 + C_j[5] * t56;
+    jac_phi_A_i[13] = C_j[6] * t58 + C_j[7] * t59 + C_j[8] * t60;
     jac_phi_A_i[14] = C_j[0] * (t60 * f_star_in_j_1 + t61 * g_star_in_j_2 - (t59 * f_star_in_j_2 + t62 *
         g_star_in_j_1)) + C_j[1] * (t58 * f_star_in_j_2 + t62 * g_star_in_j_0 - (t60 * f_star_in_j_0 + t63 *
         g_star_in_j_2)) + C_j[2] * (t59 * f_star_in_j_0 + t63 * g_star_in_j_1 - (t58 * f_star_in_j_1 + t61 *
         g_star_in_j_0));
     jac_phi_A_i[15] = C_j[4] * t61 + C_j[3] * t63 + C_j[5] * t62;
-    const jg_real t64 = A_j[1] * g_star_in_i_1;
-    const jg_real t65 = A_j[4] * g_star_in_i_1;
-    const jg_real t66 = A_j[7] * g_star_in_i_1;
     jac_phi_A_i[17] = C_j[6] * t64 + C_j[7] * t65 + C_j[8] * t66;
-    const jg_real t67 = A_j[4] * f_star_in_i_1;
-    const jg_real t68 = A_j[7] * f_star_in_i_1;
-    const jg_real t69 = A_j[1] * f_star_in_i_1;
     jac_phi_A_i[18] = C_j[0] * (t66 * f_star_in_j_1 + t67 * g_star_in_j_2 - (t65 * f_star_in_j_2 + t68 *
         g_star_in_j_1)) + C_j[1] * (t64 * f_star_in_j_2 + t68 * g_star_in_j_0 - (t66 * f_star_in_j_0 + t69 *
         g_star_in_j_2)) + C_j[2] * (t65 * f_star_in_j_0 + t69 * g_star_in_j_1 - (t64 * f_star_in_j_1 + t67 *
         g_star_in_j_0));
     jac_phi_A_i[19] = C_j[4] * t67 + C_j[3] * t69 + C_j[5] * t68;
-    const jg_real t70 = A_j[2] * g_star_in_i_1;
-    const jg_real t71 = A_j[5] * g_star_in_i_1;
-    const jg_real t72 = A_j[8] * g_star_in_i_1;
     jac_phi_A_i[21] = C_j[6] * t70 + C_j[7] * t71 + C_j[8] * t72;
     const jg_real t73 = A_j[5] * f_star_in_i_1;
     const jg_real t74 = A_j[8] * f_star_in_i_1;
     const jg_real t75 = A_j[2] * f_star_in_i_1;
+    const jg_real t76 = A_j[0] * g_star_in_i_2;
+    const jg_real t77 = A_j[3] * g_star_in_i_2;
+    const jg_real t78 = A_j[6] * g_star_in_i_2;
+    const jg_real t79 = A_j[3] * f_star_in_i_2;
+    const jg_real t80 = A_j[6] * f_star_in_i_2;
+    const jg_real t81 = A_j[0] * f_star_in_i_2;
+    const jg_real t82 = A_j[1] * g_star_in_i_2;
+    const jg_real t83 = A_j[4] * g_star_in_i_2;
+    const jg_real t84 = A_j[7] * g_star_in_i_2;
+    const jg_real t85 = A_j[4] * f_star_in_i_2;
+    const jg_real t86 = A_j[7] * f_star_in_i_2;
+    const jg_real t87 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[22] = C_j[0] * (t72 * f_star_in_j_1 + t73 * g_star_in_j_2 - (t71 * f_star_in_j_2 + t74 *
         g_star_in_j_1)) + C_j[1] * (t70 * f_star_in_j_2 + t74 * g_star_in_j_0 - (t72 * f_star_in_j_0 + t75 *
         g_star_in_j_2)) + C_j[2] * (t71 * f_star_in_j_0 + t75 * g_star_in_j_1 - (t70 * f_star_in_j_1 + t73 *
         g_star_in_j_0));
     jac_phi_A_i[23] = C_j[4] * t73 + C_j[3] * t75 + C_j[5] * t74;
-    const jg_real t76 = A_j[0] * g_star_in_i_2;
-    const jg_real t77 = A_j[3] * g_star_in_i_2;
-    const jg_real t78 = A_j[6] * g_star_in_i_2;
     jac_phi_A_i[25] = C_j[6] * t76 + C_j[7] * t77 + C_j[8] * t78;
-    const jg_real t79 = A_j[3] * f_star_in_i_2;
-    const jg_real t80 = A_j[6] * f_star_in_i_2;
-    const jg_real t81 = A_j[0] * f_star_in_i_2;
     jac_phi_A_i[26] = C_j[0] * (t78 * f_star_in_j_1 + t79 * g_star_in_j_2 - (t77 * f_star_in_j_2 + t80 *
         g_star_in_j_1)) + C_j[1] * (t76 * f_star_in_j_2 + t80 * g_star_in_j_0 - (t78 * f_star_in_j_0 + t81 *
         g_star_in_j_2)) + C_j[2] * (t77 * f_star_in_j_0 + t81 * g_star_in_j_1 - (t76 * f_star_in_j_1 + t79 *
         g_star_in_j_0));
     jac_phi_A_i[27] = C_j[4] * t79 + C_j[3] * t81 + C_j[5] * t80;
-    const jg_real t82 = A_j[1] * g_star_in_i_2;
-    const jg_real t83 = A_j[4] * g_star_in_i_2;
-    const jg_real t84 = A_j[7] * g_star_in_i_2;
     jac_phi_A_i[29] = C_j[6] * t82 + C_j[7] * t83 + C_j[8] * t84;
-    const jg_real t85 = A_j[4] * f_star_in_i_2;
-    const jg_real t86 = A_j[7] * f_star_in_i_2;
-    const jg_real t87 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[30] = C_j[0] * (t84 * f_star_in_j_1 + t85 * g_star_in_j_2 - (t83 * f_star_in_j_2 + t86 *
         g_star_in_j_1)) + C_j[1] * (t82 * f_star_in_j_2 + t86 * g_star_in_j_0 - (t84 * f_star_in_j_0 + t87 *
         g_star_in_j_2)) + C_j[2] * (t83 * f_star_in_j_0 + t87 * g_star_in_j_1 - (t82 * f_star_in_j_1 + t85 *
@@ -219,10 +219,12 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t88 = A_j[2] * g_star_in_i_2;
     const jg_real t89 = A_j[5] * g_star_in_i_2;
     const jg_real t90 = A_j[8] * g_star_in_i_2;
-    jac_phi_A_i[33] = C_j[6] * t88 + C_j[7] * t89 + C_j[8] * t90;
     const jg_real t91 = A_j[5] * f_star_in_i_2;
     const jg_real t92 = A_j[8] * f_star_in_i_2;
     const jg_real t93 = A_j[2] * f_star_in_i_2;
+    const jg_real t94 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
+    const jg_real t95 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
+    jac_phi_A_i[33] = C_j[6] * t88 + C_j[7] * t89 + C_j[8] * t90;
     jac_phi_A_i[34] = C_j[0] * (t90 * f_star_in_j_1 + t91 * g_star_in_j_2 - (t89 * f_star_in_j_2 + t92 *
         g_star_in_j_1)) + C_j[1] * (t88 * f_star_in_j_2 + t92 * g_star_in_j_0 - (t90 * f_star_in_j_0 + t93 *
         g_star_in_j_2)) + C_j[2] * (t89 * f_star_in_j_0 + t93 * g_star_in_j_1 - (t88 * f_star_in_j_1 + t91 *
@@ -232,45 +234,43 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = C_j[6] * g_star_world_0;
-    const jg_real t94 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
-    const jg_real t95 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
     jac_phi_A_j[4] = -(C_j[1] * t94 + C_j[2] * t95);
+    const jg_real t96 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
+    const jg_real t97 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[5] = C_j[3] * f_star_world_0;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_j[6] * g_star_world_1;
-    const jg_real t96 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
-    const jg_real t97 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[10] = -(C_j[1] * t96 + C_j[2] * t97);
     jac_phi_A_j[11] = C_j[3] * f_star_world_1;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
+    const jg_real t98 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
+    const jg_real t99 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = C_j[6] * g_star_world_2;
-    const jg_real t98 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
-    const jg_real t99 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[16] = -(C_j[1] * t98 + C_j[2] * t99);
     jac_phi_A_j[17] = C_j[3] * f_star_world_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     const jg_real t100 = f_star_world_0 * g_star_in_j_0 - g_star_world_0 * f_star_in_j_0;
+    const jg_real t101 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
+    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     jac_phi_A_j[22] = C_j[0] * t94 - C_j[2] * t100;
     jac_phi_A_j[23] = C_j[4] * f_star_world_0;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = C_j[7] * g_star_world_1;
-    const jg_real t101 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
     jac_phi_A_j[28] = C_j[0] * t96 - C_j[2] * t101;
+    const jg_real t102 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[29] = C_j[4] * f_star_world_1;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
     jac_phi_A_j[33] = C_j[7] * g_star_world_2;
-    const jg_real t102 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[34] = C_j[0] * t98 - C_j[2] * t102;
     jac_phi_A_j[35] = C_j[4] * f_star_world_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
@@ -290,7 +290,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_A_j[50] = s_j[2] * A_i[8];
     jac_phi_A_j[51] = C_j[8] * g_star_world_2;
     jac_phi_A_j[52] = C_j[0] * t99 + C_j[1] * t102;
-    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
     const jg_real t103 = C_i[3] * H_01 - C_i[0] * H_11;
     const jg_real t104 = C_i[4] * H_01 - C_i[1] * H_11;
     const jg_real t105 = C_i[5] * H_01 - C_i[2] * H_11;
@@ -300,7 +299,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t109 = A_j[0] * t106 + A_j[1] * t107 + A_j[2] * t108;
     const jg_real t110 = A_j[3] * t106 + A_j[4] * t107 + A_j[5] * t108;
     const jg_real t111 = A_j[6] * t106 + A_j[7] * t107 + A_j[8] * t108;
-    jac_phi_alpha[0] = C_j[6] * t109 + C_j[7] * t110 + C_j[8] * t111;
     const jg_real t112 = C_i[3] * H_00 - C_i[0] * H_10;
     const jg_real t113 = C_i[4] * H_00 - C_i[1] * H_10;
     const jg_real t114 = C_i[5] * H_00 - C_i[2] * H_10;
@@ -310,11 +308,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t118 = A_j[3] * t115 + A_j[4] * t116 + A_j[5] * t117;
     const jg_real t119 = A_j[6] * t115 + A_j[7] * t116 + A_j[8] * t117;
     const jg_real t120 = A_j[0] * t115 + A_j[1] * t116 + A_j[2] * t117;
-    jac_phi_alpha[1] = C_j[0] * (f_star_in_j_1 * t111 + t118 * g_star_in_j_2 - (f_star_in_j_2 * t110 + t119 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t109 + t119 * g_star_in_j_0 - (f_star_in_j_0 * t111 + t120 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t110 + t120 * g_star_in_j_1 - (f_star_in_j_1 * t109 + t118 *
-        g_star_in_j_0));
-    jac_phi_alpha[2] = C_j[4] * t118 + C_j[3] * t120 + C_j[5] * t119;
     const jg_real t121 = H_00 * sine_2;
     const jg_real t122 = sine_2 * H_10;
     const jg_real t123 = sine_1 * sine_2;
@@ -327,7 +320,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t130 = A_j[0] * t127 + A_j[1] * t128 + A_j[2] * t129;
     const jg_real t131 = A_j[3] * t127 + A_j[4] * t128 + A_j[5] * t129;
     const jg_real t132 = A_j[6] * t127 + A_j[7] * t128 + A_j[8] * t129;
-    jac_phi_alpha[3] = C_j[6] * t130 + C_j[7] * t131 + C_j[8] * t132;
     const jg_real t133 = C_i[0] * t7 + C_i[3] * t11 + C_i[6] * cosine_1;
     const jg_real t134 = C_i[1] * t7 + C_i[4] * t11 + C_i[7] * cosine_1;
     const jg_real t135 = C_i[2] * t7 + C_i[5] * t11 + C_i[8] * cosine_1;
@@ -337,11 +329,6 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t139 = A_j[3] * t136 + A_j[4] * t137 + A_j[5] * t138;
     const jg_real t140 = A_j[6] * t136 + A_j[7] * t137 + A_j[8] * t138;
     const jg_real t141 = A_j[0] * t136 + A_j[1] * t137 + A_j[2] * t138;
-    jac_phi_alpha[4] = C_j[0] * (f_star_in_j_1 * t132 - t139 * g_star_in_j_2 - (f_star_in_j_2 * t131 - t140 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t130 - t140 * g_star_in_j_0 - (f_star_in_j_0 * t132 - t141 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t131 - t141 * g_star_in_j_1 - (f_star_in_j_1 * t130 - t139 *
-        g_star_in_j_0));
-    jac_phi_alpha[5] = -(C_j[4] * t139 + C_j[3] * t141 + C_j[5] * t140);
     const jg_real t142 = sine_0 * sine_2 + t7 * cosine_2;
     const jg_real t143 = t11 * cosine_2 - cosine_0 * sine_2;
     const jg_real t144 = cosine_1 * cosine_2;
@@ -354,36 +341,49 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t151 = A_j[0] * t148 + A_j[1] * t149 + A_j[2] * t150;
     const jg_real t152 = A_j[3] * t148 + A_j[4] * t149 + A_j[5] * t150;
     const jg_real t153 = A_j[6] * t148 + A_j[7] * t149 + A_j[8] * t150;
+    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
+    jac_phi_alpha[0] = C_j[6] * t109 + C_j[7] * t110 + C_j[8] * t111;
+    jac_phi_alpha[1] = C_j[0] * (f_star_in_j_1 * t111 + t118 * g_star_in_j_2 - (f_star_in_j_2 * t110 + t119 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t109 + t119 * g_star_in_j_0 - (t111 * f_star_in_j_0 +
+        g_star_in_j_2 * t120)) + C_j[2] * (t110 * f_star_in_j_0 + g_star_in_j_1 * t120 - (f_star_in_j_1 * t109 +
+        t118 * g_star_in_j_0));
+    jac_phi_alpha[2] = C_j[4] * t118 + C_j[3] * t120 + C_j[5] * t119;
+    jac_phi_alpha[3] = C_j[6] * t130 + C_j[7] * t131 + C_j[8] * t132;
+    jac_phi_alpha[4] = C_j[0] * (f_star_in_j_1 * t132 - t139 * g_star_in_j_2 - (f_star_in_j_2 * t131 - t140 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t130 - t140 * g_star_in_j_0 - (t132 * f_star_in_j_0 -
+        g_star_in_j_2 * t141)) + C_j[2] * (t131 * f_star_in_j_0 - g_star_in_j_1 * t141 - (f_star_in_j_1 * t130 -
+        t139 * g_star_in_j_0));
+    jac_phi_alpha[5] = -(C_j[4] * t139 + C_j[3] * t141 + C_j[5] * t140);
     jac_phi_alpha[6] = C_j[6] * t151 + C_j[7] * t152 + C_j[8] * t153;
-    jac_phi_alpha[7] = C_j[0] * (f_star_in_j_1 * t153 - f_star_in_j_2 * t152) + C_j[1] * (f_star_in_j_2 * t151 -
-        f_star_in_j_0 * t153) + C_j[2] * (f_star_in_j_0 * t152 - f_star_in_j_1 * t151);
-    jac_phi_geometry[0] = JG_REAL(-1.0);
-    jac_phi_geometry[1] = JG_REAL(-1.0);
-    jac_phi_geometry[2] = JG_REAL(-1.0);
     const jg_real t154 = A_i[0] * H_01;
     const jg_real t155 = A_i[1] * H_01;
     const jg_real t156 = A_i[2] * H_01;
     const jg_real t157 = A_j[0] * t154 + A_j[1] * t155 + A_j[2] * t156;
     const jg_real t158 = A_j[3] * t154 + A_j[4] * t155 + A_j[5] * t156;
     const jg_real t159 = A_j[6] * t154 + A_j[7] * t155 + A_j[8] * t156;
-    jac_phi_geometry[3] = C_j[6] * t157 + C_j[7] * t158 + C_j[8] * t159;
     const jg_real t160 = A_i[0] * H_00;
     const jg_real t161 = A_i[1] * H_00;
     const jg_real t162 = A_i[2] * H_00;
     const jg_real t163 = A_j[3] * t160 + A_j[4] * t161 + A_j[5] * t162;
     const jg_real t164 = A_j[6] * t160 + A_j[7] * t161 + A_j[8] * t162;
     const jg_real t165 = A_j[0] * t160 + A_j[1] * t161 + A_j[2] * t162;
-    jac_phi_geometry[4] = C_j[0] * (f_star_in_j_1 * t159 + t163 * g_star_in_j_2 - (f_star_in_j_2 * t158 + t164 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t157 + t164 * g_star_in_j_0 - (f_star_in_j_0 * t159 + t165 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t158 + t165 * g_star_in_j_1 - (f_star_in_j_1 * t157 + t163 *
-        g_star_in_j_0));
-    jac_phi_geometry[5] = C_j[4] * t163 + C_j[3] * t165 + C_j[5] * t164;
     const jg_real t166 = A_i[3] * H_01;
     const jg_real t167 = A_i[4] * H_01;
     const jg_real t168 = A_i[5] * H_01;
     const jg_real t169 = A_j[0] * t166 + A_j[1] * t167 + A_j[2] * t168;
     const jg_real t170 = A_j[3] * t166 + A_j[4] * t167 + A_j[5] * t168;
     const jg_real t171 = A_j[6] * t166 + A_j[7] * t167 + A_j[8] * t168;
+    jac_phi_alpha[7] = C_j[0] * (f_star_in_j_1 * t153 - f_star_in_j_2 * t152) + C_j[1] * (f_star_in_j_2 * t151 -
+        t153 * f_star_in_j_0) + C_j[2] * (t152 * f_star_in_j_0 - f_star_in_j_1 * t151);
+    jac_phi_geometry[0] = JG_REAL(-1.0);
+    jac_phi_geometry[1] = JG_REAL(-1.0);
+    jac_phi_geometry[2] = JG_REAL(-1.0);
+    jac_phi_geometry[3] = C_j[6] * t157 + C_j[7] * t158 + C_j[8] * t159;
+    jac_phi_geometry[4] = C_j[0] * (f_star_in_j_1 * t159 + t163 * g_star_in_j_2 - (f_star_in_j_2 * t158 + t164 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t157 + t164 * g_star_in_j_0 - (t159 * f_star_in_j_0 +
+        g_star_in_j_2 * t165)) + C_j[2] * (t158 * f_star_in_j_0 + g_star_in_j_1 * t165 - (f_star_in_j_1 * t157 +
+        t163 * g_star_in_j_0));
+    jac_phi_geometry[5] = C_j[4] * t163 + C_j[3] * t165 + C_j[5] * t164;
     jac_phi_geometry[6] = C_j[6] * t169 + C_j[7] * t170 + C_j[8] * t171;
     const jg_real t172 = A_i[3] * H_00;
     const jg_real t173 = A_i[4] * H_00;
@@ -391,46 +391,46 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t175 = A_j[3] * t172 + A_j[4] * t173 + A_j[5] * t174;
     const jg_real t176 = A_j[6] * t172 + A_j[7] * t173 + A_j[8] * t174;
     const jg_real t177 = A_j[0] * t172 + A_j[1] * t173 + A_j[2] * t174;
-    jac_phi_geometry[7] = C_j[0] * (f_star_in_j_1 * t171 + t175 * g_star_in_j_2 - (f_star_in_j_2 * t170 + t176 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t169 + t176 * g_star_in_j_0 - (f_star_in_j_0 * t171 + t177 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t170 + t177 * g_star_in_j_1 - (f_star_in_j_1 * t169 + t175 *
-        g_star_in_j_0));
-    jac_phi_geometry[8] = C_j[4] * t175 + C_j[3] * t177 + C_j[5] * t176;
     const jg_real t178 = A_i[6] * H_01;
     const jg_real t179 = A_i[7] * H_01;
     const jg_real t180 = A_i[8] * H_01;
     const jg_real t181 = A_j[0] * t178 + A_j[1] * t179 + A_j[2] * t180;
     const jg_real t182 = A_j[3] * t178 + A_j[4] * t179 + A_j[5] * t180;
     const jg_real t183 = A_j[6] * t178 + A_j[7] * t179 + A_j[8] * t180;
-    jac_phi_geometry[9] = C_j[6] * t181 + C_j[7] * t182 + C_j[8] * t183;
     const jg_real t184 = A_i[6] * H_00;
     const jg_real t185 = A_i[7] * H_00;
     const jg_real t186 = A_i[8] * H_00;
     const jg_real t187 = A_j[3] * t184 + A_j[4] * t185 + A_j[5] * t186;
     const jg_real t188 = A_j[6] * t184 + A_j[7] * t185 + A_j[8] * t186;
     const jg_real t189 = A_j[0] * t184 + A_j[1] * t185 + A_j[2] * t186;
-    jac_phi_geometry[10] = C_j[0] * (f_star_in_j_1 * t183 + t187 * g_star_in_j_2 - (f_star_in_j_2 * t182 + t188 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t181 + t188 * g_star_in_j_0 - (f_star_in_j_0 * t183 + t189 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t182 + t189 * g_star_in_j_1 - (f_star_in_j_1 * t181 + t187 *
-        g_star_in_j_0));
-    jac_phi_geometry[11] = C_j[4] * t187 + C_j[3] * t189 + C_j[5] * t188;
     const jg_real t190 = A_i[0] * H_11;
     const jg_real t191 = A_i[1] * H_11;
     const jg_real t192 = A_i[2] * H_11;
     const jg_real t193 = A_j[0] * t190 + A_j[1] * t191 + A_j[2] * t192;
     const jg_real t194 = A_j[3] * t190 + A_j[4] * t191 + A_j[5] * t192;
     const jg_real t195 = A_j[6] * t190 + A_j[7] * t191 + A_j[8] * t192;
-    jac_phi_geometry[12] = C_j[6] * t193 + C_j[7] * t194 + C_j[8] * t195;
     const jg_real t196 = A_i[0] * H_10;
     const jg_real t197 = A_i[1] * H_10;
     const jg_real t198 = A_i[2] * H_10;
     const jg_real t199 = A_j[3] * t196 + A_j[4] * t197 + A_j[5] * t198;
     const jg_real t200 = A_j[6] * t196 + A_j[7] * t197 + A_j[8] * t198;
     const jg_real t201 = A_j[0] * t196 + A_j[1] * t197 + A_j[2] * t198;
+    jac_phi_geometry[7] = C_j[0] * (f_star_in_j_1 * t171 + t175 * g_star_in_j_2 - (f_star_in_j_2 * t170 + t176 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t169 + t176 * g_star_in_j_0 - (t171 * f_star_in_j_0 +
+        g_star_in_j_2 * t177)) + C_j[2] * (t170 * f_star_in_j_0 + g_star_in_j_1 * t177 - (f_star_in_j_1 * t169 +
+        t175 * g_star_in_j_0));
+    jac_phi_geometry[8] = C_j[4] * t175 + C_j[3] * t177 + C_j[5] * t176;
+    jac_phi_geometry[9] = C_j[6] * t181 + C_j[7] * t182 + C_j[8] * t183;
+    jac_phi_geometry[10] = C_j[0] * (f_star_in_j_1 * t183 + t187 * g_star_in_j_2 - (f_star_in_j_2 * t182 + t188 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t181 + t188 * g_star_in_j_0 - (t183 * f_star_in_j_0 +
+        g_star_in_j_2 * t189)) + C_j[2] * (t182 * f_star_in_j_0 + g_star_in_j_1 * t189 - (f_star_in_j_1 * t181 +
+        t187 * g_star_in_j_0));
+    jac_phi_geometry[11] = C_j[4] * t187 + C_j[3] * t189 + C_j[5] * t188;
+    jac_phi_geometry[12] = C_j[6] * t193 + C_j[7] * t194 + C_j[8] * t195;
     jac_phi_geometry[13] = C_j[0] * (f_star_in_j_1 * t195 + t199 * g_star_in_j_2 - (f_star_in_j_2 * t194 + t200 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t193 + t200 * g_star_in_j_0 - (f_star_in_j_0 * t195 + t201 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t194 + t201 * g_star_in_j_1 - (f_star_in_j_1 * t193 + t199 *
-        g_star_in_j_0));
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t193 + t200 * g_star_in_j_0 - (t195 * f_star_in_j_0 +
+        g_star_in_j_2 * t201)) + C_j[2] * (t194 * f_star_in_j_0 + g_star_in_j_1 * t201 - (f_star_in_j_1 * t193 +
+        t199 * g_star_in_j_0));
     jac_phi_geometry[14] = C_j[4] * t199 + C_j[3] * t201 + C_j[5] * t200;
     const jg_real t202 = A_i[3] * H_11;
     const jg_real t203 = A_i[4] * H_11;
@@ -438,89 +438,89 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     const jg_real t205 = A_j[0] * t202 + A_j[1] * t203 + A_j[2] * t204;
     const jg_real t206 = A_j[3] * t202 + A_j[4] * t203 + A_j[5] * t204;
     const jg_real t207 = A_j[6] * t202 + A_j[7] * t203 + A_j[8] * t204;
-    jac_phi_geometry[15] = C_j[6] * t205 + C_j[7] * t206 + C_j[8] * t207;
     const jg_real t208 = A_i[3] * H_10;
     const jg_real t209 = A_i[4] * H_10;
     const jg_real t210 = A_i[5] * H_10;
     const jg_real t211 = A_j[3] * t208 + A_j[4] * t209 + A_j[5] * t210;
     const jg_real t212 = A_j[6] * t208 + A_j[7] * t209 + A_j[8] * t210;
     const jg_real t213 = A_j[0] * t208 + A_j[1] * t209 + A_j[2] * t210;
-    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t207 + t211 * g_star_in_j_2 - (f_star_in_j_2 * t206 + t212 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t205 + t212 * g_star_in_j_0 - (f_star_in_j_0 * t207 + t213 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t206 + t213 * g_star_in_j_1 - (f_star_in_j_1 * t205 + t211 *
-        g_star_in_j_0));
-    jac_phi_geometry[17] = C_j[4] * t211 + C_j[3] * t213 + C_j[5] * t212;
     const jg_real t214 = A_i[6] * H_11;
     const jg_real t215 = A_i[7] * H_11;
     const jg_real t216 = A_i[8] * H_11;
     const jg_real t217 = A_j[0] * t214 + A_j[1] * t215 + A_j[2] * t216;
     const jg_real t218 = A_j[3] * t214 + A_j[4] * t215 + A_j[5] * t216;
     const jg_real t219 = A_j[6] * t214 + A_j[7] * t215 + A_j[8] * t216;
-    jac_phi_geometry[18] = C_j[6] * t217 + C_j[7] * t218 + C_j[8] * t219;
     const jg_real t220 = A_i[6] * H_10;
     const jg_real t221 = A_i[7] * H_10;
     const jg_real t222 = A_i[8] * H_10;
     const jg_real t223 = A_j[3] * t220 + A_j[4] * t221 + A_j[5] * t222;
     const jg_real t224 = A_j[6] * t220 + A_j[7] * t221 + A_j[8] * t222;
     const jg_real t225 = A_j[0] * t220 + A_j[1] * t221 + A_j[2] * t222;
-    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t219 + t223 * g_star_in_j_2 - (f_star_in_j_2 * t218 + t224 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t217 + t224 * g_star_in_j_0 - (f_star_in_j_0 * t219 + t225 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t218 + t225 * g_star_in_j_1 - (f_star_in_j_1 * t217 + t223 *
-        g_star_in_j_0));
-    jac_phi_geometry[20] = C_j[4] * t223 + C_j[3] * t225 + C_j[5] * t224;
     const jg_real t226 = A_i[0] * H_21;
     const jg_real t227 = A_i[1] * H_21;
     const jg_real t228 = A_i[2] * H_21;
     const jg_real t229 = A_j[0] * t226 + A_j[1] * t227 + A_j[2] * t228;
     const jg_real t230 = A_j[3] * t226 + A_j[4] * t227 + A_j[5] * t228;
     const jg_real t231 = A_j[6] * t226 + A_j[7] * t227 + A_j[8] * t228;
-    jac_phi_geometry[21] = C_j[6] * t229 + C_j[7] * t230 + C_j[8] * t231;
     const jg_real t232 = A_i[0] * sine_1;
     const jg_real t233 = A_i[1] * sine_1;
     const jg_real t234 = A_i[2] * sine_1;
     const jg_real t235 = A_j[3] * t232 + A_j[4] * t233 + A_j[5] * t234;
     const jg_real t236 = A_j[6] * t232 + A_j[7] * t233 + A_j[8] * t234;
     const jg_real t237 = A_j[0] * t232 + A_j[1] * t233 + A_j[2] * t234;
+    jac_phi_geometry[15] = C_j[6] * t205 + C_j[7] * t206 + C_j[8] * t207;
+    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t207 + t211 * g_star_in_j_2 - (f_star_in_j_2 * t206 + t212 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t205 + t212 * g_star_in_j_0 - (t207 * f_star_in_j_0 +
+        g_star_in_j_2 * t213)) + C_j[2] * (t206 * f_star_in_j_0 + g_star_in_j_1 * t213 - (f_star_in_j_1 * t205 +
+        t211 * g_star_in_j_0));
+    jac_phi_geometry[17] = C_j[4] * t211 + C_j[3] * t213 + C_j[5] * t212;
+    jac_phi_geometry[18] = C_j[6] * t217 + C_j[7] * t218 + C_j[8] * t219;
+    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t219 + t223 * g_star_in_j_2 - (f_star_in_j_2 * t218 + t224 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t217 + t224 * g_star_in_j_0 - (t219 * f_star_in_j_0 +
+        g_star_in_j_2 * t225)) + C_j[2] * (t218 * f_star_in_j_0 + g_star_in_j_1 * t225 - (f_star_in_j_1 * t217 +
+        t223 * g_star_in_j_0));
+    jac_phi_geometry[20] = C_j[4] * t223 + C_j[3] * t225 + C_j[5] * t224;
+    jac_phi_geometry[21] = C_j[6] * t229 + C_j[7] * t230 + C_j[8] * t231;
     jac_phi_geometry[22] = C_j[0] * (f_star_in_j_1 * t231 - t235 * g_star_in_j_2 - (f_star_in_j_2 * t230 - t236 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t229 - t236 * g_star_in_j_0 - (f_star_in_j_0 * t231 - t237 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t230 - t237 * g_star_in_j_1 - (f_star_in_j_1 * t229 - t235 *
-        g_star_in_j_0));
-    jac_phi_geometry[23] = -(C_j[4] * t235 + C_j[3] * t237 + C_j[5] * t236);
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t229 - t236 * g_star_in_j_0 - (t231 * f_star_in_j_0 -
+        g_star_in_j_2 * t237)) + C_j[2] * (t230 * f_star_in_j_0 - g_star_in_j_1 * t237 - (f_star_in_j_1 * t229 -
+        t235 * g_star_in_j_0));
     const jg_real t238 = A_i[3] * H_21;
     const jg_real t239 = A_i[4] * H_21;
     const jg_real t240 = A_i[5] * H_21;
     const jg_real t241 = A_j[0] * t238 + A_j[1] * t239 + A_j[2] * t240;
     const jg_real t242 = A_j[3] * t238 + A_j[4] * t239 + A_j[5] * t240;
     const jg_real t243 = A_j[6] * t238 + A_j[7] * t239 + A_j[8] * t240;
-    jac_phi_geometry[24] = C_j[6] * t241 + C_j[7] * t242 + C_j[8] * t243;
     const jg_real t244 = A_i[3] * sine_1;
     const jg_real t245 = A_i[4] * sine_1;
     const jg_real t246 = A_i[5] * sine_1;
     const jg_real t247 = A_j[3] * t244 + A_j[4] * t245 + A_j[5] * t246;
     const jg_real t248 = A_j[6] * t244 + A_j[7] * t245 + A_j[8] * t246;
     const jg_real t249 = A_j[0] * t244 + A_j[1] * t245 + A_j[2] * t246;
-    jac_phi_geometry[25] = C_j[0] * (f_star_in_j_1 * t243 - t247 * g_star_in_j_2 - (f_star_in_j_2 * t242 - t248 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t241 - t248 * g_star_in_j_0 - (f_star_in_j_0 * t243 - t249 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t242 - t249 * g_star_in_j_1 - (f_star_in_j_1 * t241 - t247 *
-        g_star_in_j_0));
-    jac_phi_geometry[26] = -(C_j[4] * t247 + C_j[3] * t249 + C_j[5] * t248);
     const jg_real t250 = A_i[6] * H_21;
     const jg_real t251 = A_i[7] * H_21;
     const jg_real t252 = A_i[8] * H_21;
     const jg_real t253 = A_j[0] * t250 + A_j[1] * t251 + A_j[2] * t252;
     const jg_real t254 = A_j[3] * t250 + A_j[4] * t251 + A_j[5] * t252;
     const jg_real t255 = A_j[6] * t250 + A_j[7] * t251 + A_j[8] * t252;
-    jac_phi_geometry[27] = C_j[6] * t253 + C_j[7] * t254 + C_j[8] * t255;
     const jg_real t256 = A_i[6] * sine_1;
     const jg_real t257 = A_i[7] * sine_1;
     const jg_real t258 = A_i[8] * sine_1;
     const jg_real t259 = A_j[3] * t256 + A_j[4] * t257 + A_j[5] * t258;
     const jg_real t260 = A_j[6] * t256 + A_j[7] * t257 + A_j[8] * t258;
     const jg_real t261 = A_j[0] * t256 + A_j[1] * t257 + A_j[2] * t258;
+    jac_phi_geometry[23] = -(C_j[4] * t235 + C_j[3] * t237 + C_j[5] * t236);
+    jac_phi_geometry[24] = C_j[6] * t241 + C_j[7] * t242 + C_j[8] * t243;
+    jac_phi_geometry[25] = C_j[0] * (f_star_in_j_1 * t243 - t247 * g_star_in_j_2 - (f_star_in_j_2 * t242 - t248 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t241 - t248 * g_star_in_j_0 - (t243 * f_star_in_j_0 -
+        g_star_in_j_2 * t249)) + C_j[2] * (t242 * f_star_in_j_0 - g_star_in_j_1 * t249 - (f_star_in_j_1 * t241 -
+        t247 * g_star_in_j_0));
+    jac_phi_geometry[26] = -(C_j[4] * t247 + C_j[3] * t249 + C_j[5] * t248);
+    jac_phi_geometry[27] = C_j[6] * t253 + C_j[7] * t254 + C_j[8] * t255;
     jac_phi_geometry[28] = C_j[0] * (f_star_in_j_1 * t255 - t259 * g_star_in_j_2 - (f_star_in_j_2 * t254 - t260 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t253 - t260 * g_star_in_j_0 - (f_star_in_j_0 * t255 - t261 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t254 - t261 * g_star_in_j_1 - (f_star_in_j_1 * t253 - t259 *
-        g_star_in_j_0));
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t253 - t260 * g_star_in_j_0 - (t255 * f_star_in_j_0 -
+        g_star_in_j_2 * t261)) + C_j[2] * (t254 * f_star_in_j_0 - g_star_in_j_1 * t261 - (f_star_in_j_1 * t253 -
+        t259 * g_star_in_j_0));
     jac_phi_geometry[29] = -(C_j[4] * t259 + C_j[3] * t261 + C_j[5] * t260);
     jac_phi_geometry[30] = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[31] = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
@@ -533,10 +533,10 @@ static void jg_ball_parametric_substituted_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[38] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = f_star_in_j_1 * g_star_in_j_2 - f_star_in_j_2 * g_star_in_j_1;
+    const jg_real h_star_in_j_1 = f_star_in_j_2 * g_star_in_j_0 - g_star_in_j_2 * f_star_in_j_0;
+    const jg_real h_star_in_j_2 = g_star_in_j_1 * f_star_in_j_0 - f_star_in_j_1 * g_star_in_j_0;
     jac_phi_geometry[39] = h_star_in_j_0;
-    const jg_real h_star_in_j_1 = f_star_in_j_2 * g_star_in_j_0 - f_star_in_j_0 * g_star_in_j_2;
     jac_phi_geometry[40] = h_star_in_j_1;
-    const jg_real h_star_in_j_2 = f_star_in_j_0 * g_star_in_j_1 - f_star_in_j_1 * g_star_in_j_0;
     jac_phi_geometry[41] = h_star_in_j_2;
 }
 
@@ -563,7 +563,6 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[1], &sine_2, &cosine_2);
-    jac_phi_q_v_velocity[48] = cosine_1;
     const jg_real t7 = sine_0 * cosine_1;
     /* H_01 =  */
     const jg_real H_01 = t4 * sine_2 - t7;
@@ -577,23 +576,17 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t14 = t4 - sine_2 * t7;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
-    jac_phi_q_v_velocity[47] = H_22;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t14 + C_i[8] * H_22;
-    jac_phi_q_v_velocity[17] = h_j_in_i_2;
     const jg_real t17 = C_i[5] * H_02 + C_i[2] * t14;
     /* H_21 =  */
     const jg_real H_21 = sine_1 * cosine_2;
-    jac_phi_q_v_velocity[46] = H_21;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_1 = C_i[1] * H_01 + C_i[4] * H_11 + C_i[7] * H_21;
-    jac_phi_q_v_velocity[11] = g_j_in_i_1;
     const jg_real t20 = C_i[5] * H_01 - C_i[2] * H_11;
     const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t14 + C_i[7] * H_22;
-    jac_phi_q_v_velocity[12] = h_j_in_i_1;
     const jg_real t22 = C_i[1] * t14 + C_i[4] * H_02;
     const jg_real g_j_in_i_2 = C_i[2] * H_01 + C_i[5] * H_11 + C_i[8] * H_21;
-    jac_phi_q_v_velocity[16] = g_j_in_i_2;
     const jg_real t24 = t12 * h_j_in_i_2 + t17 * g_j_in_i_1 - (t20 * h_j_in_i_1 + t22 * g_j_in_i_2);
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
@@ -612,18 +605,25 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
         s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    jac_phi_q_v_velocity[48] = cosine_1;
+    jac_phi_q_v_velocity[47] = H_22;
+    jac_phi_q_v_velocity[17] = h_j_in_i_2;
+    jac_phi_q_v_velocity[46] = H_21;
+    jac_phi_q_v_velocity[11] = g_j_in_i_1;
+    jac_phi_q_v_velocity[12] = h_j_in_i_1;
+    jac_phi_q_v_velocity[16] = g_j_in_i_2;
     jac_phi_q_v_alpha[0] = v_j_in_joint_j_1 * t26 + v_j_in_joint_j_0 * t24 + v_j_in_joint_j_2 * t28 -
         (s_j_cross_omega_j_in_joint_j_1 * t26 + s_j_cross_omega_j_in_joint_j_0 * t24 +
         s_j_cross_omega_j_in_joint_j_2 * t28);
     const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t14 + C_i[6] * H_22;
-    jac_phi_q_v_velocity[7] = h_j_in_i_0;
     const jg_real g_j_in_i_0 = C_i[0] * H_01 + C_i[3] * H_11 + C_i[6] * H_21;
-    jac_phi_q_v_velocity[6] = g_j_in_i_0;
     const jg_real t38 = t20 * h_j_in_i_0 + t28 * g_j_in_i_2 - (t26 * h_j_in_i_2 + t17 * g_j_in_i_0);
+    const jg_real t39 = t26 * h_j_in_i_1 + t22 * g_j_in_i_0 - (t12 * h_j_in_i_0 + t28 * g_j_in_i_1);
+    jac_phi_q_v_velocity[7] = h_j_in_i_0;
+    jac_phi_q_v_velocity[6] = g_j_in_i_0;
     jac_phi_q_v_alpha[1] = v_j_in_joint_j_1 * t12 + v_j_in_joint_j_0 * t38 + v_j_in_joint_j_2 * t22 -
         (s_j_cross_omega_j_in_joint_j_1 * t12 + s_j_cross_omega_j_in_joint_j_0 * t38 +
         s_j_cross_omega_j_in_joint_j_2 * t22);
-    const jg_real t39 = t26 * h_j_in_i_1 + t22 * g_j_in_i_0 - (t12 * h_j_in_i_0 + t28 * g_j_in_i_1);
     jac_phi_q_v_alpha[2] = v_j_in_joint_j_1 * t20 + v_j_in_joint_j_0 * t39 + v_j_in_joint_j_2 * t17 -
         (s_j_cross_omega_j_in_joint_j_1 * t20 + s_j_cross_omega_j_in_joint_j_0 * t39 +
         s_j_cross_omega_j_in_joint_j_2 * t17);
@@ -631,8 +631,6 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_geometry[1] = omega_i[1];
     jac_phi_q_v_geometry[2] = omega_i[2];
     jac_phi_q_v_alpha[3] = omega_i[0] * t24 + omega_i[1] * t38 + omega_i[2] * t39;
-    jac_phi_q_v_alpha[4] = omega_i[0] * t26 + omega_i[1] * t12 + omega_i[2] * t20;
-    jac_phi_q_v_alpha[5] = omega_i[0] * t28 + omega_i[1] * t22 + omega_i[2] * t17;
     const jg_real t40 = t4 * cosine_2;
     const jg_real t41 = t10 * cosine_2;
     const jg_real t42 = sine_1 * sine_2;
@@ -646,52 +644,54 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t50 = h_j_in_i_2 * t43 + t47 * g_j_in_i_1 - (h_j_in_i_1 * t48 + g_j_in_i_2 * t49);
     const jg_real t51 = C_i[0] * t40 + C_i[3] * t41 - C_i[6] * t42;
     const jg_real t52 = C_i[0] * t45 + C_i[3] * t44 - C_i[6] * t46;
+    const jg_real t53 = t48 * h_j_in_i_0 + g_j_in_i_2 * t52 - (h_j_in_i_2 * t51 + t47 * g_j_in_i_0);
+    const jg_real t54 = h_j_in_i_1 * t51 + t49 * g_j_in_i_0 - (t43 * h_j_in_i_0 + g_j_in_i_1 * t52);
+    jac_phi_q_v_alpha[4] = omega_i[0] * t26 + omega_i[1] * t12 + omega_i[2] * t20;
+    jac_phi_q_v_alpha[5] = omega_i[0] * t28 + omega_i[1] * t22 + omega_i[2] * t17;
     jac_phi_q_v_alpha[6] = v_j_in_joint_j_1 * t51 + v_j_in_joint_j_0 * t50 + v_j_in_joint_j_2 * t52 -
         (s_j_cross_omega_j_in_joint_j_1 * t51 + s_j_cross_omega_j_in_joint_j_0 * t50 +
         s_j_cross_omega_j_in_joint_j_2 * t52);
-    const jg_real t53 = t48 * h_j_in_i_0 + g_j_in_i_2 * t52 - (h_j_in_i_2 * t51 + t47 * g_j_in_i_0);
     jac_phi_q_v_alpha[7] = v_j_in_joint_j_1 * t43 + v_j_in_joint_j_0 * t53 + v_j_in_joint_j_2 * t49 -
         (s_j_cross_omega_j_in_joint_j_1 * t43 + s_j_cross_omega_j_in_joint_j_0 * t53 +
         s_j_cross_omega_j_in_joint_j_2 * t49);
-    const jg_real t54 = h_j_in_i_1 * t51 + t49 * g_j_in_i_0 - (t43 * h_j_in_i_0 + g_j_in_i_1 * t52);
     jac_phi_q_v_alpha[8] = v_j_in_joint_j_1 * t48 + v_j_in_joint_j_0 * t54 + v_j_in_joint_j_2 * t47 -
         (s_j_cross_omega_j_in_joint_j_1 * t48 + s_j_cross_omega_j_in_joint_j_0 * t54 +
         s_j_cross_omega_j_in_joint_j_2 * t47);
     jac_phi_q_v_alpha[9] = omega_i[0] * t50 + omega_i[1] * t53 + omega_i[2] * t54 - alphadot[0] * cosine_2;
     jac_phi_q_v_alpha[10] = omega_i[0] * t51 + omega_i[1] * t43 + omega_i[2] * t48 - alphadot[0] * t42;
     jac_phi_q_v_alpha[11] = omega_i[0] * t52 + omega_i[1] * t49 + omega_i[2] * t47 - alphadot[0] * t46;
+    /* omega_i_dot_h_j = omega_i . h_j */
+    const jg_real omega_i_dot_h_j = omega_i[0] * h_j_in_i_0 + omega_i[1] * h_j_in_i_1 + omega_i[2] * h_j_in_i_2;
+    /* omega_i_dot_g_j = omega_i . g_j */
+    const jg_real omega_i_dot_g_j = omega_i[0] * g_j_in_i_0 + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
     jac_phi_q_v_alpha[12] = v_j_in_joint_j_1 * h_j_in_i_0 - v_j_in_joint_j_2 * g_j_in_i_0 -
         (s_j_cross_omega_j_in_joint_j_1 * h_j_in_i_0 - s_j_cross_omega_j_in_joint_j_2 * g_j_in_i_0);
     jac_phi_q_v_alpha[13] = v_j_in_joint_j_1 * h_j_in_i_1 - v_j_in_joint_j_2 * g_j_in_i_1 -
         (s_j_cross_omega_j_in_joint_j_1 * h_j_in_i_1 - s_j_cross_omega_j_in_joint_j_2 * g_j_in_i_1);
     jac_phi_q_v_alpha[14] = v_j_in_joint_j_1 * h_j_in_i_2 - v_j_in_joint_j_2 * g_j_in_i_2 -
         (s_j_cross_omega_j_in_joint_j_1 * h_j_in_i_2 - s_j_cross_omega_j_in_joint_j_2 * g_j_in_i_2);
-    /* omega_i_dot_h_j = omega_i . h_j */
-    const jg_real omega_i_dot_h_j = omega_i[0] * h_j_in_i_0 + omega_i[1] * h_j_in_i_1 + omega_i[2] * h_j_in_i_2;
     jac_phi_q_v_alpha[15] = alphadot[0] * H_22 - alphadot[1] * sine_1 + omega_i_dot_h_j;
-    /* omega_i_dot_g_j = omega_i . g_j */
-    const jg_real omega_i_dot_g_j = omega_i[0] * g_j_in_i_0 + omega_i[1] * g_j_in_i_1 + omega_i[2] * g_j_in_i_2;
     jac_phi_q_v_alpha[16] = -(alphadot[1] * cosine_1 + alphadot[0] * H_21 + omega_i_dot_g_j);
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
     jac_phi_q_v_geometry[4] = -omega_i[1];
     const jg_real t57 = v_j_in_joint_j_1 * H_01 + v_j_in_joint_j_2 * H_02 - (s_j_cross_omega_j_in_joint_j_2 * H_02 +
         s_j_cross_omega_j_in_joint_j_1 * H_01);
+    const jg_real t58 = H_01 * h_j_in_i_2 - H_02 * g_j_in_i_2;
+    const jg_real t59 = s_j_cross_omega_j_in_joint_j_0 * t58 - v_j_in_joint_j_0 * t58;
+    const jg_real t60 = H_02 * g_j_in_i_1 - H_01 * h_j_in_i_1;
+    const jg_real t61 = s_j_cross_omega_j_in_joint_j_0 * t60 - v_j_in_joint_j_0 * t60;
     jac_phi_q_v_geometry[6] = t57;
     jac_phi_q_v_geometry[13] = t57;
     jac_phi_q_v_geometry[20] = t57;
-    const jg_real t58 = H_01 * h_j_in_i_2 - H_02 * g_j_in_i_2;
-    const jg_real t59 = s_j_cross_omega_j_in_joint_j_0 * t58 - v_j_in_joint_j_0 * t58;
     jac_phi_q_v_geometry[7] = t59;
-    const jg_real t60 = H_02 * g_j_in_i_1 - H_01 * h_j_in_i_1;
-    const jg_real t61 = s_j_cross_omega_j_in_joint_j_0 * t60 - v_j_in_joint_j_0 * t60;
     jac_phi_q_v_geometry[8] = t61;
     jac_phi_q_v_geometry[9] = -(omega_i[1] * t58 + omega_i[2] * t60);
     jac_phi_q_v_geometry[10] = omega_i[0] * H_01;
     jac_phi_q_v_geometry[11] = omega_i[0] * H_02;
-    jac_phi_q_v_geometry[12] = -t59;
     const jg_real t62 = H_01 * h_j_in_i_0 - H_02 * g_j_in_i_0;
     const jg_real t63 = s_j_cross_omega_j_in_joint_j_0 * t62 - v_j_in_joint_j_0 * t62;
+    jac_phi_q_v_geometry[12] = -t59;
     jac_phi_q_v_geometry[14] = t63;
     jac_phi_q_v_geometry[15] = omega_i[0] * t58 - omega_i[2] * t62;
     jac_phi_q_v_geometry[16] = omega_i[1] * H_01;
@@ -699,103 +699,103 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_geometry[18] = -t61;
     jac_phi_q_v_geometry[19] = -t63;
     jac_phi_q_v_geometry[21] = omega_i[0] * t60 + omega_i[1] * t62;
-    jac_phi_q_v_geometry[22] = omega_i[2] * H_01;
-    jac_phi_q_v_geometry[23] = omega_i[2] * H_02;
     const jg_real t64 = v_j_in_joint_j_1 * H_11 - v_j_in_joint_j_2 * t14 - (s_j_cross_omega_j_in_joint_j_1 * H_11 -
         s_j_cross_omega_j_in_joint_j_2 * t14);
+    const jg_real t65 = H_11 * h_j_in_i_2 + t14 * g_j_in_i_2;
+    const jg_real t66 = s_j_cross_omega_j_in_joint_j_0 * t65 - v_j_in_joint_j_0 * t65;
+    const jg_real t67 = t14 * g_j_in_i_1 + H_11 * h_j_in_i_1;
+    const jg_real t68 = v_j_in_joint_j_0 * t67 - s_j_cross_omega_j_in_joint_j_0 * t67;
+    jac_phi_q_v_geometry[22] = omega_i[2] * H_01;
+    jac_phi_q_v_geometry[23] = omega_i[2] * H_02;
     jac_phi_q_v_geometry[24] = t64;
     jac_phi_q_v_geometry[31] = t64;
     jac_phi_q_v_geometry[38] = t64;
-    const jg_real t65 = H_11 * h_j_in_i_2 + t14 * g_j_in_i_2;
-    const jg_real t66 = s_j_cross_omega_j_in_joint_j_0 * t65 - v_j_in_joint_j_0 * t65;
     jac_phi_q_v_geometry[25] = t66;
-    const jg_real t67 = t14 * g_j_in_i_1 + H_11 * h_j_in_i_1;
-    const jg_real t68 = v_j_in_joint_j_0 * t67 - s_j_cross_omega_j_in_joint_j_0 * t67;
     jac_phi_q_v_geometry[26] = t68;
     jac_phi_q_v_geometry[27] = omega_i[2] * t67 - omega_i[1] * t65;
+    const jg_real t69 = H_11 * h_j_in_i_0 + t14 * g_j_in_i_0;
+    const jg_real t70 = s_j_cross_omega_j_in_joint_j_0 * t69 - v_j_in_joint_j_0 * t69;
     jac_phi_q_v_geometry[28] = omega_i[0] * H_11;
     jac_phi_q_v_geometry[29] = -(omega_i[0] * t14);
     jac_phi_q_v_geometry[30] = -t66;
-    const jg_real t69 = H_11 * h_j_in_i_0 + t14 * g_j_in_i_0;
-    const jg_real t70 = s_j_cross_omega_j_in_joint_j_0 * t69 - v_j_in_joint_j_0 * t69;
     jac_phi_q_v_geometry[32] = t70;
     jac_phi_q_v_geometry[33] = omega_i[0] * t65 - omega_i[2] * t69;
     jac_phi_q_v_geometry[34] = omega_i[1] * H_11;
     jac_phi_q_v_geometry[35] = -(omega_i[1] * t14);
     jac_phi_q_v_geometry[36] = -t68;
+    const jg_real t71 = v_j_in_joint_j_1 * H_21 + v_j_in_joint_j_2 * H_22 - (s_j_cross_omega_j_in_joint_j_2 * H_22 +
+        s_j_cross_omega_j_in_joint_j_1 * H_21);
+    const jg_real t72 = H_21 * h_j_in_i_2 - H_22 * g_j_in_i_2;
+    const jg_real t73 = s_j_cross_omega_j_in_joint_j_0 * t72 - v_j_in_joint_j_0 * t72;
     jac_phi_q_v_geometry[37] = -t70;
     jac_phi_q_v_geometry[39] = omega_i[1] * t69 - omega_i[0] * t67;
     jac_phi_q_v_geometry[40] = omega_i[2] * H_11;
     jac_phi_q_v_geometry[41] = -(omega_i[2] * t14);
-    const jg_real t71 = v_j_in_joint_j_1 * H_21 + v_j_in_joint_j_2 * H_22 - (s_j_cross_omega_j_in_joint_j_2 * H_22 +
-        s_j_cross_omega_j_in_joint_j_1 * H_21);
     jac_phi_q_v_geometry[42] = t71;
     jac_phi_q_v_geometry[49] = t71;
     jac_phi_q_v_geometry[56] = t71;
-    const jg_real t72 = H_21 * h_j_in_i_2 - H_22 * g_j_in_i_2;
-    const jg_real t73 = s_j_cross_omega_j_in_joint_j_0 * t72 - v_j_in_joint_j_0 * t72;
     jac_phi_q_v_geometry[43] = t73;
     const jg_real t74 = H_22 * g_j_in_i_1 - H_21 * h_j_in_i_1;
     const jg_real t75 = s_j_cross_omega_j_in_joint_j_0 * t74 - v_j_in_joint_j_0 * t74;
+    const jg_real t76 = H_21 * h_j_in_i_0 - H_22 * g_j_in_i_0;
+    const jg_real t77 = s_j_cross_omega_j_in_joint_j_0 * t76 - v_j_in_joint_j_0 * t76;
     jac_phi_q_v_geometry[44] = t75;
     jac_phi_q_v_geometry[45] = -(omega_i[1] * t72 + omega_i[2] * t74);
     jac_phi_q_v_geometry[46] = omega_i[0] * H_21;
     jac_phi_q_v_geometry[47] = omega_i[0] * H_22;
     jac_phi_q_v_geometry[48] = -t73;
-    const jg_real t76 = H_21 * h_j_in_i_0 - H_22 * g_j_in_i_0;
-    const jg_real t77 = s_j_cross_omega_j_in_joint_j_0 * t76 - v_j_in_joint_j_0 * t76;
     jac_phi_q_v_geometry[50] = t77;
     jac_phi_q_v_geometry[51] = omega_i[0] * t72 - omega_i[2] * t76;
     jac_phi_q_v_geometry[52] = omega_i[1] * H_21;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = h_j_in_i_2 * g_j_in_i_1 - g_j_in_i_2 * h_j_in_i_1;
+    const jg_real t79 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
+    const jg_real t80 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
+    const jg_real t81 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     jac_phi_q_v_geometry[53] = omega_i[1] * H_22;
     jac_phi_q_v_geometry[54] = -t75;
     jac_phi_q_v_geometry[55] = -t77;
     jac_phi_q_v_geometry[57] = omega_i[0] * t74 + omega_i[1] * t76;
     jac_phi_q_v_geometry[58] = omega_i[2] * H_21;
     jac_phi_q_v_geometry[59] = omega_i[2] * H_22;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = h_j_in_i_2 * g_j_in_i_1 - g_j_in_i_2 * h_j_in_i_1;
     jac_phi_q_v_velocity[5] = f_j_in_i_0;
-    const jg_real t79 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
-    const jg_real t80 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
-    const jg_real t81 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     jac_phi_q_v_geometry[60] = -(t80 * g_j_in_i_0 + t79 * f_j_in_i_0 + t81 * h_j_in_i_0);
     const jg_real f_j_in_i_1 = g_j_in_i_2 * h_j_in_i_0 - h_j_in_i_2 * g_j_in_i_0;
-    jac_phi_q_v_velocity[10] = f_j_in_i_1;
-    jac_phi_q_v_geometry[61] = -(t80 * g_j_in_i_1 + t79 * f_j_in_i_1 + t81 * h_j_in_i_1);
     const jg_real f_j_in_i_2 = h_j_in_i_1 * g_j_in_i_0 - g_j_in_i_1 * h_j_in_i_0;
-    jac_phi_q_v_velocity[15] = f_j_in_i_2;
-    jac_phi_q_v_geometry[62] = -(t80 * g_j_in_i_2 + t79 * f_j_in_i_2 + t81 * h_j_in_i_2);
     const jg_real t84 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real t85 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real t86 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    jac_phi_q_v_geometry[63] = -(t85 * g_j_in_i_0 + t84 * f_j_in_i_0 + t86 * h_j_in_i_0);
-    jac_phi_q_v_geometry[64] = -(t85 * g_j_in_i_1 + t84 * f_j_in_i_1 + t86 * h_j_in_i_1);
-    jac_phi_q_v_geometry[65] = -(t85 * g_j_in_i_2 + t84 * f_j_in_i_2 + t86 * h_j_in_i_2);
     const jg_real t87 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real t88 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
     const jg_real t89 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
+    jac_phi_q_v_velocity[10] = f_j_in_i_1;
+    jac_phi_q_v_geometry[61] = -(t80 * g_j_in_i_1 + t79 * f_j_in_i_1 + t81 * h_j_in_i_1);
+    jac_phi_q_v_velocity[15] = f_j_in_i_2;
+    jac_phi_q_v_geometry[62] = -(t80 * g_j_in_i_2 + t79 * f_j_in_i_2 + t81 * h_j_in_i_2);
+    jac_phi_q_v_geometry[63] = -(t85 * g_j_in_i_0 + t84 * f_j_in_i_0 + t86 * h_j_in_i_0);
+    jac_phi_q_v_geometry[64] = -(t85 * g_j_in_i_1 + t84 * f_j_in_i_1 + t86 * h_j_in_i_1);
+    jac_phi_q_v_geometry[65] = -(t85 * g_j_in_i_2 + t84 * f_j_in_i_2 + t86 * h_j_in_i_2);
     jac_phi_q_v_geometry[66] = -(t88 * g_j_in_i_0 + t87 * f_j_in_i_0 + t89 * h_j_in_i_0);
+    const jg_real t90 = -omega_j[0];
     jac_phi_q_v_geometry[67] = -(t88 * g_j_in_i_1 + t87 * f_j_in_i_1 + t89 * h_j_in_i_1);
     jac_phi_q_v_geometry[68] = -(t88 * g_j_in_i_2 + t87 * f_j_in_i_2 + t89 * h_j_in_i_2);
     jac_phi_q_v_geometry[69] = v_j[0] * f_j_in_i_0 - s_j_cross_omega_j_in_j_0 * f_j_in_i_0;
     jac_phi_q_v_geometry[70] = v_j[0] * f_j_in_i_1 - s_j_cross_omega_j_in_j_0 * f_j_in_i_1;
     jac_phi_q_v_geometry[71] = v_j[0] * f_j_in_i_2 - s_j_cross_omega_j_in_j_0 * f_j_in_i_2;
-    const jg_real t90 = -omega_j[0];
     jac_phi_q_v_geometry[72] = t90;
     jac_phi_q_v_geometry[84] = t90;
     jac_phi_q_v_geometry[96] = t90;
+    const jg_real t91 = -omega_j[1];
     jac_phi_q_v_geometry[73] = v_j[1] * f_j_in_i_0 - s_j_cross_omega_j_in_j_1 * f_j_in_i_0;
     jac_phi_q_v_geometry[74] = v_j[1] * f_j_in_i_1 - s_j_cross_omega_j_in_j_1 * f_j_in_i_1;
     jac_phi_q_v_geometry[75] = v_j[1] * f_j_in_i_2 - s_j_cross_omega_j_in_j_1 * f_j_in_i_2;
-    const jg_real t91 = -omega_j[1];
     jac_phi_q_v_geometry[76] = t91;
     jac_phi_q_v_geometry[88] = t91;
     jac_phi_q_v_geometry[100] = t91;
     jac_phi_q_v_geometry[77] = v_j[2] * f_j_in_i_0 - s_j_cross_omega_j_in_j_2 * f_j_in_i_0;
     jac_phi_q_v_geometry[78] = v_j[2] * f_j_in_i_1 - s_j_cross_omega_j_in_j_2 * f_j_in_i_1;
-    jac_phi_q_v_geometry[79] = v_j[2] * f_j_in_i_2 - s_j_cross_omega_j_in_j_2 * f_j_in_i_2;
     const jg_real t92 = -omega_j[2];
+    jac_phi_q_v_geometry[79] = v_j[2] * f_j_in_i_2 - s_j_cross_omega_j_in_j_2 * f_j_in_i_2;
     jac_phi_q_v_geometry[80] = t92;
     jac_phi_q_v_geometry[92] = t92;
     jac_phi_q_v_geometry[104] = t92;
@@ -828,6 +828,9 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_velocity[14] = -s_i[0];
     jac_phi_q_v_velocity[18] = C_j[3] * g_j_in_i_0 + C_j[0] * f_j_in_i_0 + C_j[6] * h_j_in_i_0;
     jac_phi_q_v_velocity[19] = C_j[3] * g_j_in_i_1 + C_j[0] * f_j_in_i_1 + C_j[6] * h_j_in_i_1;
+    const jg_real t93 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
+    const jg_real t94 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
+    const jg_real t95 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
     jac_phi_q_v_velocity[20] = C_j[3] * g_j_in_i_2 + C_j[0] * f_j_in_i_2 + C_j[6] * h_j_in_i_2;
     jac_phi_q_v_velocity[21] = C_j[4] * g_j_in_i_0 + C_j[1] * f_j_in_i_0 + C_j[7] * h_j_in_i_0;
     jac_phi_q_v_velocity[22] = C_j[4] * g_j_in_i_1 + C_j[1] * f_j_in_i_1 + C_j[7] * h_j_in_i_1;
@@ -835,27 +838,24 @@ static void jg_ball_parametric_substituted_phi_q_v_jacobian(const jg_real *JG_RE
     jac_phi_q_v_velocity[24] = C_j[5] * g_j_in_i_0 + C_j[2] * f_j_in_i_0 + C_j[8] * h_j_in_i_0;
     jac_phi_q_v_velocity[25] = C_j[5] * g_j_in_i_1 + C_j[2] * f_j_in_i_1 + C_j[8] * h_j_in_i_1;
     jac_phi_q_v_velocity[26] = C_j[5] * g_j_in_i_2 + C_j[2] * f_j_in_i_2 + C_j[8] * h_j_in_i_2;
-    const jg_real t93 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
-    const jg_real t94 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
-    const jg_real t95 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
     jac_phi_q_v_velocity[27] = -(t94 * g_j_in_i_0 + t93 * f_j_in_i_0 + t95 * h_j_in_i_0);
+    const jg_real t96 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
+    const jg_real t97 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
+    const jg_real t98 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
     jac_phi_q_v_velocity[28] = -(t94 * g_j_in_i_1 + t93 * f_j_in_i_1 + t95 * h_j_in_i_1);
     jac_phi_q_v_velocity[29] = -(t94 * g_j_in_i_2 + t93 * f_j_in_i_2 + t95 * h_j_in_i_2);
     jac_phi_q_v_velocity[30] = -C_j[0];
     jac_phi_q_v_velocity[31] = -C_j[3];
     jac_phi_q_v_velocity[32] = -C_j[6];
-    const jg_real t96 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
-    const jg_real t97 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
-    const jg_real t98 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
     jac_phi_q_v_velocity[33] = -(t97 * g_j_in_i_0 + t96 * f_j_in_i_0 + t98 * h_j_in_i_0);
     jac_phi_q_v_velocity[34] = -(t97 * g_j_in_i_1 + t96 * f_j_in_i_1 + t98 * h_j_in_i_1);
     jac_phi_q_v_velocity[35] = -(t97 * g_j_in_i_2 + t96 * f_j_in_i_2 + t98 * h_j_in_i_2);
-    jac_phi_q_v_velocity[36] = -C_j[1];
-    jac_phi_q_v_velocity[37] = -C_j[4];
-    jac_phi_q_v_velocity[38] = -C_j[7];
     const jg_real t99 = s_j[1] * C_j[0] - s_j[0] * C_j[1];
     const jg_real t100 = s_j[1] * C_j[3] - s_j[0] * C_j[4];
     const jg_real t101 = s_j[1] * C_j[6] - s_j[0] * C_j[7];
+    jac_phi_q_v_velocity[36] = -C_j[1];
+    jac_phi_q_v_velocity[37] = -C_j[4];
+    jac_phi_q_v_velocity[38] = -C_j[7];
     jac_phi_q_v_velocity[39] = -(t100 * g_j_in_i_0 + t99 * f_j_in_i_0 + t101 * h_j_in_i_0);
     jac_phi_q_v_velocity[40] = -(t100 * g_j_in_i_1 + t99 * f_j_in_i_1 + t101 * h_j_in_i_1);
     jac_phi_q_v_velocity[41] = -(t100 * g_j_in_i_2 + t99 * f_j_in_i_2 + t101 * h_j_in_i_2);
@@ -883,7 +883,6 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     jg_real cosine_1;
     jg_sincos(alpha[2], &sine_1, &cosine_1);
     const jg_real t4 = sine_0 * sine_1;
-    jac_phi_q_t_lambda_lambda[42] = cosine_1;
     const jg_real t5 = cosine_0 * cosine_1;
     jg_real sine_2;
     jg_real cosine_2;
@@ -898,24 +897,20 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real H_00 = cosine_0 * cosine_2;
     /* v_0_in_joint_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of joint i */
     const jg_real v_0_in_joint_i_0 = lambda[3] * H_00 + lambda[4] * H_01 + lambda[5] * H_02;
-    jac_phi_q_t_lambda_geometry[6] = v_0_in_joint_i_0;
-    jac_phi_q_t_lambda_geometry[13] = v_0_in_joint_i_0;
-    jac_phi_q_t_lambda_geometry[20] = v_0_in_joint_i_0;
     const jg_real t14 = t10 * sine_2 - t9;
     /* H_11 =  */
     const jg_real H_11 = t5 + t4 * sine_2;
     /* H_10 =  */
     const jg_real H_10 = sine_0 * cosine_2;
     const jg_real v_0_in_joint_i_1 = lambda[3] * H_10 + lambda[4] * H_11 + lambda[5] * t14;
+    jac_phi_q_t_lambda_lambda[42] = cosine_1;
+    jac_phi_q_t_lambda_geometry[6] = v_0_in_joint_i_0;
+    jac_phi_q_t_lambda_geometry[13] = v_0_in_joint_i_0;
+    jac_phi_q_t_lambda_geometry[20] = v_0_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[27] = v_0_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[34] = v_0_in_joint_i_1;
     jac_phi_q_t_lambda_geometry[41] = v_0_in_joint_i_1;
     jac_phi_q_t_lambda_alpha[0] = C_i[3] * v_0_in_joint_i_0 - C_i[0] * v_0_in_joint_i_1;
-    jac_phi_q_t_lambda_alpha[1] = C_i[4] * v_0_in_joint_i_0 - C_i[1] * v_0_in_joint_i_1;
-    jac_phi_q_t_lambda_alpha[2] = C_i[5] * v_0_in_joint_i_0 - C_i[2] * v_0_in_joint_i_1;
-    jac_phi_q_t_lambda_geometry[3] = lambda[0];
-    jac_phi_q_t_lambda_geometry[4] = lambda[1];
-    jac_phi_q_t_lambda_geometry[0] = lambda[2];
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
@@ -923,14 +918,16 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t21 = lambda_0_1_2_in_joint_i_1 * H_01 - lambda_0_1_2_in_joint_i_0 * H_11;
     const jg_real t22 = lambda_0_1_2_in_joint_i_1 * H_00 - lambda_0_1_2_in_joint_i_0 * H_10;
     const jg_real t23 = C_j[0] * t22 + C_j[3] * t21 + C_j[6] * t20;
-    jac_phi_q_t_lambda_alpha[3] = t23;
     const jg_real t24 = C_j[1] * t22 + C_j[4] * t21 + C_j[7] * t20;
-    jac_phi_q_t_lambda_alpha[4] = t24;
     const jg_real t25 = C_j[2] * t22 + C_j[5] * t21 + C_j[8] * t20;
+    jac_phi_q_t_lambda_alpha[1] = C_i[4] * v_0_in_joint_i_0 - C_i[1] * v_0_in_joint_i_1;
+    jac_phi_q_t_lambda_alpha[2] = C_i[5] * v_0_in_joint_i_0 - C_i[2] * v_0_in_joint_i_1;
+    jac_phi_q_t_lambda_geometry[3] = lambda[0];
+    jac_phi_q_t_lambda_geometry[4] = lambda[1];
+    jac_phi_q_t_lambda_geometry[0] = lambda[2];
+    jac_phi_q_t_lambda_alpha[3] = t23;
+    jac_phi_q_t_lambda_alpha[4] = t24;
     jac_phi_q_t_lambda_alpha[5] = t25;
-    jac_phi_q_t_lambda_alpha[6] = s_j[1] * t25 - s_j[2] * t24;
-    jac_phi_q_t_lambda_alpha[7] = s_j[2] * t23 - s_j[0] * t25;
-    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t24 - s_j[1] * t23;
     const jg_real t26 = t4 * cosine_2;
     const jg_real t27 = sine_0 * sine_2;
     const jg_real t28 = t10 * cosine_2;
@@ -942,9 +939,6 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t34 = sine_1 * sine_2;
     const jg_real t35 = cosine_1 * sine_2;
     const jg_real t36 = lambda[3] * cosine_2 + lambda[4] * t34 + lambda[5] * t35;
-    jac_phi_q_t_lambda_alpha[9] = C_i[3] * t29 + C_i[0] * t33 - C_i[6] * t36;
-    jac_phi_q_t_lambda_alpha[10] = C_i[4] * t29 + C_i[1] * t33 - C_i[7] * t36;
-    jac_phi_q_t_lambda_alpha[11] = C_i[5] * t29 + C_i[2] * t33 - C_i[8] * t36;
     const jg_real lambda_0_1_2_in_joint_i_2 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     const jg_real t38 = lambda_0_1_2_in_joint_i_1 * t26 + lambda_0_1_2_in_joint_i_0 * t30 -
         lambda_0_1_2_in_joint_i_2 * t34;
@@ -953,60 +947,66 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t40 = lambda_0_1_2_in_joint_i_0 * t32 + lambda_0_1_2_in_joint_i_1 * t28 -
         lambda_0_1_2_in_joint_i_2 * t35;
     const jg_real t41 = C_j[3] * t38 - C_j[0] * t39 + C_j[6] * t40;
-    jac_phi_q_t_lambda_alpha[12] = t41;
     const jg_real t42 = C_j[4] * t38 - C_j[1] * t39 + C_j[7] * t40;
+    jac_phi_q_t_lambda_alpha[6] = s_j[1] * t25 - s_j[2] * t24;
+    jac_phi_q_t_lambda_alpha[7] = s_j[2] * t23 - s_j[0] * t25;
+    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t24 - s_j[1] * t23;
+    jac_phi_q_t_lambda_alpha[9] = C_i[3] * t29 + C_i[0] * t33 - C_i[6] * t36;
+    jac_phi_q_t_lambda_alpha[10] = C_i[4] * t29 + C_i[1] * t33 - C_i[7] * t36;
+    jac_phi_q_t_lambda_alpha[11] = C_i[5] * t29 + C_i[2] * t33 - C_i[8] * t36;
+    jac_phi_q_t_lambda_alpha[12] = t41;
     jac_phi_q_t_lambda_alpha[13] = t42;
     const jg_real t43 = C_j[5] * t38 - C_j[2] * t39 + C_j[8] * t40;
+    const jg_real t44 = lambda[4] * t14 - lambda[5] * H_11;
+    const jg_real t45 = lambda[4] * H_02 - lambda[5] * H_01;
+    /* H_22 =  */
+    const jg_real H_22 = cosine_1 * cosine_2;
+    /* H_21 =  */
+    const jg_real H_21 = sine_1 * cosine_2;
+    const jg_real t48 = lambda[4] * H_22 - lambda[5] * H_21;
     jac_phi_q_t_lambda_alpha[14] = t43;
     jac_phi_q_t_lambda_alpha[15] = s_j[1] * t43 - s_j[2] * t42;
     jac_phi_q_t_lambda_alpha[16] = s_j[2] * t41 - s_j[0] * t43;
     jac_phi_q_t_lambda_alpha[17] = s_j[0] * t42 - s_j[1] * t41;
     jac_phi_q_t_lambda_alpha[18] = -t36;
-    const jg_real t44 = lambda[4] * t14 - lambda[5] * H_11;
-    const jg_real t45 = lambda[4] * H_02 - lambda[5] * H_01;
-    /* H_22 =  */
-    const jg_real H_22 = cosine_1 * cosine_2;
     jac_phi_q_t_lambda_lambda[49] = H_22;
-    /* H_21 =  */
-    const jg_real H_21 = sine_1 * cosine_2;
     jac_phi_q_t_lambda_lambda[41] = H_21;
-    const jg_real t48 = lambda[4] * H_22 - lambda[5] * H_21;
     jac_phi_q_t_lambda_alpha[28] = t48;
-    jac_phi_q_t_lambda_alpha[19] = C_i[3] * t44 + C_i[0] * t45 + C_i[6] * t48;
-    jac_phi_q_t_lambda_alpha[20] = C_i[4] * t44 + C_i[1] * t45 + C_i[7] * t48;
-    jac_phi_q_t_lambda_alpha[21] = C_i[5] * t44 + C_i[2] * t45 + C_i[8] * t48;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_2 = lambda_0_1_2_in_joint_i_1 * t14 + lambda_0_1_2_in_joint_i_0 * H_02 +
         lambda_0_1_2_in_joint_i_2 * H_22;
+    const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_1 * H_11 + lambda_0_1_2_in_joint_i_0 * H_01 +
+        lambda_0_1_2_in_joint_i_2 * H_21;
+    jac_phi_q_t_lambda_alpha[19] = C_i[3] * t44 + C_i[0] * t45 + C_i[6] * t48;
+    jac_phi_q_t_lambda_alpha[20] = C_i[4] * t44 + C_i[1] * t45 + C_i[7] * t48;
+    jac_phi_q_t_lambda_alpha[21] = C_i[5] * t44 + C_i[2] * t45 + C_i[8] * t48;
     jac_phi_q_t_lambda_geometry[99] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[103] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[107] = lambda_0_1_2_in_joint_j_2;
-    const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_1 * H_11 + lambda_0_1_2_in_joint_i_0 * H_01 +
-        lambda_0_1_2_in_joint_i_2 * H_21;
     jac_phi_q_t_lambda_geometry[87] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[91] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[95] = lambda_0_1_2_in_joint_j_1;
     const jg_real t51 = C_j[3] * lambda_0_1_2_in_joint_j_2 - C_j[6] * lambda_0_1_2_in_joint_j_1;
-    jac_phi_q_t_lambda_alpha[22] = t51;
     const jg_real t52 = C_j[4] * lambda_0_1_2_in_joint_j_2 - C_j[7] * lambda_0_1_2_in_joint_j_1;
-    jac_phi_q_t_lambda_alpha[23] = t52;
     const jg_real t53 = C_j[5] * lambda_0_1_2_in_joint_j_2 - C_j[8] * lambda_0_1_2_in_joint_j_1;
+    jac_phi_q_t_lambda_alpha[22] = t51;
+    jac_phi_q_t_lambda_alpha[23] = t52;
     jac_phi_q_t_lambda_alpha[24] = t53;
     jac_phi_q_t_lambda_alpha[25] = s_j[1] * t53 - s_j[2] * t52;
     jac_phi_q_t_lambda_alpha[26] = s_j[2] * t51 - s_j[0] * t53;
     jac_phi_q_t_lambda_alpha[27] = s_j[0] * t52 - s_j[1] * t51;
     jac_phi_q_t_lambda_alpha[29] = -(lambda[4] * sine_1 + lambda[5] * cosine_1);
     jac_phi_q_t_lambda_geometry[1] = -lambda[1];
-    jac_phi_q_t_lambda_geometry[2] = -lambda[2];
-    jac_phi_q_t_lambda_geometry[5] = -lambda[0];
     const jg_real t54 = lambda[0] * H_02;
     const jg_real t55 = lambda[0] * H_01;
     const jg_real t56 = lambda[0] * H_00;
     const jg_real t57 = C_j[0] * t56 + C_j[3] * t55 + C_j[6] * t54;
-    jac_phi_q_t_lambda_geometry[7] = t57;
     const jg_real t58 = C_j[1] * t56 + C_j[4] * t55 + C_j[7] * t54;
-    jac_phi_q_t_lambda_geometry[8] = t58;
     const jg_real t59 = C_j[2] * t56 + C_j[5] * t55 + C_j[8] * t54;
+    jac_phi_q_t_lambda_geometry[2] = -lambda[2];
+    jac_phi_q_t_lambda_geometry[5] = -lambda[0];
+    jac_phi_q_t_lambda_geometry[7] = t57;
+    jac_phi_q_t_lambda_geometry[8] = t58;
     jac_phi_q_t_lambda_geometry[9] = t59;
     jac_phi_q_t_lambda_geometry[10] = s_j[1] * t59 - s_j[2] * t58;
     jac_phi_q_t_lambda_geometry[11] = s_j[2] * t57 - s_j[0] * t59;
@@ -1015,46 +1015,46 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t61 = lambda[1] * H_01;
     const jg_real t62 = lambda[1] * H_00;
     const jg_real t63 = C_j[0] * t62 + C_j[3] * t61 + C_j[6] * t60;
-    jac_phi_q_t_lambda_geometry[14] = t63;
     const jg_real t64 = C_j[1] * t62 + C_j[4] * t61 + C_j[7] * t60;
-    jac_phi_q_t_lambda_geometry[15] = t64;
     const jg_real t65 = C_j[2] * t62 + C_j[5] * t61 + C_j[8] * t60;
-    jac_phi_q_t_lambda_geometry[16] = t65;
-    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t65 - s_j[2] * t64;
-    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t63 - s_j[0] * t65;
-    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t64 - s_j[1] * t63;
     const jg_real t66 = lambda[2] * H_02;
     const jg_real t67 = lambda[2] * H_01;
     const jg_real t68 = lambda[2] * H_00;
     const jg_real t69 = C_j[0] * t68 + C_j[3] * t67 + C_j[6] * t66;
-    jac_phi_q_t_lambda_geometry[21] = t69;
     const jg_real t70 = C_j[1] * t68 + C_j[4] * t67 + C_j[7] * t66;
+    jac_phi_q_t_lambda_geometry[14] = t63;
+    jac_phi_q_t_lambda_geometry[15] = t64;
+    jac_phi_q_t_lambda_geometry[16] = t65;
+    jac_phi_q_t_lambda_geometry[17] = s_j[1] * t65 - s_j[2] * t64;
+    jac_phi_q_t_lambda_geometry[18] = s_j[2] * t63 - s_j[0] * t65;
+    jac_phi_q_t_lambda_geometry[19] = s_j[0] * t64 - s_j[1] * t63;
+    jac_phi_q_t_lambda_geometry[21] = t69;
     jac_phi_q_t_lambda_geometry[22] = t70;
     const jg_real t71 = C_j[2] * t68 + C_j[5] * t67 + C_j[8] * t66;
-    jac_phi_q_t_lambda_geometry[23] = t71;
-    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t71 - s_j[2] * t70;
-    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t69 - s_j[0] * t71;
-    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t70 - s_j[1] * t69;
     const jg_real t72 = lambda[0] * t14;
     const jg_real t73 = lambda[0] * H_11;
     const jg_real t74 = lambda[0] * H_10;
     const jg_real t75 = C_j[0] * t74 + C_j[3] * t73 + C_j[6] * t72;
-    jac_phi_q_t_lambda_geometry[28] = t75;
     const jg_real t76 = C_j[1] * t74 + C_j[4] * t73 + C_j[7] * t72;
-    jac_phi_q_t_lambda_geometry[29] = t76;
     const jg_real t77 = C_j[2] * t74 + C_j[5] * t73 + C_j[8] * t72;
+    jac_phi_q_t_lambda_geometry[23] = t71;
+    jac_phi_q_t_lambda_geometry[24] = s_j[1] * t71 - s_j[2] * t70;
+    jac_phi_q_t_lambda_geometry[25] = s_j[2] * t69 - s_j[0] * t71;
+    jac_phi_q_t_lambda_geometry[26] = s_j[0] * t70 - s_j[1] * t69;
+    jac_phi_q_t_lambda_geometry[28] = t75;
+    jac_phi_q_t_lambda_geometry[29] = t76;
     jac_phi_q_t_lambda_geometry[30] = t77;
     jac_phi_q_t_lambda_geometry[31] = s_j[1] * t77 - s_j[2] * t76;
-    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t75 - s_j[0] * t77;
-    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t76 - s_j[1] * t75;
     const jg_real t78 = lambda[1] * t14;
     const jg_real t79 = lambda[1] * H_11;
     const jg_real t80 = lambda[1] * H_10;
     const jg_real t81 = C_j[0] * t80 + C_j[3] * t79 + C_j[6] * t78;
-    jac_phi_q_t_lambda_geometry[35] = t81;
     const jg_real t82 = C_j[1] * t80 + C_j[4] * t79 + C_j[7] * t78;
-    jac_phi_q_t_lambda_geometry[36] = t82;
     const jg_real t83 = C_j[2] * t80 + C_j[5] * t79 + C_j[8] * t78;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t75 - s_j[0] * t77;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t76 - s_j[1] * t75;
+    jac_phi_q_t_lambda_geometry[35] = t81;
+    jac_phi_q_t_lambda_geometry[36] = t82;
     jac_phi_q_t_lambda_geometry[37] = t83;
     jac_phi_q_t_lambda_geometry[38] = s_j[1] * t83 - s_j[2] * t82;
     jac_phi_q_t_lambda_geometry[39] = s_j[2] * t81 - s_j[0] * t83;
@@ -1063,15 +1063,15 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t85 = lambda[2] * H_11;
     const jg_real t86 = lambda[2] * H_10;
     const jg_real t87 = C_j[0] * t86 + C_j[3] * t85 + C_j[6] * t84;
-    jac_phi_q_t_lambda_geometry[42] = t87;
     const jg_real t88 = C_j[1] * t86 + C_j[4] * t85 + C_j[7] * t84;
-    jac_phi_q_t_lambda_geometry[43] = t88;
     const jg_real t89 = C_j[2] * t86 + C_j[5] * t85 + C_j[8] * t84;
+    const jg_real v_0_in_joint_i_2 = lambda[4] * H_21 - lambda[3] * sine_2 + lambda[5] * H_22;
+    jac_phi_q_t_lambda_geometry[42] = t87;
+    jac_phi_q_t_lambda_geometry[43] = t88;
     jac_phi_q_t_lambda_geometry[44] = t89;
     jac_phi_q_t_lambda_geometry[45] = s_j[1] * t89 - s_j[2] * t88;
     jac_phi_q_t_lambda_geometry[46] = s_j[2] * t87 - s_j[0] * t89;
     jac_phi_q_t_lambda_geometry[47] = s_j[0] * t88 - s_j[1] * t87;
-    const jg_real v_0_in_joint_i_2 = lambda[4] * H_21 - lambda[3] * sine_2 + lambda[5] * H_22;
     jac_phi_q_t_lambda_geometry[48] = v_0_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[55] = v_0_in_joint_i_2;
     jac_phi_q_t_lambda_geometry[62] = v_0_in_joint_i_2;
@@ -1079,145 +1079,145 @@ static void jg_ball_parametric_substituted_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t92 = lambda[0] * sine_2;
     const jg_real t93 = lambda[0] * H_22;
     const jg_real t94 = C_j[3] * t91 - C_j[0] * t92 + C_j[6] * t93;
-    jac_phi_q_t_lambda_geometry[49] = t94;
     const jg_real t95 = C_j[4] * t91 - C_j[1] * t92 + C_j[7] * t93;
-    jac_phi_q_t_lambda_geometry[50] = t95;
     const jg_real t96 = C_j[5] * t91 - C_j[2] * t92 + C_j[8] * t93;
-    jac_phi_q_t_lambda_geometry[51] = t96;
-    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t96 - s_j[2] * t95;
-    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t94 - s_j[0] * t96;
-    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t95 - s_j[1] * t94;
     const jg_real t97 = lambda[1] * H_21;
     const jg_real t98 = lambda[1] * sine_2;
     const jg_real t99 = lambda[1] * H_22;
     const jg_real t100 = C_j[3] * t97 - C_j[0] * t98 + C_j[6] * t99;
-    jac_phi_q_t_lambda_geometry[56] = t100;
     const jg_real t101 = C_j[4] * t97 - C_j[1] * t98 + C_j[7] * t99;
+    jac_phi_q_t_lambda_geometry[49] = t94;
+    jac_phi_q_t_lambda_geometry[50] = t95;
+    jac_phi_q_t_lambda_geometry[51] = t96;
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t96 - s_j[2] * t95;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t94 - s_j[0] * t96;
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t95 - s_j[1] * t94;
+    jac_phi_q_t_lambda_geometry[56] = t100;
     jac_phi_q_t_lambda_geometry[57] = t101;
     const jg_real t102 = C_j[5] * t97 - C_j[2] * t98 + C_j[8] * t99;
-    jac_phi_q_t_lambda_geometry[58] = t102;
-    jac_phi_q_t_lambda_geometry[59] = s_j[1] * t102 - s_j[2] * t101;
-    jac_phi_q_t_lambda_geometry[60] = s_j[2] * t100 - s_j[0] * t102;
-    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t101 - s_j[1] * t100;
     const jg_real t103 = lambda[2] * H_21;
     const jg_real t104 = lambda[2] * sine_2;
     const jg_real t105 = lambda[2] * H_22;
     const jg_real t106 = C_j[3] * t103 - C_j[0] * t104 + C_j[6] * t105;
-    jac_phi_q_t_lambda_geometry[63] = t106;
     const jg_real t107 = C_j[4] * t103 - C_j[1] * t104 + C_j[7] * t105;
-    jac_phi_q_t_lambda_geometry[64] = t107;
     const jg_real t108 = C_j[5] * t103 - C_j[2] * t104 + C_j[8] * t105;
+    jac_phi_q_t_lambda_geometry[58] = t102;
+    jac_phi_q_t_lambda_geometry[59] = s_j[1] * t102 - s_j[2] * t101;
+    jac_phi_q_t_lambda_geometry[60] = s_j[2] * t100 - s_j[0] * t102;
+    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t101 - s_j[1] * t100;
+    jac_phi_q_t_lambda_geometry[63] = t106;
+    jac_phi_q_t_lambda_geometry[64] = t107;
     jac_phi_q_t_lambda_geometry[65] = t108;
     jac_phi_q_t_lambda_geometry[66] = s_j[1] * t108 - s_j[2] * t107;
-    jac_phi_q_t_lambda_geometry[67] = s_j[2] * t106 - s_j[0] * t108;
-    jac_phi_q_t_lambda_geometry[68] = s_j[0] * t107 - s_j[1] * t106;
     const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_0 * H_00 + lambda_0_1_2_in_joint_i_1 * H_10 -
         lambda_0_1_2_in_joint_i_2 * sine_2;
-    jac_phi_q_t_lambda_geometry[75] = lambda_0_1_2_in_joint_j_0;
-    jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_joint_j_0;
-    jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_joint_j_0;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_j_0 + C_j[5] * lambda_0_1_2_in_joint_j_1 +
         C_j[8] * lambda_0_1_2_in_joint_j_2;
-    jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
-    jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_j_0 + C_j[4] * lambda_0_1_2_in_joint_j_1 +
         C_j[7] * lambda_0_1_2_in_joint_j_2;
+    jac_phi_q_t_lambda_geometry[67] = s_j[2] * t106 - s_j[0] * t108;
+    jac_phi_q_t_lambda_geometry[68] = s_j[0] * t107 - s_j[1] * t106;
+    jac_phi_q_t_lambda_geometry[75] = lambda_0_1_2_in_joint_j_0;
+    jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_joint_j_0;
+    jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_joint_j_0;
+    jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_j_0 + C_j[3] * lambda_0_1_2_in_joint_j_1 +
         C_j[6] * lambda_0_1_2_in_joint_j_2;
+    const jg_real t113 = -lambda[3];
+    const jg_real t114 = s_j[2] * lambda_0_1_2_in_joint_j_0;
+    const jg_real t115 = s_j[1] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = -lambda_0_1_2_in_j_1;
-    const jg_real t113 = -lambda[3];
     jac_phi_q_t_lambda_geometry[76] = t113;
     jac_phi_q_t_lambda_geometry[81] = t113;
     jac_phi_q_t_lambda_geometry[86] = t113;
-    const jg_real t114 = s_j[2] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[77] = t114;
-    const jg_real t115 = s_j[1] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[84] = t115;
+    const jg_real t116 = s_j[0] * lambda_0_1_2_in_joint_j_0;
+    const jg_real t117 = -lambda[4];
+    const jg_real t118 = s_j[2] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[78] = -t115;
     jac_phi_q_t_lambda_geometry[80] = -t114;
-    const jg_real t116 = s_j[0] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[82] = t116;
     jac_phi_q_t_lambda_geometry[85] = -t116;
-    const jg_real t117 = -lambda[4];
     jac_phi_q_t_lambda_geometry[88] = t117;
     jac_phi_q_t_lambda_geometry[93] = t117;
     jac_phi_q_t_lambda_geometry[98] = t117;
-    const jg_real t118 = s_j[2] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[89] = t118;
     const jg_real t119 = s_j[1] * lambda_0_1_2_in_joint_j_1;
+    const jg_real t120 = s_j[0] * lambda_0_1_2_in_joint_j_1;
+    const jg_real t121 = -lambda[5];
     jac_phi_q_t_lambda_geometry[96] = t119;
     jac_phi_q_t_lambda_geometry[90] = -t119;
     jac_phi_q_t_lambda_geometry[92] = -t118;
-    const jg_real t120 = s_j[0] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[94] = t120;
     jac_phi_q_t_lambda_geometry[97] = -t120;
-    const jg_real t121 = -lambda[5];
     jac_phi_q_t_lambda_geometry[100] = t121;
     jac_phi_q_t_lambda_geometry[105] = t121;
     jac_phi_q_t_lambda_geometry[110] = t121;
     const jg_real t122 = s_j[2] * lambda_0_1_2_in_joint_j_2;
-    jac_phi_q_t_lambda_geometry[101] = t122;
     const jg_real t123 = s_j[1] * lambda_0_1_2_in_joint_j_2;
+    const jg_real t124 = s_j[0] * lambda_0_1_2_in_joint_j_2;
+    jac_phi_q_t_lambda_geometry[101] = t122;
     jac_phi_q_t_lambda_geometry[108] = t123;
     jac_phi_q_t_lambda_geometry[102] = -t123;
     jac_phi_q_t_lambda_geometry[104] = -t122;
-    const jg_real t124 = s_j[0] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[106] = t124;
     jac_phi_q_t_lambda_geometry[109] = -t124;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
+    const jg_real t125 = C_i[0] * H_02 + C_i[3] * t14 + C_i[6] * H_22;
+    const jg_real t126 = C_i[3] * H_11 + C_i[0] * H_01 + C_i[6] * H_21;
+    const jg_real t127 = C_i[0] * H_00 + C_i[3] * H_10 - C_i[6] * sine_2;
+    const jg_real t128 = C_j[0] * t127 + C_j[3] * t126 + C_j[6] * t125;
+    const jg_real t129 = C_j[1] * t127 + C_j[4] * t126 + C_j[7] * t125;
     jac_phi_q_t_lambda_lambda[10] = s_i[2];
     jac_phi_q_t_lambda_lambda[1] = -s_i[2];
     jac_phi_q_t_lambda_lambda[2] = s_i[1];
-    const jg_real t125 = C_i[0] * H_02 + C_i[3] * t14 + C_i[6] * H_22;
     jac_phi_q_t_lambda_lambda[43] = t125;
-    const jg_real t126 = C_i[3] * H_11 + C_i[0] * H_01 + C_i[6] * H_21;
     jac_phi_q_t_lambda_lambda[35] = t126;
-    const jg_real t127 = C_i[0] * H_00 + C_i[3] * H_10 - C_i[6] * sine_2;
     jac_phi_q_t_lambda_lambda[27] = t127;
-    const jg_real t128 = C_j[0] * t127 + C_j[3] * t126 + C_j[6] * t125;
     jac_phi_q_t_lambda_lambda[3] = t128;
-    const jg_real t129 = C_j[1] * t127 + C_j[4] * t126 + C_j[7] * t125;
     jac_phi_q_t_lambda_lambda[4] = t129;
     const jg_real t130 = C_j[2] * t127 + C_j[5] * t126 + C_j[8] * t125;
+    const jg_real t131 = C_i[1] * H_02 + C_i[4] * t14 + C_i[7] * H_22;
+    const jg_real t132 = C_i[4] * H_11 + C_i[1] * H_01 + C_i[7] * H_21;
     jac_phi_q_t_lambda_lambda[5] = t130;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * t130 - s_j[2] * t129;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * t128 - s_j[0] * t130;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * t129 - s_j[1] * t128;
     jac_phi_q_t_lambda_lambda[20] = s_i[0];
     jac_phi_q_t_lambda_lambda[11] = -s_i[0];
-    const jg_real t131 = C_i[1] * H_02 + C_i[4] * t14 + C_i[7] * H_22;
     jac_phi_q_t_lambda_lambda[44] = t131;
-    const jg_real t132 = C_i[4] * H_11 + C_i[1] * H_01 + C_i[7] * H_21;
     jac_phi_q_t_lambda_lambda[36] = t132;
     const jg_real t133 = C_i[1] * H_00 + C_i[4] * H_10 - C_i[7] * sine_2;
-    jac_phi_q_t_lambda_lambda[28] = t133;
     const jg_real t134 = C_j[0] * t133 + C_j[3] * t132 + C_j[6] * t131;
-    jac_phi_q_t_lambda_lambda[12] = t134;
     const jg_real t135 = C_j[1] * t133 + C_j[4] * t132 + C_j[7] * t131;
-    jac_phi_q_t_lambda_lambda[13] = t135;
     const jg_real t136 = C_j[2] * t133 + C_j[5] * t132 + C_j[8] * t131;
+    jac_phi_q_t_lambda_lambda[28] = t133;
+    jac_phi_q_t_lambda_lambda[12] = t134;
+    jac_phi_q_t_lambda_lambda[13] = t135;
     jac_phi_q_t_lambda_lambda[14] = t136;
     jac_phi_q_t_lambda_lambda[15] = s_j[1] * t136 - s_j[2] * t135;
     jac_phi_q_t_lambda_lambda[16] = s_j[2] * t134 - s_j[0] * t136;
     jac_phi_q_t_lambda_lambda[17] = s_j[0] * t135 - s_j[1] * t134;
     jac_phi_q_t_lambda_lambda[19] = -s_i[1];
     const jg_real t137 = C_i[2] * H_02 + C_i[5] * t14 + C_i[8] * H_22;
-    jac_phi_q_t_lambda_lambda[45] = t137;
     const jg_real t138 = C_i[5] * H_11 + C_i[2] * H_01 + C_i[8] * H_21;
-    jac_phi_q_t_lambda_lambda[37] = t138;
     const jg_real t139 = C_i[2] * H_00 + C_i[5] * H_10 - C_i[8] * sine_2;
-    jac_phi_q_t_lambda_lambda[29] = t139;
     const jg_real t140 = C_j[0] * t139 + C_j[3] * t138 + C_j[6] * t137;
-    jac_phi_q_t_lambda_lambda[21] = t140;
     const jg_real t141 = C_j[1] * t139 + C_j[4] * t138 + C_j[7] * t137;
-    jac_phi_q_t_lambda_lambda[22] = t141;
     const jg_real t142 = C_j[2] * t139 + C_j[5] * t138 + C_j[8] * t137;
+    jac_phi_q_t_lambda_lambda[45] = t137;
+    jac_phi_q_t_lambda_lambda[37] = t138;
+    jac_phi_q_t_lambda_lambda[29] = t139;
+    jac_phi_q_t_lambda_lambda[21] = t140;
+    jac_phi_q_t_lambda_lambda[22] = t141;
     jac_phi_q_t_lambda_lambda[23] = t142;
     jac_phi_q_t_lambda_lambda[24] = s_j[1] * t142 - s_j[2] * t141;
     jac_phi_q_t_lambda_lambda[25] = s_j[2] * t140 - s_j[0] * t142;

@@ -46,45 +46,45 @@ static void jg_ball_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[1] = C_i[0] * f_j_world_0;
     jac_phi_A_i[2] = C_i[6] * f_j_world_0;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[3] = C_i[6] * h_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    jac_phi_A_i[4] = e_ij_world_1;
-    jac_phi_A_i[16] = e_ij_world_1;
-    jac_phi_A_i[28] = e_ij_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[5] = C_i[0] * f_j_world_1;
-    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[7] = C_i[6] * h_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[4] = e_ij_world_1;
+    jac_phi_A_i[16] = e_ij_world_1;
+    jac_phi_A_i[28] = e_ij_world_1;
+    jac_phi_A_i[5] = C_i[0] * f_j_world_1;
+    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
+    jac_phi_A_i[7] = C_i[6] * h_j_world_1;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[9] = C_i[0] * f_j_world_2;
     jac_phi_A_i[10] = C_i[6] * f_j_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[11] = C_i[6] * h_j_world_2;
     jac_phi_A_i[13] = C_i[1] * f_j_world_0;
     jac_phi_A_i[14] = C_i[7] * f_j_world_0;
@@ -107,23 +107,23 @@ static void jg_ball_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_A_j[0] = s_j[0] * A_i[0];
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
-    jac_phi_A_j[3] = A_i[0] * C_j[0] * C_i[0] + A_i[3] * C_j[0] * C_i[1] + A_i[6] * C_j[0] * C_i[2];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    jac_phi_A_j[3] = A_i[0] * C_j[0] * C_i[0] + A_i[3] * C_j[0] * C_i[1] + A_i[6] * C_j[0] * C_i[2];
     jac_phi_A_j[4] = C_j[0] * h_i_world_0;
-    jac_phi_A_j[5] = C_j[6] * h_i_world_0;
+    jac_phi_A_j[5] = h_i_world_0 * C_j[6];
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = A_i[1] * C_j[0] * C_i[0] + A_i[4] * C_j[0] * C_i[1] + A_i[7] * C_j[0] * C_i[2];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     jac_phi_A_j[10] = C_j[0] * h_i_world_1;
-    jac_phi_A_j[11] = C_j[6] * h_i_world_1;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    jac_phi_A_j[11] = h_i_world_1 * C_j[6];
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = A_i[2] * C_j[0] * C_i[0] + A_i[5] * C_j[0] * C_i[1] + A_i[8] * C_j[0] * C_i[2];
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_A_j[16] = C_j[0] * h_i_world_2;
     jac_phi_A_j[17] = C_j[6] * h_i_world_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
@@ -131,13 +131,13 @@ static void jg_ball_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_A_j[20] = s_j[1] * A_i[6];
     jac_phi_A_j[21] = A_i[0] * C_j[1] * C_i[0] + A_i[3] * C_j[1] * C_i[1] + A_i[6] * C_j[1] * C_i[2];
     jac_phi_A_j[22] = C_j[1] * h_i_world_0;
-    jac_phi_A_j[23] = C_j[7] * h_i_world_0;
+    jac_phi_A_j[23] = h_i_world_0 * C_j[7];
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = A_i[1] * C_j[1] * C_i[0] + A_i[4] * C_j[1] * C_i[1] + A_i[7] * C_j[1] * C_i[2];
     jac_phi_A_j[28] = C_j[1] * h_i_world_1;
-    jac_phi_A_j[29] = C_j[7] * h_i_world_1;
+    jac_phi_A_j[29] = h_i_world_1 * C_j[7];
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
@@ -149,77 +149,77 @@ static void jg_ball_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_A_j[38] = s_j[2] * A_i[6];
     jac_phi_A_j[39] = A_i[0] * C_j[2] * C_i[0] + A_i[3] * C_j[2] * C_i[1] + A_i[6] * C_j[2] * C_i[2];
     jac_phi_A_j[40] = C_j[2] * h_i_world_0;
-    jac_phi_A_j[41] = C_j[8] * h_i_world_0;
+    jac_phi_A_j[41] = h_i_world_0 * C_j[8];
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
     jac_phi_A_j[45] = A_i[1] * C_j[2] * C_i[0] + A_i[4] * C_j[2] * C_i[1] + A_i[7] * C_j[2] * C_i[2];
     jac_phi_A_j[46] = C_j[2] * h_i_world_1;
-    jac_phi_A_j[47] = C_j[8] * h_i_world_1;
+    jac_phi_A_j[47] = h_i_world_1 * C_j[8];
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
-    jac_phi_A_j[51] = A_i[2] * C_j[2] * C_i[0] + A_i[5] * C_j[2] * C_i[1] + A_i[8] * C_j[2] * C_i[2];
-    jac_phi_A_j[52] = C_j[2] * h_i_world_2;
-    jac_phi_A_j[53] = C_j[8] * h_i_world_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    jac_phi_alpha[2] = cosine_1;
-    jac_phi_alpha[0] = sine_0 * cosine_1;
-    jac_phi_alpha[1] = cosine_0 * sine_1;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jac_phi_A_j[51] = A_i[2] * C_j[2] * C_i[0] + A_i[5] * C_j[2] * C_i[1] + A_i[8] * C_j[2] * C_i[2];
+    jac_phi_A_j[52] = C_j[2] * h_i_world_2;
+    jac_phi_A_j[53] = C_j[8] * h_i_world_2;
+    jac_phi_alpha[2] = cosine_1;
+    jac_phi_alpha[0] = sine_0 * cosine_1;
+    jac_phi_alpha[1] = cosine_0 * sine_1;
     jac_phi_alpha[3] = cosine_2 * sine_1;
     jac_phi_alpha[4] = sine_2 * cosine_1;
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[3] = f_j_in_i_0;
     jac_phi_geometry[6] = f_j_in_i_0;
-    const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[4] = f_j_in_i_1;
     jac_phi_geometry[8] = f_j_in_i_1;
-    const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[5] = f_j_in_i_2;
     jac_phi_geometry[10] = f_j_in_i_2;
+    const jg_real t27 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t28 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real t29 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real t30 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real t31 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     jac_phi_geometry[7] = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[9] = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[11] = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
-    const jg_real t27 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[12] = t27;
-    const jg_real t28 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[13] = t28;
-    const jg_real t29 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_geometry[14] = t29;
-    const jg_real t30 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     jac_phi_geometry[15] = t30;
-    const jg_real t31 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     jac_phi_geometry[16] = t31;
     const jg_real t32 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[17] = t32;
     const jg_real t33 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_geometry[18] = t33;
     const jg_real t34 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[19] = t34;
     const jg_real t35 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real t36 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    jac_phi_geometry[17] = t32;
+    jac_phi_geometry[18] = t33;
+    jac_phi_geometry[19] = t34;
     jac_phi_geometry[20] = t35;
     jac_phi_geometry[21] = C_i[0] * t27 + C_i[1] * t28 + C_i[2] * t29;
-    const jg_real t36 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     jac_phi_geometry[22] = t36;
     jac_phi_geometry[27] = t36;
     jac_phi_geometry[23] = C_i[0] * t30 + C_i[1] * t31 + C_i[2] * t32;
     const jg_real t37 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
+    const jg_real t38 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     jac_phi_geometry[24] = t37;
     jac_phi_geometry[28] = t37;
     jac_phi_geometry[25] = C_i[0] * t33 + C_i[1] * t34 + C_i[2] * t35;
-    const jg_real t38 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     jac_phi_geometry[26] = t38;
     jac_phi_geometry[29] = t38;
 }
@@ -240,40 +240,35 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
     const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
+    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
+    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
+    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     jac_phi_q_v_r_j[1] = t1;
     jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
     jac_phi_q_v_r_j[2] = t2;
     jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[3] = t3;
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
+    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
+    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
+    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
     jac_phi_q_v_r_j[5] = t5;
     jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
     jac_phi_q_v_r_j[6] = t6;
     jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_v_velocity[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_v_velocity[26] = A_ji_8;
     const jg_real t11 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_v_velocity[20] = A_ji_6;
     const jg_real t13 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
     const jg_real t14 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
     const jg_real t15 = s_j[0] * t11 + s_j[1] * t13 + s_j[2] * t14;
@@ -283,26 +278,26 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_2 = s_j[1] * A_ji_7 + s_j[0] * A_ji_6 + s_j[2] * A_ji_8;
     const jg_real t19 = A_j[3] * v_j[1] + A_j[0] * v_j[0] + A_j[6] * v_j[2];
-    jac_phi_q_v_A_i[0] = omega_i[2] * t15 - (omega_j_in_i_2 * t15 - s_j_in_i_2 * t17) + t19;
     const jg_real t20 = A_j[3] * omega_j[1] + A_j[0] * omega_j[0] + A_j[6] * omega_j[2];
     const jg_real t21 = A_j[3] * s_j[1] + s_j[0] * A_j[0] + A_j[6] * s_j[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t23 = v_0_world_0 + t21;
+    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    jac_phi_q_v_r_j[8] = t8;
+    jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_velocity[23] = A_ji_7;
+    jac_phi_q_v_velocity[26] = A_ji_8;
+    jac_phi_q_v_velocity[20] = A_ji_6;
+    jac_phi_q_v_A_i[0] = omega_i[2] * t15 - (omega_j_in_i_2 * t15 - s_j_in_i_2 * t17) + t19;
     jac_phi_q_v_A_i[1] = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t14 - (t20 * s_j_in_i_2 - omega_j_in_i_2 * t21 +
         omega_i[2] * t23);
-    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ji_2;
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[21] = A_ji_1;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[19] = A_ji_3;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[18] = A_ji_0;
     const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
-    jac_phi_q_v_velocity[22] = A_ji_4;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
-    jac_phi_q_v_velocity[25] = A_ji_5;
     const jg_real omega_j_in_i_1 = omega_j[0] * A_ji_3 + omega_j[1] * A_ji_4 + omega_j[2] * A_ji_5;
     const jg_real t31 = t21 * omega_j_in_i_1;
     const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
@@ -310,24 +305,27 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t34 = t20 * s_j_in_i_1;
     const jg_real omega_j_in_i_0 = omega_j[0] * A_ji_0 + omega_j[1] * A_ji_1 + omega_j[2] * A_ji_2;
     const jg_real t36 = omega_i[1] * t23;
-    jac_phi_q_v_A_i[2] = t36 - omega_i[0] * t15 - (t31 + s_j_in_i_0 * t17 - (t34 + omega_j_in_i_0 * t15));
     /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = C_j[0] * A_ji_0 + C_j[1] * A_ji_1 + C_j[2] * A_ji_2;
+    const jg_real f_j_in_i_0 = C_j[0] * A_ji_0 + C_j[1] * A_ji_1 + A_ji_2 * C_j[2];
     const jg_real f_j_in_i_2 = C_j[0] * A_ji_6 + C_j[1] * A_ji_7 + C_j[2] * A_ji_8;
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_1 = C_i[2] * f_j_in_i_0 - C_i[0] * f_j_in_i_2;
-    jac_phi_q_v_velocity[10] = f_i_cross_f_j_in_i_1;
     const jg_real t40 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real t41 = C_i[2] * t40;
     const jg_real f_j_in_i_1 = C_j[0] * A_ji_3 + C_j[1] * A_ji_4 + C_j[2] * A_ji_5;
     const jg_real f_i_cross_f_j_in_i_0 = C_i[1] * f_j_in_i_2 - C_i[2] * f_j_in_i_1;
+    jac_phi_q_v_velocity[21] = A_ji_1;
+    jac_phi_q_v_velocity[19] = A_ji_3;
+    jac_phi_q_v_velocity[18] = A_ji_0;
+    jac_phi_q_v_velocity[22] = A_ji_4;
+    jac_phi_q_v_velocity[25] = A_ji_5;
+    jac_phi_q_v_A_i[2] = t36 - omega_i[0] * t15 - (t31 + s_j_in_i_0 * t17 - (t34 + omega_j_in_i_0 * t15));
+    jac_phi_q_v_velocity[10] = f_i_cross_f_j_in_i_1;
     jac_phi_q_v_velocity[5] = f_i_cross_f_j_in_i_0;
     const jg_real t44 = C_j[0] * t11 + C_j[1] * t13 + C_j[2] * t14;
     const jg_real t45 = C_i[2] * t44;
     const jg_real t46 = C_i[1] * t40;
     const jg_real t47 = C_i[0] * t44 - t46;
-    jac_phi_q_v_A_i[3] = omega_i[1] * t41 - omega_i[0] * t45 + omega_i[2] * t47 - (t20 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t45 + (t17 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t41) + omega_j_in_i_2 * t47);
     /* omega_j_cross_h_i_in_i = omega_j x h_i, axes of body i */
     const jg_real omega_j_cross_h_i_in_i_1 = C_i[6] * omega_j_in_i_2 - C_i[8] * omega_j_in_i_0;
     const jg_real t49 = C_i[8] * t20;
@@ -338,101 +336,103 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     /* omega_i_cross_h_i_in_i = omega_i x h_i, axes of body i */
     const jg_real omega_i_cross_h_i_in_i_1 = omega_i[2] * C_i[6] - omega_i[0] * C_i[8];
     const jg_real omega_i_cross_h_i_in_i_0 = omega_i[1] * C_i[8] - omega_i[2] * C_i[7];
-    jac_phi_q_v_A_i[4] = t40 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t44 - (t44 *
-        omega_j_cross_h_i_in_i_1 - t49 * f_j_in_i_1 + (t40 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t51) +
-        f_j_in_i_2 * t53);
     const jg_real t56 = t11 * C_j[6] + t13 * C_j[7] + t14 * C_j[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     const jg_real t58 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    jac_phi_q_v_A_i[5] = omega_i_cross_h_i_in_i_0 * t58 + omega_i_cross_h_i_in_i_1 * t56 - (t51 * h_j_in_i_0 +
-        omega_j_cross_h_i_in_i_0 * t58 + (omega_j_cross_h_i_in_i_1 * t56 - t49 * h_j_in_i_1) + t53 * h_j_in_i_2);
     const jg_real t61 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t62 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t63 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t64 = s_j[0] * t61 + s_j[1] * t62 + s_j[2] * t63;
     const jg_real t65 = omega_j[0] * t61 + omega_j[1] * t62 + omega_j[2] * t63;
     const jg_real t66 = A_j[4] * v_j[1] + A_j[1] * v_j[0] + A_j[7] * v_j[2];
-    jac_phi_q_v_A_i[6] = omega_i[2] * t64 - (omega_j_in_i_2 * t64 - s_j_in_i_2 * t65) + t66;
     const jg_real t67 = A_j[4] * omega_j[1] + A_j[1] * omega_j[0] + A_j[7] * omega_j[2];
     const jg_real t68 = A_j[4] * s_j[1] + s_j[0] * A_j[1] + A_j[7] * s_j[2];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t70 = v_0_world_1 + t68;
-    jac_phi_q_v_A_i[7] = v_j[0] * t61 + v_j[1] * t62 + v_j[2] * t63 - (t67 * s_j_in_i_2 - omega_j_in_i_2 * t68 +
-        omega_i[2] * t70);
     const jg_real t71 = t68 * omega_j_in_i_1;
     const jg_real t72 = t67 * s_j_in_i_1;
     const jg_real t73 = omega_i[1] * t70;
-    jac_phi_q_v_A_i[8] = t73 - omega_i[0] * t64 - (t71 + s_j_in_i_0 * t65 - (t72 + omega_j_in_i_0 * t64));
     const jg_real t74 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real t75 = C_i[2] * t74;
     const jg_real t76 = C_j[0] * t61 + C_j[1] * t62 + C_j[2] * t63;
     const jg_real t77 = C_i[2] * t76;
     const jg_real t78 = C_i[1] * t74;
     const jg_real t79 = C_i[0] * t76 - t78;
-    jac_phi_q_v_A_i[9] = omega_i[1] * t75 - omega_i[0] * t77 + omega_i[2] * t79 - (t67 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t77 + (t65 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t75) + omega_j_in_i_2 * t79);
     const jg_real t80 = C_i[8] * t67;
     const jg_real t81 = C_i[8] * t65;
     const jg_real t82 = C_i[7] * t67;
     const jg_real t83 = t82 - C_i[6] * t65;
-    jac_phi_q_v_A_i[10] = t74 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t76 - (t76 *
-        omega_j_cross_h_i_in_i_1 - t80 * f_j_in_i_1 + (t74 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t81) +
+    jac_phi_q_v_A_i[3] = omega_i[1] * t41 - omega_i[0] * t45 + omega_i[2] * t47 - (t20 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t45 + (t17 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t41) + omega_j_in_i_2 * t47);
+    jac_phi_q_v_A_i[4] = t44 * omega_i_cross_h_i_in_i_1 + t40 * omega_i_cross_h_i_in_i_0 - (t40 *
+        omega_j_cross_h_i_in_i_0 + t51 * f_j_in_i_0 + (t44 * omega_j_cross_h_i_in_i_1 - f_j_in_i_1 * t49) +
+        f_j_in_i_2 * t53);
+    jac_phi_q_v_A_i[5] = omega_i_cross_h_i_in_i_0 * t58 + omega_i_cross_h_i_in_i_1 * t56 - (t51 * h_j_in_i_0 +
+        omega_j_cross_h_i_in_i_0 * t58 + (omega_j_cross_h_i_in_i_1 * t56 - t49 * h_j_in_i_1) + t53 * h_j_in_i_2);
+    jac_phi_q_v_A_i[6] = omega_i[2] * t64 - (omega_j_in_i_2 * t64 - s_j_in_i_2 * t65) + t66;
+    jac_phi_q_v_A_i[7] = v_j[0] * t61 + v_j[1] * t62 + v_j[2] * t63 - (t67 * s_j_in_i_2 - omega_j_in_i_2 * t68 +
+        omega_i[2] * t70);
+    jac_phi_q_v_A_i[8] = t73 - omega_i[0] * t64 - (t71 + s_j_in_i_0 * t65 - (t72 + omega_j_in_i_0 * t64));
+    jac_phi_q_v_A_i[9] = omega_i[1] * t75 - omega_i[0] * t77 + omega_i[2] * t79 - (t67 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t77 + (t65 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t75) + omega_j_in_i_2 * t79);
+    jac_phi_q_v_A_i[10] = t76 * omega_i_cross_h_i_in_i_1 + t74 * omega_i_cross_h_i_in_i_0 - (t74 *
+        omega_j_cross_h_i_in_i_0 + t81 * f_j_in_i_0 + (t76 * omega_j_cross_h_i_in_i_1 - f_j_in_i_1 * t80) +
         f_j_in_i_2 * t83);
     const jg_real t84 = t61 * C_j[6] + t62 * C_j[7] + t63 * C_j[8];
     const jg_real t85 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_q_v_A_i[11] = omega_i_cross_h_i_in_i_0 * t85 + omega_i_cross_h_i_in_i_1 * t84 - (t81 * h_j_in_i_0 +
-        omega_j_cross_h_i_in_i_0 * t85 + (omega_j_cross_h_i_in_i_1 * t84 - t80 * h_j_in_i_1) + t83 * h_j_in_i_2);
     const jg_real t86 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t87 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t88 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t89 = s_j[0] * t86 + s_j[1] * t87 + s_j[2] * t88;
     const jg_real t90 = omega_j[0] * t86 + omega_j[1] * t87 + omega_j[2] * t88;
     const jg_real t91 = A_j[5] * v_j[1] + A_j[2] * v_j[0] + A_j[8] * v_j[2];
-    jac_phi_q_v_A_i[12] = omega_i[2] * t89 - (omega_j_in_i_2 * t89 - s_j_in_i_2 * t90) + t91;
     const jg_real t92 = A_j[5] * omega_j[1] + A_j[2] * omega_j[0] + A_j[8] * omega_j[2];
     const jg_real t93 = A_j[5] * s_j[1] + s_j[0] * A_j[2] + A_j[8] * s_j[2];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t95 = v_0_world_2 + t93;
-    jac_phi_q_v_A_i[13] = v_j[0] * t86 + v_j[1] * t87 + v_j[2] * t88 - (t92 * s_j_in_i_2 - omega_j_in_i_2 * t93 +
-        omega_i[2] * t95);
     const jg_real t96 = t93 * omega_j_in_i_1;
     const jg_real t97 = t92 * s_j_in_i_1;
     const jg_real t98 = omega_i[1] * t95;
-    jac_phi_q_v_A_i[14] = t98 - omega_i[0] * t89 - (t96 + s_j_in_i_0 * t90 - (t97 + omega_j_in_i_0 * t89));
     const jg_real t99 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real t100 = C_i[2] * t99;
     const jg_real t101 = C_j[0] * t86 + C_j[1] * t87 + C_j[2] * t88;
     const jg_real t102 = C_i[2] * t101;
     const jg_real t103 = C_i[1] * t99;
     const jg_real t104 = C_i[0] * t101 - t103;
-    jac_phi_q_v_A_i[15] = omega_i[1] * t100 - omega_i[0] * t102 + omega_i[2] * t104 - (t92 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t102 + (t90 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t100) + omega_j_in_i_2 * t104);
     const jg_real t105 = C_i[8] * t92;
     const jg_real t106 = C_i[8] * t90;
     const jg_real t107 = C_i[7] * t92;
     const jg_real t108 = t107 - C_i[6] * t90;
-    jac_phi_q_v_A_i[16] = t99 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t101 - (t101 *
-        omega_j_cross_h_i_in_i_1 - t105 * f_j_in_i_1 + (t99 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t106) +
-        f_j_in_i_2 * t108);
     const jg_real t109 = t86 * C_j[6] + t87 * C_j[7] + t88 * C_j[8];
     const jg_real t110 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_q_v_A_i[11] = omega_i_cross_h_i_in_i_0 * t85 + omega_i_cross_h_i_in_i_1 * t84 - (t81 * h_j_in_i_0 +
+        omega_j_cross_h_i_in_i_0 * t85 + (omega_j_cross_h_i_in_i_1 * t84 - t80 * h_j_in_i_1) + t83 * h_j_in_i_2);
+    jac_phi_q_v_A_i[12] = omega_i[2] * t89 - (omega_j_in_i_2 * t89 - s_j_in_i_2 * t90) + t91;
+    jac_phi_q_v_A_i[13] = v_j[0] * t86 + v_j[1] * t87 + v_j[2] * t88 - (t92 * s_j_in_i_2 - omega_j_in_i_2 * t93 +
+        omega_i[2] * t95);
+    jac_phi_q_v_A_i[14] = t98 - omega_i[0] * t89 - (t96 + s_j_in_i_0 * t90 - (t97 + omega_j_in_i_0 * t89));
+    jac_phi_q_v_A_i[15] = omega_i[1] * t100 - omega_i[0] * t102 + omega_i[2] * t104 - (t92 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t102 + (t90 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t100) + omega_j_in_i_2 * t104);
+    jac_phi_q_v_A_i[16] = t101 * omega_i_cross_h_i_in_i_1 + t99 * omega_i_cross_h_i_in_i_0 - (t99 *
+        omega_j_cross_h_i_in_i_0 + t106 * f_j_in_i_0 + (t101 * omega_j_cross_h_i_in_i_1 - f_j_in_i_1 * t105) +
+        f_j_in_i_2 * t108);
     jac_phi_q_v_A_i[17] = omega_i_cross_h_i_in_i_0 * t110 + omega_i_cross_h_i_in_i_1 * t109 - (t106 * h_j_in_i_0 +
         omega_j_cross_h_i_in_i_0 * t110 + (omega_j_cross_h_i_in_i_1 * t109 - t105 * h_j_in_i_1) + t108 *
         h_j_in_i_2);
     jac_phi_q_v_A_i[18] = v_0_world_0 * omega_i[2];
-    jac_phi_q_v_A_i[19] = -(v_0_world_0 * omega_i[0]);
-    jac_phi_q_v_A_i[20] = v_0_world_1 * omega_i[2];
-    jac_phi_q_v_A_i[21] = -(v_0_world_1 * omega_i[0]);
-    jac_phi_q_v_A_i[22] = v_0_world_2 * omega_i[2];
-    jac_phi_q_v_A_i[23] = -(v_0_world_2 * omega_i[0]);
     const jg_real t111 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t112 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t113 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t114 = s_j[0] * t111 + s_j[1] * t112 + s_j[2] * t113;
     const jg_real t115 = omega_j[0] * t111 + omega_j[1] * t112 + omega_j[2] * t113;
+    jac_phi_q_v_A_i[19] = -(v_0_world_0 * omega_i[0]);
+    jac_phi_q_v_A_i[20] = v_0_world_1 * omega_i[2];
+    jac_phi_q_v_A_i[21] = -(v_0_world_1 * omega_i[0]);
+    jac_phi_q_v_A_i[22] = v_0_world_2 * omega_i[2];
+    jac_phi_q_v_A_i[23] = -(v_0_world_2 * omega_i[0]);
     jac_phi_q_v_A_i[24] = omega_i[2] * t114 - t36 - (omega_j_in_i_2 * t114 + t34 - (t31 + s_j_in_i_2 * t115));
     jac_phi_q_v_A_i[25] = v_j[0] * t111 + v_j[1] * t112 + v_j[2] * t113 + (omega_i[0] * t23 - (t21 * omega_j_in_i_0
         - t20 * s_j_in_i_0));
@@ -441,69 +441,69 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t117 = C_j[0] * t111 + C_j[1] * t112 + C_j[2] * t113;
     const jg_real t118 = t46 - C_i[2] * t117;
     const jg_real f_i_cross_f_j_in_i_2 = C_i[0] * f_j_in_i_1 - C_i[1] * f_j_in_i_0;
-    jac_phi_q_v_velocity[15] = f_i_cross_f_j_in_i_2;
     const jg_real t120 = C_i[0] * t117;
-    jac_phi_q_v_A_i[27] = omega_i[0] * t118 - omega_i[1] * t116 + omega_i[2] * t120 - (t20 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t120 + (t115 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t116 + omega_j_in_i_0 * t118));
     const jg_real t121 = C_i[6] * t20;
     const jg_real t122 = C_i[8] * t115 - t52;
     const jg_real omega_j_cross_h_i_in_i_2 = C_i[7] * omega_j_in_i_0 - C_i[6] * omega_j_in_i_1;
     const jg_real t124 = C_i[6] * t115;
     const jg_real omega_i_cross_h_i_in_i_2 = omega_i[0] * C_i[7] - omega_i[1] * C_i[6];
-    jac_phi_q_v_A_i[28] = omega_i_cross_h_i_in_i_1 * t117 + t40 * omega_i_cross_h_i_in_i_2 - (t40 *
-        omega_j_cross_h_i_in_i_2 - f_j_in_i_2 * t124 + (t117 * omega_j_cross_h_i_in_i_1 + t121 * f_j_in_i_1 +
-        f_j_in_i_0 * t122));
     const jg_real t126 = t111 * C_j[6] + t112 * C_j[7] + t113 * C_j[8];
-    jac_phi_q_v_A_i[29] = omega_i_cross_h_i_in_i_1 * t126 + omega_i_cross_h_i_in_i_2 * t58 -
-        (omega_j_cross_h_i_in_i_2 * t58 - t124 * h_j_in_i_2 + (t121 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t126 +
-        t122 * h_j_in_i_0));
     const jg_real t127 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t128 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t129 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t130 = s_j[0] * t127 + s_j[1] * t128 + s_j[2] * t129;
     const jg_real t131 = omega_j[0] * t127 + omega_j[1] * t128 + omega_j[2] * t129;
-    jac_phi_q_v_A_i[30] = omega_i[2] * t130 - t73 - (omega_j_in_i_2 * t130 + t72 - (t71 + s_j_in_i_2 * t131));
-    jac_phi_q_v_A_i[31] = v_j[0] * t127 + v_j[1] * t128 + v_j[2] * t129 + (omega_i[0] * t70 - (t68 * omega_j_in_i_0
-        - t67 * s_j_in_i_0));
-    jac_phi_q_v_A_i[32] = t66 - (s_j_in_i_0 * t131 - omega_j_in_i_0 * t130 + omega_i[0] * t130);
     const jg_real t132 = C_i[0] * t74;
     const jg_real t133 = C_j[0] * t127 + C_j[1] * t128 + C_j[2] * t129;
     const jg_real t134 = t78 - C_i[2] * t133;
     const jg_real t135 = C_i[0] * t133;
+    jac_phi_q_v_velocity[15] = f_i_cross_f_j_in_i_2;
+    jac_phi_q_v_A_i[27] = omega_i[0] * t118 - omega_i[1] * t116 + omega_i[2] * t120 - (t20 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t120 + (t115 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t116 + omega_j_in_i_0 * t118));
+    jac_phi_q_v_A_i[28] = t117 * omega_i_cross_h_i_in_i_1 + t40 * omega_i_cross_h_i_in_i_2 - (t40 *
+        omega_j_cross_h_i_in_i_2 - t124 * f_j_in_i_2 + (t117 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t121 +
+        f_j_in_i_0 * t122));
+    jac_phi_q_v_A_i[29] = omega_i_cross_h_i_in_i_1 * t126 + omega_i_cross_h_i_in_i_2 * t58 -
+        (omega_j_cross_h_i_in_i_2 * t58 - t124 * h_j_in_i_2 + (t121 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t126 +
+        t122 * h_j_in_i_0));
+    jac_phi_q_v_A_i[30] = omega_i[2] * t130 - t73 - (omega_j_in_i_2 * t130 + t72 - (t71 + s_j_in_i_2 * t131));
+    jac_phi_q_v_A_i[31] = v_j[0] * t127 + v_j[1] * t128 + v_j[2] * t129 + (omega_i[0] * t70 - (t68 * omega_j_in_i_0
+        - t67 * s_j_in_i_0));
+    jac_phi_q_v_A_i[32] = t66 - (s_j_in_i_0 * t131 - omega_j_in_i_0 * t130 + omega_i[0] * t130);
     jac_phi_q_v_A_i[33] = omega_i[0] * t134 - omega_i[1] * t132 + omega_i[2] * t135 - (t67 * f_i_cross_f_j_in_i_2 +
         omega_j_in_i_2 * t135 + (t131 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t132 + omega_j_in_i_0 * t134));
     const jg_real t136 = C_i[6] * t67;
     const jg_real t137 = C_i[8] * t131 - t82;
     const jg_real t138 = C_i[6] * t131;
-    jac_phi_q_v_A_i[34] = omega_i_cross_h_i_in_i_1 * t133 + t74 * omega_i_cross_h_i_in_i_2 - (t74 *
-        omega_j_cross_h_i_in_i_2 - f_j_in_i_2 * t138 + (t133 * omega_j_cross_h_i_in_i_1 + t136 * f_j_in_i_1 +
-        f_j_in_i_0 * t137));
     const jg_real t139 = t127 * C_j[6] + t128 * C_j[7] + t129 * C_j[8];
-    jac_phi_q_v_A_i[35] = omega_i_cross_h_i_in_i_1 * t139 + omega_i_cross_h_i_in_i_2 * t85 -
-        (omega_j_cross_h_i_in_i_2 * t85 - t138 * h_j_in_i_2 + (t136 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t139 +
-        t137 * h_j_in_i_0));
     const jg_real t140 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t141 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t142 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t143 = s_j[0] * t140 + s_j[1] * t141 + s_j[2] * t142;
     const jg_real t144 = omega_j[0] * t140 + omega_j[1] * t141 + omega_j[2] * t142;
-    jac_phi_q_v_A_i[36] = omega_i[2] * t143 - t98 - (omega_j_in_i_2 * t143 + t97 - (t96 + s_j_in_i_2 * t144));
-    jac_phi_q_v_A_i[37] = v_j[0] * t140 + v_j[1] * t141 + v_j[2] * t142 + (omega_i[0] * t95 - (t93 * omega_j_in_i_0
-        - t92 * s_j_in_i_0));
-    jac_phi_q_v_A_i[38] = t91 - (s_j_in_i_0 * t144 - omega_j_in_i_0 * t143 + omega_i[0] * t143);
     const jg_real t145 = C_i[0] * t99;
     const jg_real t146 = C_j[0] * t140 + C_j[1] * t141 + C_j[2] * t142;
     const jg_real t147 = t103 - C_i[2] * t146;
     const jg_real t148 = C_i[0] * t146;
-    jac_phi_q_v_A_i[39] = omega_i[0] * t147 - omega_i[1] * t145 + omega_i[2] * t148 - (t92 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t148 + (t144 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t145 + omega_j_in_i_0 * t147));
     const jg_real t149 = C_i[6] * t92;
     const jg_real t150 = C_i[8] * t144 - t107;
     const jg_real t151 = C_i[6] * t144;
-    jac_phi_q_v_A_i[40] = omega_i_cross_h_i_in_i_1 * t146 + t99 * omega_i_cross_h_i_in_i_2 - (t99 *
-        omega_j_cross_h_i_in_i_2 - f_j_in_i_2 * t151 + (t146 * omega_j_cross_h_i_in_i_1 + t149 * f_j_in_i_1 +
-        f_j_in_i_0 * t150));
     const jg_real t152 = t140 * C_j[6] + t141 * C_j[7] + t142 * C_j[8];
+    jac_phi_q_v_A_i[34] = t133 * omega_i_cross_h_i_in_i_1 + t74 * omega_i_cross_h_i_in_i_2 - (t74 *
+        omega_j_cross_h_i_in_i_2 - t138 * f_j_in_i_2 + (t133 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t136 +
+        f_j_in_i_0 * t137));
+    jac_phi_q_v_A_i[35] = omega_i_cross_h_i_in_i_1 * t139 + omega_i_cross_h_i_in_i_2 * t85 -
+        (omega_j_cross_h_i_in_i_2 * t85 - t138 * h_j_in_i_2 + (t136 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t139 +
+        t137 * h_j_in_i_0));
+    jac_phi_q_v_A_i[36] = omega_i[2] * t143 - t98 - (omega_j_in_i_2 * t143 + t97 - (t96 + s_j_in_i_2 * t144));
+    jac_phi_q_v_A_i[37] = v_j[0] * t140 + v_j[1] * t141 + v_j[2] * t142 + (omega_i[0] * t95 - (t93 * omega_j_in_i_0
+        - t92 * s_j_in_i_0));
+    jac_phi_q_v_A_i[38] = t91 - (s_j_in_i_0 * t144 - omega_j_in_i_0 * t143 + omega_i[0] * t143);
+    jac_phi_q_v_A_i[39] = omega_i[0] * t147 - omega_i[1] * t145 + omega_i[2] * t148 - (t92 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t148 + (t144 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t145 + omega_j_in_i_0 * t147));
+    jac_phi_q_v_A_i[40] = t146 * omega_i_cross_h_i_in_i_1 + t99 * omega_i_cross_h_i_in_i_2 - (t99 *
+        omega_j_cross_h_i_in_i_2 - t151 * f_j_in_i_2 + (t146 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t149 +
+        f_j_in_i_0 * t150));
     jac_phi_q_v_A_i[41] = omega_i_cross_h_i_in_i_1 * t152 + omega_i_cross_h_i_in_i_2 * t110 -
         (omega_j_cross_h_i_in_i_2 * t110 - t151 * h_j_in_i_2 + (t149 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t152
         + t150 * h_j_in_i_0));
@@ -513,136 +513,139 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t156 = s_j[1] * t154 + s_j[2] * t155;
     const jg_real t157 = A_i[6] * s_j[0];
     const jg_real t158 = omega_j[1] * t154 + omega_j[2] * t155;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t153 * s_j_in_i_1 - omega_j_in_i_2 * t156 - (t157 * omega_j_in_i_1 -
-        s_j_in_i_2 * t158) + (omega_i[1] * t157 + omega_i[2] * t156));
     const jg_real t159 = A_i[0] * omega_j[0];
     const jg_real t160 = A_i[0] * s_j[0];
-    jac_phi_q_v_A_j[1] = omega_i[0] * t157 - omega_i[2] * t160 - (t157 * omega_j_in_i_0 + t159 * s_j_in_i_2 - (t160
-        * omega_j_in_i_2 + t153 * s_j_in_i_0)) - (v_j[1] * t154 + v_j[2] * t155);
-    jac_phi_q_v_A_j[2] = omega_i[1] * t160 + omega_i[0] * t156 - (t160 * omega_j_in_i_1 - s_j_in_i_0 * t158 - (t159
-        * s_j_in_i_1 - omega_j_in_i_0 * t156)) + A_i[6] * v_j[0];
     const jg_real t161 = A_i[0] * C_j[0];
     const jg_real t162 = A_i[6] * C_j[0];
     const jg_real t163 = C_i[2] * t161 - C_i[0] * t162;
     const jg_real t164 = C_j[1] * t154 + C_j[2] * t155;
     const jg_real t165 = C_i[2] * t164 + C_i[1] * t162;
-    const jg_real t166 = C_i[1] * t161 + C_i[0] * t164;
-    jac_phi_q_v_A_j[3] = omega_i[0] * t165 + omega_i[1] * t163 - omega_i[2] * t166 - (t153 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t166 + (t159 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t165 + (omega_j_in_i_1 * t163 - t158
-        * f_i_cross_f_j_in_i_1)));
+    const jg_real t166 = C_i[0] * t164 + C_i[1] * t161;
     const jg_real t167 = C_i[6] * t153 - C_i[8] * t159;
-    const jg_real t168 = C_i[7] * t153 + C_i[8] * t158;
-    const jg_real t169 = C_i[7] * t159 + C_i[6] * t158;
-    jac_phi_q_v_A_j[4] = t161 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t164 + t162 *
-        omega_i_cross_h_i_in_i_2 - (t162 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t169 + (f_j_in_i_1 * t167 - t164
-        * omega_j_cross_h_i_in_i_1 + (t161 * omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t168)));
+    const jg_real t168 = C_i[8] * t158 + C_i[7] * t153;
+    const jg_real t169 = C_i[6] * t158 + C_i[7] * t159;
     const jg_real t170 = t154 * C_j[7] + t155 * C_j[8];
     const jg_real t171 = A_i[0] * C_j[6];
     const jg_real t172 = A_i[6] * C_j[6];
-    jac_phi_q_v_A_j[5] = omega_i_cross_h_i_in_i_0 * t171 - omega_i_cross_h_i_in_i_1 * t170 +
-        omega_i_cross_h_i_in_i_2 * t172 - (t169 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t172 + (t171 *
-        omega_j_cross_h_i_in_i_0 - t168 * h_j_in_i_0 + (t167 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 * t170)));
     const jg_real t173 = A_i[7] * omega_j[0];
     const jg_real t174 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
     const jg_real t175 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
     const jg_real t176 = s_j[1] * t174 + s_j[2] * t175;
     const jg_real t177 = A_i[7] * s_j[0];
     const jg_real t178 = omega_j[1] * t174 + omega_j[2] * t175;
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t173 * s_j_in_i_1 - omega_j_in_i_2 * t176 - (t177 * omega_j_in_i_1 -
-        s_j_in_i_2 * t178) + (omega_i[1] * t177 + omega_i[2] * t176));
     const jg_real t179 = A_i[1] * omega_j[0];
     const jg_real t180 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t153 * s_j_in_i_1 - omega_j_in_i_2 * t156 - (t157 * omega_j_in_i_1 -
+        s_j_in_i_2 * t158) + (omega_i[1] * t157 + omega_i[2] * t156));
+    jac_phi_q_v_A_j[1] = omega_i[0] * t157 - omega_i[2] * t160 - (t157 * omega_j_in_i_0 + t159 * s_j_in_i_2 - (t160
+        * omega_j_in_i_2 + t153 * s_j_in_i_0)) - (v_j[1] * t154 + v_j[2] * t155);
+    jac_phi_q_v_A_j[2] = omega_i[0] * t156 + omega_i[1] * t160 - (t160 * omega_j_in_i_1 - s_j_in_i_0 * t158 - (t159
+        * s_j_in_i_1 - omega_j_in_i_0 * t156)) + A_i[6] * v_j[0];
+    jac_phi_q_v_A_j[3] = omega_i[0] * t165 + omega_i[1] * t163 - omega_i[2] * t166 - (t153 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t166 + (t159 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t165 + (omega_j_in_i_1 * t163 - t158
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[4] = t161 * omega_i_cross_h_i_in_i_0 - t164 * omega_i_cross_h_i_in_i_1 + t162 *
+        omega_i_cross_h_i_in_i_2 - (t162 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t169 + (t161 *
+        omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t168 + (f_j_in_i_1 * t167 - t164 * omega_j_cross_h_i_in_i_1)));
+    jac_phi_q_v_A_j[5] = omega_i_cross_h_i_in_i_0 * t171 - omega_i_cross_h_i_in_i_1 * t170 +
+        omega_i_cross_h_i_in_i_2 * t172 - (t169 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t172 +
+        (omega_j_cross_h_i_in_i_0 * t171 - t168 * h_j_in_i_0 + (t167 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 *
+        t170)));
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t173 * s_j_in_i_1 - omega_j_in_i_2 * t176 - (t177 * omega_j_in_i_1 -
+        s_j_in_i_2 * t178) + (omega_i[1] * t177 + omega_i[2] * t176));
     jac_phi_q_v_A_j[7] = omega_i[0] * t177 - omega_i[2] * t180 - (t177 * omega_j_in_i_0 + t179 * s_j_in_i_2 - (t180
         * omega_j_in_i_2 + t173 * s_j_in_i_0)) - (v_j[1] * t174 + v_j[2] * t175);
-    jac_phi_q_v_A_j[8] = omega_i[1] * t180 + omega_i[0] * t176 - (t180 * omega_j_in_i_1 - s_j_in_i_0 * t178 - (t179
-        * s_j_in_i_1 - omega_j_in_i_0 * t176)) + A_i[7] * v_j[0];
     const jg_real t181 = A_i[1] * C_j[0];
     const jg_real t182 = A_i[7] * C_j[0];
     const jg_real t183 = C_i[2] * t181 - C_i[0] * t182;
     const jg_real t184 = C_j[1] * t174 + C_j[2] * t175;
     const jg_real t185 = C_i[2] * t184 + C_i[1] * t182;
-    const jg_real t186 = C_i[1] * t181 + C_i[0] * t184;
-    jac_phi_q_v_A_j[9] = omega_i[0] * t185 + omega_i[1] * t183 - omega_i[2] * t186 - (t173 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t186 + (t179 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t185 + (omega_j_in_i_1 * t183 - t178
-        * f_i_cross_f_j_in_i_1)));
+    const jg_real t186 = C_i[0] * t184 + C_i[1] * t181;
     const jg_real t187 = C_i[6] * t173 - C_i[8] * t179;
-    const jg_real t188 = C_i[7] * t173 + C_i[8] * t178;
-    const jg_real t189 = C_i[7] * t179 + C_i[6] * t178;
-    jac_phi_q_v_A_j[10] = t181 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t184 + t182 *
-        omega_i_cross_h_i_in_i_2 - (t182 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t189 + (f_j_in_i_1 * t187 - t184
-        * omega_j_cross_h_i_in_i_1 + (t181 * omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t188)));
+    const jg_real t188 = C_i[8] * t178 + C_i[7] * t173;
+    const jg_real t189 = C_i[6] * t178 + C_i[7] * t179;
     const jg_real t190 = t174 * C_j[7] + t175 * C_j[8];
     const jg_real t191 = A_i[1] * C_j[6];
     const jg_real t192 = A_i[7] * C_j[6];
-    jac_phi_q_v_A_j[11] = omega_i_cross_h_i_in_i_0 * t191 - omega_i_cross_h_i_in_i_1 * t190 +
-        omega_i_cross_h_i_in_i_2 * t192 - (t189 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t192 + (t191 *
-        omega_j_cross_h_i_in_i_0 - t188 * h_j_in_i_0 + (t187 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 * t190)));
     const jg_real t193 = A_i[8] * omega_j[0];
     const jg_real t194 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
     const jg_real t195 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
     const jg_real t196 = s_j[1] * t194 + s_j[2] * t195;
     const jg_real t197 = A_i[8] * s_j[0];
     const jg_real t198 = omega_j[1] * t194 + omega_j[2] * t195;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t193 * s_j_in_i_1 - omega_j_in_i_2 * t196 - (t197 * omega_j_in_i_1 -
-        s_j_in_i_2 * t198) + (omega_i[1] * t197 + omega_i[2] * t196));
     const jg_real t199 = A_i[2] * omega_j[0];
     const jg_real t200 = A_i[2] * s_j[0];
-    jac_phi_q_v_A_j[13] = omega_i[0] * t197 - omega_i[2] * t200 - (t197 * omega_j_in_i_0 + t199 * s_j_in_i_2 - (t200
-        * omega_j_in_i_2 + t193 * s_j_in_i_0)) - (v_j[1] * t194 + v_j[2] * t195);
-    jac_phi_q_v_A_j[14] = omega_i[1] * t200 + omega_i[0] * t196 - (t200 * omega_j_in_i_1 - s_j_in_i_0 * t198 - (t199
-        * s_j_in_i_1 - omega_j_in_i_0 * t196)) + A_i[8] * v_j[0];
     const jg_real t201 = A_i[2] * C_j[0];
     const jg_real t202 = A_i[8] * C_j[0];
     const jg_real t203 = C_i[2] * t201 - C_i[0] * t202;
     const jg_real t204 = C_j[1] * t194 + C_j[2] * t195;
     const jg_real t205 = C_i[2] * t204 + C_i[1] * t202;
-    const jg_real t206 = C_i[1] * t201 + C_i[0] * t204;
+    const jg_real t206 = C_i[0] * t204 + C_i[1] * t201;
+    jac_phi_q_v_A_j[8] = omega_i[0] * t176 + omega_i[1] * t180 - (t180 * omega_j_in_i_1 - s_j_in_i_0 * t178 - (t179
+        * s_j_in_i_1 - omega_j_in_i_0 * t176)) + A_i[7] * v_j[0];
+    jac_phi_q_v_A_j[9] = omega_i[0] * t185 + omega_i[1] * t183 - omega_i[2] * t186 - (t173 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t186 + (t179 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t185 + (omega_j_in_i_1 * t183 - t178
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[10] = t181 * omega_i_cross_h_i_in_i_0 - t184 * omega_i_cross_h_i_in_i_1 + t182 *
+        omega_i_cross_h_i_in_i_2 - (t182 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t189 + (t181 *
+        omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t188 + (f_j_in_i_1 * t187 - t184 * omega_j_cross_h_i_in_i_1)));
+    jac_phi_q_v_A_j[11] = omega_i_cross_h_i_in_i_0 * t191 - omega_i_cross_h_i_in_i_1 * t190 +
+        omega_i_cross_h_i_in_i_2 * t192 - (t189 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t192 +
+        (omega_j_cross_h_i_in_i_0 * t191 - t188 * h_j_in_i_0 + (t187 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 *
+        t190)));
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t193 * s_j_in_i_1 - omega_j_in_i_2 * t196 - (t197 * omega_j_in_i_1 -
+        s_j_in_i_2 * t198) + (omega_i[1] * t197 + omega_i[2] * t196));
+    jac_phi_q_v_A_j[13] = omega_i[0] * t197 - omega_i[2] * t200 - (t197 * omega_j_in_i_0 + t199 * s_j_in_i_2 - (t200
+        * omega_j_in_i_2 + t193 * s_j_in_i_0)) - (v_j[1] * t194 + v_j[2] * t195);
+    jac_phi_q_v_A_j[14] = omega_i[0] * t196 + omega_i[1] * t200 - (t200 * omega_j_in_i_1 - s_j_in_i_0 * t198 - (t199
+        * s_j_in_i_1 - omega_j_in_i_0 * t196)) + A_i[8] * v_j[0];
     jac_phi_q_v_A_j[15] = omega_i[0] * t205 + omega_i[1] * t203 - omega_i[2] * t206 - (t193 * f_i_cross_f_j_in_i_2 -
         omega_j_in_i_2 * t206 + (t199 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t205 + (omega_j_in_i_1 * t203 - t198
         * f_i_cross_f_j_in_i_1)));
     const jg_real t207 = C_i[6] * t193 - C_i[8] * t199;
-    const jg_real t208 = C_i[7] * t193 + C_i[8] * t198;
-    const jg_real t209 = C_i[7] * t199 + C_i[6] * t198;
-    jac_phi_q_v_A_j[16] = t201 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t204 + t202 *
-        omega_i_cross_h_i_in_i_2 - (t202 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t209 + (f_j_in_i_1 * t207 - t204
-        * omega_j_cross_h_i_in_i_1 + (t201 * omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t208)));
+    const jg_real t208 = C_i[8] * t198 + C_i[7] * t193;
+    const jg_real t209 = C_i[6] * t198 + C_i[7] * t199;
     const jg_real t210 = t194 * C_j[7] + t195 * C_j[8];
     const jg_real t211 = A_i[2] * C_j[6];
     const jg_real t212 = A_i[8] * C_j[6];
-    jac_phi_q_v_A_j[17] = omega_i_cross_h_i_in_i_0 * t211 - omega_i_cross_h_i_in_i_1 * t210 +
-        omega_i_cross_h_i_in_i_2 * t212 - (t209 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t212 + (t211 *
-        omega_j_cross_h_i_in_i_0 - t208 * h_j_in_i_0 + (t207 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 * t210)));
     const jg_real t213 = A_i[6] * omega_j[1];
     const jg_real t214 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
     const jg_real t215 = s_j[0] * t154 - s_j[2] * t214;
     const jg_real t216 = A_i[6] * s_j[1];
     const jg_real t217 = omega_j[0] * t154 - omega_j[2] * t214;
-    jac_phi_q_v_A_j[18] = omega_i[2] * t215 - omega_i[1] * t216 - (omega_j_in_i_2 * t215 + t213 * s_j_in_i_1 - (t216
-        * omega_j_in_i_1 + s_j_in_i_2 * t217)) + A_i[0] * v_j[1];
     const jg_real t218 = A_i[0] * omega_j[1];
     const jg_real t219 = A_i[0] * s_j[1];
-    jac_phi_q_v_A_j[19] = v_j[0] * t154 - v_j[2] * t214 + (omega_i[0] * t216 - omega_i[2] * t219 - (t216 *
-        omega_j_in_i_0 + t218 * s_j_in_i_2 - (t219 * omega_j_in_i_2 + t213 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[20] = omega_i[1] * t219 - omega_i[0] * t215 - (t219 * omega_j_in_i_1 + s_j_in_i_0 * t217 -
-        (omega_j_in_i_0 * t215 + t218 * s_j_in_i_1)) + A_i[6] * v_j[1];
     const jg_real t220 = A_i[0] * C_j[1];
     const jg_real t221 = A_i[6] * C_j[1];
     const jg_real t222 = C_i[2] * t220 - C_i[0] * t221;
     const jg_real t223 = C_j[0] * t154 - C_j[2] * t214;
     const jg_real t224 = C_i[1] * t221 - C_i[2] * t223;
     const jg_real t225 = C_i[0] * t223 - C_i[1] * t220;
-    jac_phi_q_v_A_j[21] = omega_i[0] * t224 + omega_i[1] * t222 + omega_i[2] * t225 - (t213 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t225 + (t218 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t224 + (t217 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t222)));
     const jg_real t226 = C_i[6] * t213 - C_i[8] * t218;
     const jg_real t227 = C_i[8] * t217 - C_i[7] * t213;
     const jg_real t228 = C_i[7] * t218 - C_i[6] * t217;
-    jac_phi_q_v_A_j[22] = t220 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t223 + t221 *
-        omega_i_cross_h_i_in_i_2 - (t221 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t228 + (t223 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t226 + (t220 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t227)));
     const jg_real t229 = t154 * C_j[6] - t214 * C_j[8];
     const jg_real t230 = A_i[0] * C_j[7];
     const jg_real t231 = A_i[6] * C_j[7];
+    jac_phi_q_v_A_j[16] = t201 * omega_i_cross_h_i_in_i_0 - t204 * omega_i_cross_h_i_in_i_1 + t202 *
+        omega_i_cross_h_i_in_i_2 - (t202 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t209 + (t201 *
+        omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t208 + (f_j_in_i_1 * t207 - t204 * omega_j_cross_h_i_in_i_1)));
+    jac_phi_q_v_A_j[17] = omega_i_cross_h_i_in_i_0 * t211 - omega_i_cross_h_i_in_i_1 * t210 +
+        omega_i_cross_h_i_in_i_2 * t212 - (t209 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t212 +
+        (omega_j_cross_h_i_in_i_0 * t211 - t208 * h_j_in_i_0 + (t207 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 *
+        t210)));
+    jac_phi_q_v_A_j[18] = omega_i[2] * t215 - omega_i[1] * t216 - (omega_j_in_i_2 * t215 + t213 * s_j_in_i_1 - (t216
+        * omega_j_in_i_1 + s_j_in_i_2 * t217)) + A_i[0] * v_j[1];
+    jac_phi_q_v_A_j[19] = v_j[0] * t154 - v_j[2] * t214 + (omega_i[0] * t216 - omega_i[2] * t219 - (t216 *
+        omega_j_in_i_0 + t218 * s_j_in_i_2 - (t219 * omega_j_in_i_2 + t213 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[20] = omega_i[1] * t219 - omega_i[0] * t215 - (t219 * omega_j_in_i_1 + s_j_in_i_0 * t217 -
+        (omega_j_in_i_0 * t215 + t218 * s_j_in_i_1)) + A_i[6] * v_j[1];
+    jac_phi_q_v_A_j[21] = omega_i[0] * t224 + omega_i[1] * t222 + omega_i[2] * t225 - (t213 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t225 + (t218 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t224 + (t217 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t222)));
+    jac_phi_q_v_A_j[22] = t223 * omega_i_cross_h_i_in_i_1 + t220 * omega_i_cross_h_i_in_i_0 + t221 *
+        omega_i_cross_h_i_in_i_2 - (t221 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t228 + (t220 *
+        omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t227 + (t223 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t226)));
     jac_phi_q_v_A_j[23] = omega_i_cross_h_i_in_i_0 * t230 + omega_i_cross_h_i_in_i_1 * t229 +
         omega_i_cross_h_i_in_i_2 * t231 - (t228 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t231 + (t227 * h_j_in_i_0
         + omega_j_cross_h_i_in_i_0 * t230 + (t226 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t229)));
@@ -651,132 +654,132 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t234 = s_j[0] * t174 - s_j[2] * t233;
     const jg_real t235 = A_i[7] * s_j[1];
     const jg_real t236 = omega_j[0] * t174 - omega_j[2] * t233;
-    jac_phi_q_v_A_j[24] = omega_i[2] * t234 - omega_i[1] * t235 - (omega_j_in_i_2 * t234 + t232 * s_j_in_i_1 - (t235
-        * omega_j_in_i_1 + s_j_in_i_2 * t236)) + A_i[1] * v_j[1];
     const jg_real t237 = A_i[1] * omega_j[1];
     const jg_real t238 = A_i[1] * s_j[1];
-    jac_phi_q_v_A_j[25] = v_j[0] * t174 - v_j[2] * t233 + (omega_i[0] * t235 - omega_i[2] * t238 - (t235 *
-        omega_j_in_i_0 + t237 * s_j_in_i_2 - (t238 * omega_j_in_i_2 + t232 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[26] = omega_i[1] * t238 - omega_i[0] * t234 - (t238 * omega_j_in_i_1 + s_j_in_i_0 * t236 -
-        (omega_j_in_i_0 * t234 + t237 * s_j_in_i_1)) + A_i[7] * v_j[1];
     const jg_real t239 = A_i[1] * C_j[1];
     const jg_real t240 = A_i[7] * C_j[1];
     const jg_real t241 = C_i[2] * t239 - C_i[0] * t240;
     const jg_real t242 = C_j[0] * t174 - C_j[2] * t233;
     const jg_real t243 = C_i[1] * t240 - C_i[2] * t242;
     const jg_real t244 = C_i[0] * t242 - C_i[1] * t239;
-    jac_phi_q_v_A_j[27] = omega_i[0] * t243 + omega_i[1] * t241 + omega_i[2] * t244 - (t232 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t244 + (t237 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t243 + (t236 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t241)));
     const jg_real t245 = C_i[6] * t232 - C_i[8] * t237;
     const jg_real t246 = C_i[8] * t236 - C_i[7] * t232;
     const jg_real t247 = C_i[7] * t237 - C_i[6] * t236;
-    jac_phi_q_v_A_j[28] = t239 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t242 + t240 *
-        omega_i_cross_h_i_in_i_2 - (t240 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t247 + (t242 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t245 + (t239 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t246)));
     const jg_real t248 = t174 * C_j[6] - t233 * C_j[8];
     const jg_real t249 = A_i[1] * C_j[7];
     const jg_real t250 = A_i[7] * C_j[7];
-    jac_phi_q_v_A_j[29] = omega_i_cross_h_i_in_i_0 * t249 + omega_i_cross_h_i_in_i_1 * t248 +
-        omega_i_cross_h_i_in_i_2 * t250 - (t247 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t250 + (t246 * h_j_in_i_0
-        + omega_j_cross_h_i_in_i_0 * t249 + (t245 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t248)));
     const jg_real t251 = A_i[8] * omega_j[1];
     const jg_real t252 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
     const jg_real t253 = s_j[0] * t194 - s_j[2] * t252;
     const jg_real t254 = A_i[8] * s_j[1];
     const jg_real t255 = omega_j[0] * t194 - omega_j[2] * t252;
-    jac_phi_q_v_A_j[30] = omega_i[2] * t253 - omega_i[1] * t254 - (omega_j_in_i_2 * t253 + t251 * s_j_in_i_1 - (t254
-        * omega_j_in_i_1 + s_j_in_i_2 * t255)) + A_i[2] * v_j[1];
     const jg_real t256 = A_i[2] * omega_j[1];
     const jg_real t257 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[24] = omega_i[2] * t234 - omega_i[1] * t235 - (omega_j_in_i_2 * t234 + t232 * s_j_in_i_1 - (t235
+        * omega_j_in_i_1 + s_j_in_i_2 * t236)) + A_i[1] * v_j[1];
+    jac_phi_q_v_A_j[25] = v_j[0] * t174 - v_j[2] * t233 + (omega_i[0] * t235 - omega_i[2] * t238 - (t235 *
+        omega_j_in_i_0 + t237 * s_j_in_i_2 - (t238 * omega_j_in_i_2 + t232 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[26] = omega_i[1] * t238 - omega_i[0] * t234 - (t238 * omega_j_in_i_1 + s_j_in_i_0 * t236 -
+        (omega_j_in_i_0 * t234 + t237 * s_j_in_i_1)) + A_i[7] * v_j[1];
+    jac_phi_q_v_A_j[27] = omega_i[0] * t243 + omega_i[1] * t241 + omega_i[2] * t244 - (t232 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t244 + (t237 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t243 + (t236 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t241)));
+    jac_phi_q_v_A_j[28] = t242 * omega_i_cross_h_i_in_i_1 + t239 * omega_i_cross_h_i_in_i_0 + t240 *
+        omega_i_cross_h_i_in_i_2 - (t240 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t247 + (t239 *
+        omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t246 + (t242 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t245)));
+    jac_phi_q_v_A_j[29] = omega_i_cross_h_i_in_i_0 * t249 + omega_i_cross_h_i_in_i_1 * t248 +
+        omega_i_cross_h_i_in_i_2 * t250 - (t247 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t250 + (t246 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t249 + (t245 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t248)));
+    jac_phi_q_v_A_j[30] = omega_i[2] * t253 - omega_i[1] * t254 - (omega_j_in_i_2 * t253 + t251 * s_j_in_i_1 - (t254
+        * omega_j_in_i_1 + s_j_in_i_2 * t255)) + A_i[2] * v_j[1];
     jac_phi_q_v_A_j[31] = v_j[0] * t194 - v_j[2] * t252 + (omega_i[0] * t254 - omega_i[2] * t257 - (t254 *
         omega_j_in_i_0 + t256 * s_j_in_i_2 - (t257 * omega_j_in_i_2 + t251 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[32] = omega_i[1] * t257 - omega_i[0] * t253 - (t257 * omega_j_in_i_1 + s_j_in_i_0 * t255 -
-        (omega_j_in_i_0 * t253 + t256 * s_j_in_i_1)) + A_i[8] * v_j[1];
     const jg_real t258 = A_i[2] * C_j[1];
     const jg_real t259 = A_i[8] * C_j[1];
     const jg_real t260 = C_i[2] * t258 - C_i[0] * t259;
     const jg_real t261 = C_j[0] * t194 - C_j[2] * t252;
     const jg_real t262 = C_i[1] * t259 - C_i[2] * t261;
     const jg_real t263 = C_i[0] * t261 - C_i[1] * t258;
-    jac_phi_q_v_A_j[33] = omega_i[0] * t262 + omega_i[1] * t260 + omega_i[2] * t263 - (t251 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t263 + (t256 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t262 + (t255 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t260)));
     const jg_real t264 = C_i[6] * t251 - C_i[8] * t256;
     const jg_real t265 = C_i[8] * t255 - C_i[7] * t251;
     const jg_real t266 = C_i[7] * t256 - C_i[6] * t255;
-    jac_phi_q_v_A_j[34] = t258 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t261 + t259 *
-        omega_i_cross_h_i_in_i_2 - (t259 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t266 + (t261 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t264 + (t258 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t265)));
     const jg_real t267 = t194 * C_j[6] - t252 * C_j[8];
     const jg_real t268 = A_i[2] * C_j[7];
     const jg_real t269 = A_i[8] * C_j[7];
-    jac_phi_q_v_A_j[35] = omega_i_cross_h_i_in_i_0 * t268 + omega_i_cross_h_i_in_i_1 * t267 +
-        omega_i_cross_h_i_in_i_2 * t269 - (t266 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t269 + (t265 * h_j_in_i_0
-        + omega_j_cross_h_i_in_i_0 * t268 + (t264 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t267)));
     const jg_real t270 = A_i[6] * omega_j[2];
     const jg_real t271 = s_j[0] * t155 + s_j[1] * t214;
     const jg_real t272 = A_i[6] * s_j[2];
     const jg_real t273 = omega_j[0] * t155 + omega_j[1] * t214;
-    jac_phi_q_v_A_j[36] = omega_i[2] * t271 - omega_i[1] * t272 - (omega_j_in_i_2 * t271 + t270 * s_j_in_i_1 - (t272
-        * omega_j_in_i_1 + s_j_in_i_2 * t273)) + A_i[0] * v_j[2];
     const jg_real t274 = A_i[0] * omega_j[2];
     const jg_real t275 = A_i[0] * s_j[2];
-    jac_phi_q_v_A_j[37] = v_j[0] * t155 + v_j[1] * t214 + (omega_i[0] * t272 - omega_i[2] * t275 - (t272 *
-        omega_j_in_i_0 + t274 * s_j_in_i_2 - (t275 * omega_j_in_i_2 + t270 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[38] = omega_i[1] * t275 - omega_i[0] * t271 - (t275 * omega_j_in_i_1 + s_j_in_i_0 * t273 -
-        (omega_j_in_i_0 * t271 + t274 * s_j_in_i_1)) + A_i[6] * v_j[2];
     const jg_real t276 = A_i[0] * C_j[2];
     const jg_real t277 = A_i[6] * C_j[2];
     const jg_real t278 = C_i[2] * t276 - C_i[0] * t277;
     const jg_real t279 = C_j[0] * t155 + C_j[1] * t214;
     const jg_real t280 = C_i[1] * t277 - C_i[2] * t279;
     const jg_real t281 = C_i[0] * t279 - C_i[1] * t276;
+    jac_phi_q_v_A_j[32] = omega_i[1] * t257 - omega_i[0] * t253 - (t257 * omega_j_in_i_1 + s_j_in_i_0 * t255 -
+        (omega_j_in_i_0 * t253 + t256 * s_j_in_i_1)) + A_i[8] * v_j[1];
+    jac_phi_q_v_A_j[33] = omega_i[0] * t262 + omega_i[1] * t260 + omega_i[2] * t263 - (t251 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t263 + (t256 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t262 + (t255 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t260)));
+    jac_phi_q_v_A_j[34] = t261 * omega_i_cross_h_i_in_i_1 + t258 * omega_i_cross_h_i_in_i_0 + t259 *
+        omega_i_cross_h_i_in_i_2 - (t259 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t266 + (t258 *
+        omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t265 + (t261 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t264)));
+    jac_phi_q_v_A_j[35] = omega_i_cross_h_i_in_i_0 * t268 + omega_i_cross_h_i_in_i_1 * t267 +
+        omega_i_cross_h_i_in_i_2 * t269 - (t266 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t269 + (t265 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t268 + (t264 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t267)));
+    jac_phi_q_v_A_j[36] = omega_i[2] * t271 - omega_i[1] * t272 - (omega_j_in_i_2 * t271 + t270 * s_j_in_i_1 - (t272
+        * omega_j_in_i_1 + s_j_in_i_2 * t273)) + A_i[0] * v_j[2];
+    jac_phi_q_v_A_j[37] = v_j[0] * t155 + v_j[1] * t214 + (omega_i[0] * t272 - omega_i[2] * t275 - (t272 *
+        omega_j_in_i_0 + t274 * s_j_in_i_2 - (t275 * omega_j_in_i_2 + t270 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[38] = omega_i[1] * t275 - omega_i[0] * t271 - (t275 * omega_j_in_i_1 + t273 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t271 + t274 * s_j_in_i_1)) + A_i[6] * v_j[2];
     jac_phi_q_v_A_j[39] = omega_i[0] * t280 + omega_i[1] * t278 + omega_i[2] * t281 - (t270 * f_i_cross_f_j_in_i_2 +
         omega_j_in_i_2 * t281 + (t274 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t280 + (t273 * f_i_cross_f_j_in_i_1
         + omega_j_in_i_1 * t278)));
     const jg_real t282 = C_i[6] * t270 - C_i[8] * t274;
     const jg_real t283 = C_i[8] * t273 - C_i[7] * t270;
     const jg_real t284 = C_i[7] * t274 - C_i[6] * t273;
-    jac_phi_q_v_A_j[40] = t276 * omega_i_cross_h_i_in_i_0 + t279 * omega_i_cross_h_i_in_i_1 + t277 *
-        omega_i_cross_h_i_in_i_2 - (t277 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t284 + (t279 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t282 + (t276 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t283)));
     const jg_real t285 = t155 * C_j[6] + t214 * C_j[7];
     const jg_real t286 = A_i[0] * C_j[8];
     const jg_real t287 = A_i[6] * C_j[8];
-    jac_phi_q_v_A_j[41] = omega_i_cross_h_i_in_i_0 * t286 + omega_i_cross_h_i_in_i_1 * t285 +
-        omega_i_cross_h_i_in_i_2 * t287 - (t284 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t287 + (t283 * h_j_in_i_0
-        + omega_j_cross_h_i_in_i_0 * t286 + (t282 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t285)));
     const jg_real t288 = A_i[7] * omega_j[2];
     const jg_real t289 = s_j[0] * t175 + s_j[1] * t233;
     const jg_real t290 = A_i[7] * s_j[2];
     const jg_real t291 = omega_j[0] * t175 + omega_j[1] * t233;
-    jac_phi_q_v_A_j[42] = omega_i[2] * t289 - omega_i[1] * t290 - (omega_j_in_i_2 * t289 + t288 * s_j_in_i_1 - (t290
-        * omega_j_in_i_1 + s_j_in_i_2 * t291)) + A_i[1] * v_j[2];
     const jg_real t292 = A_i[1] * omega_j[2];
     const jg_real t293 = A_i[1] * s_j[2];
-    jac_phi_q_v_A_j[43] = v_j[0] * t175 + v_j[1] * t233 + (omega_i[0] * t290 - omega_i[2] * t293 - (t290 *
-        omega_j_in_i_0 + t292 * s_j_in_i_2 - (t293 * omega_j_in_i_2 + t288 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[44] = omega_i[1] * t293 - omega_i[0] * t289 - (t293 * omega_j_in_i_1 + s_j_in_i_0 * t291 -
-        (omega_j_in_i_0 * t289 + t292 * s_j_in_i_1)) + A_i[7] * v_j[2];
     const jg_real t294 = A_i[1] * C_j[2];
     const jg_real t295 = A_i[7] * C_j[2];
     const jg_real t296 = C_i[2] * t294 - C_i[0] * t295;
     const jg_real t297 = C_j[0] * t175 + C_j[1] * t233;
     const jg_real t298 = C_i[1] * t295 - C_i[2] * t297;
     const jg_real t299 = C_i[0] * t297 - C_i[1] * t294;
-    jac_phi_q_v_A_j[45] = omega_i[0] * t298 + omega_i[1] * t296 + omega_i[2] * t299 - (t288 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t299 + (t292 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t298 + (t291 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t296)));
     const jg_real t300 = C_i[6] * t288 - C_i[8] * t292;
     const jg_real t301 = C_i[8] * t291 - C_i[7] * t288;
     const jg_real t302 = C_i[7] * t292 - C_i[6] * t291;
-    jac_phi_q_v_A_j[46] = t294 * omega_i_cross_h_i_in_i_0 + t297 * omega_i_cross_h_i_in_i_1 + t295 *
-        omega_i_cross_h_i_in_i_2 - (t295 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t302 + (t297 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t300 + (t294 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t301)));
     const jg_real t303 = t175 * C_j[6] + t233 * C_j[7];
     const jg_real t304 = A_i[1] * C_j[8];
     const jg_real t305 = A_i[7] * C_j[8];
+    jac_phi_q_v_A_j[40] = t279 * omega_i_cross_h_i_in_i_1 + t276 * omega_i_cross_h_i_in_i_0 + t277 *
+        omega_i_cross_h_i_in_i_2 - (t277 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t284 + (t276 *
+        omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t283 + (t279 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t282)));
+    jac_phi_q_v_A_j[41] = omega_i_cross_h_i_in_i_0 * t286 + omega_i_cross_h_i_in_i_1 * t285 +
+        omega_i_cross_h_i_in_i_2 * t287 - (t284 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t287 + (t283 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t286 + (t282 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t285)));
+    jac_phi_q_v_A_j[42] = omega_i[2] * t289 - omega_i[1] * t290 - (omega_j_in_i_2 * t289 + t288 * s_j_in_i_1 - (t290
+        * omega_j_in_i_1 + s_j_in_i_2 * t291)) + A_i[1] * v_j[2];
+    jac_phi_q_v_A_j[43] = v_j[0] * t175 + v_j[1] * t233 + (omega_i[0] * t290 - omega_i[2] * t293 - (t290 *
+        omega_j_in_i_0 + t292 * s_j_in_i_2 - (t293 * omega_j_in_i_2 + t288 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[44] = omega_i[1] * t293 - omega_i[0] * t289 - (t293 * omega_j_in_i_1 + t291 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t289 + t292 * s_j_in_i_1)) + A_i[7] * v_j[2];
+    jac_phi_q_v_A_j[45] = omega_i[0] * t298 + omega_i[1] * t296 + omega_i[2] * t299 - (t288 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t299 + (t292 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t298 + (t291 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t296)));
+    jac_phi_q_v_A_j[46] = t297 * omega_i_cross_h_i_in_i_1 + t294 * omega_i_cross_h_i_in_i_0 + t295 *
+        omega_i_cross_h_i_in_i_2 - (t295 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t302 + (t294 *
+        omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t301 + (t297 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t300)));
     jac_phi_q_v_A_j[47] = omega_i_cross_h_i_in_i_0 * t304 + omega_i_cross_h_i_in_i_1 * t303 +
         omega_i_cross_h_i_in_i_2 * t305 - (t302 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t305 + (t301 * h_j_in_i_0
         + omega_j_cross_h_i_in_i_0 * t304 + (t300 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t303)));
@@ -784,63 +787,63 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t307 = s_j[0] * t195 + s_j[1] * t252;
     const jg_real t308 = A_i[8] * s_j[2];
     const jg_real t309 = omega_j[0] * t195 + omega_j[1] * t252;
-    jac_phi_q_v_A_j[48] = omega_i[2] * t307 - omega_i[1] * t308 - (omega_j_in_i_2 * t307 + t306 * s_j_in_i_1 - (t308
-        * omega_j_in_i_1 + s_j_in_i_2 * t309)) + A_i[2] * v_j[2];
     const jg_real t310 = A_i[2] * omega_j[2];
     const jg_real t311 = A_i[2] * s_j[2];
-    jac_phi_q_v_A_j[49] = v_j[0] * t195 + v_j[1] * t252 + (omega_i[0] * t308 - omega_i[2] * t311 - (t308 *
-        omega_j_in_i_0 + t310 * s_j_in_i_2 - (t311 * omega_j_in_i_2 + t306 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[50] = omega_i[1] * t311 - omega_i[0] * t307 - (t311 * omega_j_in_i_1 + s_j_in_i_0 * t309 -
-        (omega_j_in_i_0 * t307 + t310 * s_j_in_i_1)) + A_i[8] * v_j[2];
     const jg_real t312 = A_i[2] * C_j[2];
     const jg_real t313 = A_i[8] * C_j[2];
     const jg_real t314 = C_i[2] * t312 - C_i[0] * t313;
     const jg_real t315 = C_j[0] * t195 + C_j[1] * t252;
     const jg_real t316 = C_i[1] * t313 - C_i[2] * t315;
     const jg_real t317 = C_i[0] * t315 - C_i[1] * t312;
-    jac_phi_q_v_A_j[51] = omega_i[0] * t316 + omega_i[1] * t314 + omega_i[2] * t317 - (t306 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t317 + (t310 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t316 + (t309 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t314)));
     const jg_real t318 = C_i[6] * t306 - C_i[8] * t310;
     const jg_real t319 = C_i[8] * t309 - C_i[7] * t306;
     const jg_real t320 = C_i[7] * t310 - C_i[6] * t309;
-    jac_phi_q_v_A_j[52] = t312 * omega_i_cross_h_i_in_i_0 + t315 * omega_i_cross_h_i_in_i_1 + t313 *
-        omega_i_cross_h_i_in_i_2 - (t313 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t320 + (t315 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t318 + (t312 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t319)));
     const jg_real t321 = t195 * C_j[6] + t252 * C_j[7];
     const jg_real t322 = A_i[2] * C_j[8];
     const jg_real t323 = A_i[8] * C_j[8];
-    jac_phi_q_v_A_j[53] = omega_i_cross_h_i_in_i_0 * t322 + omega_i_cross_h_i_in_i_1 * t321 +
-        omega_i_cross_h_i_in_i_2 * t323 - (t320 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t323 + (t319 * h_j_in_i_0
-        + omega_j_cross_h_i_in_i_0 * t322 + (t318 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t321)));
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    jac_phi_q_v_velocity[47] = cosine_1;
     const jg_real t328 = cosine_0 * cosine_1;
     const jg_real t329 = sine_0 * sine_1;
+    jac_phi_q_v_A_j[48] = omega_i[2] * t307 - omega_i[1] * t308 - (omega_j_in_i_2 * t307 + t306 * s_j_in_i_1 - (t308
+        * omega_j_in_i_1 + s_j_in_i_2 * t309)) + A_i[2] * v_j[2];
+    jac_phi_q_v_A_j[49] = v_j[0] * t195 + v_j[1] * t252 + (omega_i[0] * t308 - omega_i[2] * t311 - (t308 *
+        omega_j_in_i_0 + t310 * s_j_in_i_2 - (t311 * omega_j_in_i_2 + t306 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[50] = omega_i[1] * t311 - omega_i[0] * t307 - (t311 * omega_j_in_i_1 + t309 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t307 + t310 * s_j_in_i_1)) + A_i[8] * v_j[2];
+    jac_phi_q_v_A_j[51] = omega_i[0] * t316 + omega_i[1] * t314 + omega_i[2] * t317 - (t306 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t317 + (t310 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t316 + (t309 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t314)));
+    jac_phi_q_v_A_j[52] = t315 * omega_i_cross_h_i_in_i_1 + t312 * omega_i_cross_h_i_in_i_0 + t313 *
+        omega_i_cross_h_i_in_i_2 - (t313 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t320 + (t312 *
+        omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t319 + (t315 * omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t318)));
+    jac_phi_q_v_A_j[53] = omega_i_cross_h_i_in_i_0 * t322 + omega_i_cross_h_i_in_i_1 * t321 +
+        omega_i_cross_h_i_in_i_2 * t323 - (t320 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t323 + (t319 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t322 + (t318 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t321)));
+    jac_phi_q_v_velocity[47] = cosine_1;
     jac_phi_q_v_alpha[0] = alphadot[0] * t328 - alphadot[1] * t329;
-    jac_phi_q_v_alpha[1] = alphadot[1] * t328 - alphadot[0] * t329;
-    jac_phi_q_v_alpha[2] = -(alphadot[1] * sine_1);
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
     const jg_real t332 = cosine_1 * cosine_2;
     const jg_real t333 = sine_1 * sine_2;
-    jac_phi_q_v_alpha[3] = alphadot[1] * t332 - alphadot[2] * t333;
-    jac_phi_q_v_alpha[4] = alphadot[2] * t332 - alphadot[1] * t333;
     const jg_real t334 = omega_i[2] * f_j_in_i_1 - omega_i[1] * f_j_in_i_2 - (omega_j_in_i_2 * f_j_in_i_1 -
         omega_j_in_i_1 * f_j_in_i_2);
-    jac_phi_q_v_geometry[0] = t334;
-    jac_phi_q_v_geometry[3] = t334;
     const jg_real t335 = omega_i[0] * f_j_in_i_2 - omega_i[2] * f_j_in_i_0 - (omega_j_in_i_0 * f_j_in_i_2 -
         omega_j_in_i_2 * f_j_in_i_0);
+    jac_phi_q_v_alpha[1] = alphadot[1] * t328 - alphadot[0] * t329;
+    jac_phi_q_v_alpha[2] = -(alphadot[1] * sine_1);
+    jac_phi_q_v_alpha[3] = alphadot[1] * t332 - alphadot[2] * t333;
+    jac_phi_q_v_alpha[4] = alphadot[2] * t332 - alphadot[1] * t333;
+    jac_phi_q_v_geometry[0] = t334;
+    jac_phi_q_v_geometry[3] = t334;
     jac_phi_q_v_geometry[1] = t335;
     jac_phi_q_v_geometry[5] = t335;
-    const jg_real t336 = omega_i[1] * f_j_in_i_0 - omega_i[0] * f_j_in_i_1 - (f_j_in_i_0 * omega_j_in_i_1 -
+    const jg_real t336 = omega_i[1] * f_j_in_i_0 - omega_i[0] * f_j_in_i_1 - (omega_j_in_i_1 * f_j_in_i_0 -
         omega_j_in_i_0 * f_j_in_i_1);
     jac_phi_q_v_geometry[2] = t336;
     jac_phi_q_v_geometry[7] = t336;
@@ -856,6 +859,12 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         omega_j_in_i_2);
     jac_phi_q_v_geometry[11] = omega_i[1] * A_ji_0 - omega_i[0] * A_ji_3 - (A_ji_0 * omega_j_in_i_1 - A_ji_3 *
         omega_j_in_i_0);
+    const jg_real t337 = C_i[0] * A_ji_3 - C_i[1] * A_ji_0;
+    const jg_real t338 = C_i[1] * A_ji_6 - C_i[2] * A_ji_3;
+    const jg_real t339 = C_i[2] * A_ji_0 - C_i[0] * A_ji_6;
+    const jg_real t340 = A_ji_3 * omega_i_cross_h_i_in_i_1 + A_ji_0 * omega_i_cross_h_i_in_i_0 + A_ji_6 *
+        omega_i_cross_h_i_in_i_2 - (A_ji_0 * omega_j_cross_h_i_in_i_0 + A_ji_3 * omega_j_cross_h_i_in_i_1 + A_ji_6 *
+        omega_j_cross_h_i_in_i_2);
     jac_phi_q_v_geometry[12] = omega_i[2] * A_ji_4 - omega_i[1] * A_ji_7 - (A_ji_4 * omega_j_in_i_2 - A_ji_7 *
         omega_j_in_i_1);
     jac_phi_q_v_geometry[13] = omega_i[0] * A_ji_7 - omega_i[2] * A_ji_1 - (A_ji_7 * omega_j_in_i_0 - A_ji_1 *
@@ -864,38 +873,32 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         omega_j_in_i_0);
     jac_phi_q_v_geometry[15] = omega_i[2] * A_ji_5 - omega_i[1] * A_ji_8 - (A_ji_5 * omega_j_in_i_2 - A_ji_8 *
         omega_j_in_i_1);
-    jac_phi_q_v_geometry[16] = omega_i[0] * A_ji_8 - omega_i[2] * A_ji_2 - (A_ji_8 * omega_j_in_i_0 - A_ji_2 *
+    jac_phi_q_v_geometry[16] = omega_i[0] * A_ji_8 - A_ji_2 * omega_i[2] - (A_ji_8 * omega_j_in_i_0 - A_ji_2 *
         omega_j_in_i_2);
-    jac_phi_q_v_geometry[17] = omega_i[1] * A_ji_2 - omega_i[0] * A_ji_5 - (A_ji_2 * omega_j_in_i_1 - A_ji_5 *
+    jac_phi_q_v_geometry[17] = A_ji_2 * omega_i[1] - omega_i[0] * A_ji_5 - (A_ji_2 * omega_j_in_i_1 - A_ji_5 *
         omega_j_in_i_0);
-    const jg_real t337 = C_i[0] * A_ji_3 - C_i[1] * A_ji_0;
-    const jg_real t338 = C_i[1] * A_ji_6 - C_i[2] * A_ji_3;
-    const jg_real t339 = C_i[2] * A_ji_0 - C_i[0] * A_ji_6;
     jac_phi_q_v_geometry[18] = omega_i[0] * t338 + omega_i[1] * t339 + omega_i[2] * t337 - (omega_j_in_i_0 * t338 +
         omega_j_in_i_1 * t339 + omega_j_in_i_2 * t337);
-    const jg_real t340 = A_ji_0 * omega_i_cross_h_i_in_i_0 + A_ji_3 * omega_i_cross_h_i_in_i_1 + A_ji_6 *
-        omega_i_cross_h_i_in_i_2 - (A_ji_3 * omega_j_cross_h_i_in_i_1 + A_ji_0 * omega_j_cross_h_i_in_i_0 + A_ji_6 *
-        omega_j_cross_h_i_in_i_2);
     jac_phi_q_v_geometry[19] = t340;
     jac_phi_q_v_geometry[24] = t340;
     const jg_real t341 = C_i[0] * A_ji_4 - C_i[1] * A_ji_1;
     const jg_real t342 = C_i[1] * A_ji_7 - C_i[2] * A_ji_4;
     const jg_real t343 = C_i[2] * A_ji_1 - C_i[0] * A_ji_7;
+    const jg_real t344 = A_ji_4 * omega_i_cross_h_i_in_i_1 + A_ji_1 * omega_i_cross_h_i_in_i_0 + A_ji_7 *
+        omega_i_cross_h_i_in_i_2 - (A_ji_1 * omega_j_cross_h_i_in_i_0 + A_ji_4 * omega_j_cross_h_i_in_i_1 + A_ji_7 *
+        omega_j_cross_h_i_in_i_2);
+    const jg_real t345 = C_i[0] * A_ji_5 - A_ji_2 * C_i[1];
+    const jg_real t346 = C_i[1] * A_ji_8 - C_i[2] * A_ji_5;
+    const jg_real t347 = A_ji_2 * C_i[2] - C_i[0] * A_ji_8;
+    const jg_real t348 = A_ji_5 * omega_i_cross_h_i_in_i_1 + A_ji_2 * omega_i_cross_h_i_in_i_0 + A_ji_8 *
+        omega_i_cross_h_i_in_i_2 - (A_ji_2 * omega_j_cross_h_i_in_i_0 + A_ji_5 * omega_j_cross_h_i_in_i_1 + A_ji_8 *
+        omega_j_cross_h_i_in_i_2);
     jac_phi_q_v_geometry[20] = omega_i[0] * t342 + omega_i[1] * t343 + omega_i[2] * t341 - (omega_j_in_i_0 * t342 +
         omega_j_in_i_1 * t343 + omega_j_in_i_2 * t341);
-    const jg_real t344 = A_ji_1 * omega_i_cross_h_i_in_i_0 + A_ji_4 * omega_i_cross_h_i_in_i_1 + A_ji_7 *
-        omega_i_cross_h_i_in_i_2 - (A_ji_4 * omega_j_cross_h_i_in_i_1 + A_ji_1 * omega_j_cross_h_i_in_i_0 + A_ji_7 *
-        omega_j_cross_h_i_in_i_2);
     jac_phi_q_v_geometry[21] = t344;
     jac_phi_q_v_geometry[25] = t344;
-    const jg_real t345 = C_i[0] * A_ji_5 - C_i[1] * A_ji_2;
-    const jg_real t346 = C_i[1] * A_ji_8 - C_i[2] * A_ji_5;
-    const jg_real t347 = C_i[2] * A_ji_2 - C_i[0] * A_ji_8;
     jac_phi_q_v_geometry[22] = omega_i[0] * t346 + omega_i[1] * t347 + omega_i[2] * t345 - (omega_j_in_i_0 * t346 +
         omega_j_in_i_1 * t347 + omega_j_in_i_2 * t345);
-    const jg_real t348 = A_ji_2 * omega_i_cross_h_i_in_i_0 + A_ji_5 * omega_i_cross_h_i_in_i_1 + A_ji_8 *
-        omega_i_cross_h_i_in_i_2 - (A_ji_5 * omega_j_cross_h_i_in_i_1 + A_ji_2 * omega_j_cross_h_i_in_i_0 + A_ji_8 *
-        omega_j_cross_h_i_in_i_2);
     jac_phi_q_v_geometry[23] = t348;
     jac_phi_q_v_geometry[26] = t348;
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
@@ -905,16 +908,16 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    jac_phi_q_v_velocity[3] = e_ij_in_i_2;
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    jac_phi_q_v_velocity[3] = e_ij_in_i_2;
     jac_phi_q_v_velocity[13] = e_ij_in_i_1;
     jac_phi_q_v_velocity[4] = -e_ij_in_i_1;
     jac_phi_q_v_velocity[6] = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
     jac_phi_q_v_velocity[7] = C_i[7] * h_j_in_i_2 - C_i[8] * h_j_in_i_1;
     jac_phi_q_v_velocity[8] = -e_ij_in_i_2;
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     jac_phi_q_v_velocity[9] = e_ij_in_i_0;
     jac_phi_q_v_velocity[11] = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
     jac_phi_q_v_velocity[12] = C_i[8] * h_j_in_i_0 - C_i[6] * h_j_in_i_2;
@@ -929,27 +932,27 @@ static void jg_ball_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t355 = C_i[6] * A_ji_6 - C_i[8] * A_ji_0;
     const jg_real t356 = C_i[8] * A_ji_3 - C_i[7] * A_ji_6;
     const jg_real t357 = C_i[7] * A_ji_0 - C_i[6] * A_ji_3;
-    jac_phi_q_v_velocity[31] = -(f_j_in_i_1 * t355 + f_j_in_i_0 * t356 + f_j_in_i_2 * t357);
+    const jg_real t358 = A_ji_7 * C_i[6] - A_ji_1 * C_i[8];
+    const jg_real t359 = C_i[8] * A_ji_4 - A_ji_7 * C_i[7];
+    const jg_real t360 = A_ji_1 * C_i[7] - C_i[6] * A_ji_4;
+    jac_phi_q_v_velocity[31] = -(f_j_in_i_0 * t356 + f_j_in_i_1 * t355 + f_j_in_i_2 * t357);
     jac_phi_q_v_velocity[32] = -(t356 * h_j_in_i_0 + t355 * h_j_in_i_1 + t357 * h_j_in_i_2);
     jac_phi_q_v_velocity[33] = A_ji_4 * s_j_in_i_2 - A_ji_7 * s_j_in_i_1;
     jac_phi_q_v_velocity[34] = A_ji_7 * s_j_in_i_0 - A_ji_1 * s_j_in_i_2;
     jac_phi_q_v_velocity[35] = A_ji_1 * s_j_in_i_1 - A_ji_4 * s_j_in_i_0;
     jac_phi_q_v_velocity[36] = -(A_ji_1 * f_i_cross_f_j_in_i_0 + A_ji_4 * f_i_cross_f_j_in_i_1 + A_ji_7 *
         f_i_cross_f_j_in_i_2);
-    const jg_real t358 = C_i[6] * A_ji_7 - C_i[8] * A_ji_1;
-    const jg_real t359 = C_i[8] * A_ji_4 - C_i[7] * A_ji_7;
-    const jg_real t360 = C_i[7] * A_ji_1 - C_i[6] * A_ji_4;
-    jac_phi_q_v_velocity[37] = -(f_j_in_i_1 * t358 + f_j_in_i_0 * t359 + f_j_in_i_2 * t360);
+    jac_phi_q_v_velocity[37] = -(f_j_in_i_0 * t359 + f_j_in_i_1 * t358 + f_j_in_i_2 * t360);
     jac_phi_q_v_velocity[38] = -(t359 * h_j_in_i_0 + t358 * h_j_in_i_1 + t360 * h_j_in_i_2);
+    const jg_real t361 = C_i[6] * A_ji_8 - A_ji_2 * C_i[8];
+    const jg_real t362 = C_i[8] * A_ji_5 - C_i[7] * A_ji_8;
+    const jg_real t363 = A_ji_2 * C_i[7] - C_i[6] * A_ji_5;
     jac_phi_q_v_velocity[39] = A_ji_5 * s_j_in_i_2 - A_ji_8 * s_j_in_i_1;
     jac_phi_q_v_velocity[40] = A_ji_8 * s_j_in_i_0 - A_ji_2 * s_j_in_i_2;
     jac_phi_q_v_velocity[41] = A_ji_2 * s_j_in_i_1 - A_ji_5 * s_j_in_i_0;
     jac_phi_q_v_velocity[42] = -(A_ji_2 * f_i_cross_f_j_in_i_0 + A_ji_5 * f_i_cross_f_j_in_i_1 + A_ji_8 *
         f_i_cross_f_j_in_i_2);
-    const jg_real t361 = C_i[6] * A_ji_8 - C_i[8] * A_ji_2;
-    const jg_real t362 = C_i[8] * A_ji_5 - C_i[7] * A_ji_8;
-    const jg_real t363 = C_i[7] * A_ji_2 - C_i[6] * A_ji_5;
-    jac_phi_q_v_velocity[43] = -(f_j_in_i_1 * t361 + f_j_in_i_0 * t362 + f_j_in_i_2 * t363);
+    jac_phi_q_v_velocity[43] = -(f_j_in_i_0 * t362 + f_j_in_i_1 * t361 + f_j_in_i_2 * t363);
     jac_phi_q_v_velocity[44] = -(t362 * h_j_in_i_0 + t361 * h_j_in_i_1 + t363 * h_j_in_i_2);
     jac_phi_q_v_velocity[45] = sine_0 * cosine_1;
     jac_phi_q_v_velocity[46] = cosine_0 * sine_1;
@@ -969,37 +972,37 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
@@ -1007,25 +1010,19 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
     /* v_2_in_j = lambda_3 f_i + lambda_4 h_i, axes of body j */
     const jg_real v_2_in_j_2 = lambda[3] * f_i_in_j_2 + lambda[4] * h_i_in_j_2;
-    jac_phi_q_t_lambda_geometry[59] = v_2_in_j_2;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
     const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
     const jg_real h_i_in_j_1 = C_i[6] * A_ji_1 + C_i[7] * A_ji_4 + C_i[8] * A_ji_7;
     const jg_real v_2_in_j_1 = lambda[3] * f_i_in_j_1 + lambda[4] * h_i_in_j_1;
-    jac_phi_q_t_lambda_geometry[55] = v_2_in_j_1;
     /* v_3_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body j */
     const jg_real v_3_in_j_0 = C_j[1] * v_2_in_j_2 - C_j[2] * v_2_in_j_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    jac_phi_q_t_lambda_geometry[44] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[40] = lambda_0_1_2_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* h_j_cross_h_i_in_j = h_j x h_i, axes of body j */
     const jg_real h_j_cross_h_i_in_j_0 = C_j[7] * h_i_in_j_2 - C_j[8] * h_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[48] = h_j_cross_h_i_in_j_0;
     /* v_4_in_j = lambda_5 h_j x h_i, axes of body j */
     const jg_real v_4_in_j_0 = lambda[5] * h_j_cross_h_i_in_j_0;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 f_j x f_i + lambda_4 f_j x h_i + lambda_5 h_j x h_i, axes of ... */
@@ -1038,24 +1035,25 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t35 = A_j[3] * C_i[6] + C_i[7] * t34;
     const jg_real t36 = lambda[3] * (A_j[3] * C_i[0] + C_i[1] * t34) + lambda[4] * t35;
     const jg_real t37 = lambda[0] * A_j[6] + lambda[1] * t31;
-    jac_phi_q_t_lambda_A_i[5] = t37;
     const jg_real t38 = lambda[0] * A_j[3] + lambda[1] * t34;
+    jac_phi_q_t_lambda_geometry[59] = v_2_in_j_2;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
+    jac_phi_q_t_lambda_geometry[55] = v_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[44] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[40] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[48] = h_j_cross_h_i_in_j_0;
+    jac_phi_q_t_lambda_A_i[5] = t37;
     jac_phi_q_t_lambda_A_i[4] = t38;
     const jg_real t39 = s_j[1] * t37 - s_j[2] * t38 + (C_j[1] * t33 - C_j[2] * t36) + lambda[5] * (C_j[7] * t32 -
         C_j[8] * t35);
-    jac_phi_q_t_lambda_A_i[6] = t39;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
     const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
     const jg_real h_i_in_j_0 = C_i[6] * A_ji_0 + C_i[7] * A_ji_3 + C_i[8] * A_ji_6;
     const jg_real v_2_in_j_0 = lambda[3] * f_i_in_j_0 + lambda[4] * h_i_in_j_0;
-    jac_phi_q_t_lambda_geometry[65] = v_2_in_j_0;
     const jg_real v_3_in_j_1 = C_j[2] * v_2_in_j_0 - C_j[0] * v_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real h_j_cross_h_i_in_j_1 = C_j[8] * h_i_in_j_0 - C_j[6] * h_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[49] = h_j_cross_h_i_in_j_1;
     const jg_real v_4_in_j_1 = lambda[5] * h_j_cross_h_i_in_j_1;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
     const jg_real t50 = A_j[3] * v_5_in_j_1;
@@ -1063,28 +1061,28 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t52 = A_j[0] * C_i[6] + C_i[7] * t51;
     const jg_real t53 = lambda[3] * (A_j[0] * C_i[0] + C_i[1] * t51) + lambda[4] * t52;
     const jg_real t54 = lambda[0] * A_j[0] + lambda[1] * t51;
-    jac_phi_q_t_lambda_A_i[3] = t54;
     const jg_real t55 = s_j[2] * t54 - s_j[0] * t37 + (C_j[2] * t53 - C_j[0] * t33) + lambda[5] * (C_j[8] * t52 -
         C_j[6] * t32);
-    jac_phi_q_t_lambda_A_i[7] = t55;
     const jg_real v_3_in_j_2 = C_j[0] * v_2_in_j_1 - C_j[1] * v_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real h_j_cross_h_i_in_j_2 = C_j[6] * h_i_in_j_1 - C_j[7] * h_i_in_j_0;
+    jac_phi_q_t_lambda_A_i[6] = t39;
+    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
+    jac_phi_q_t_lambda_geometry[65] = v_2_in_j_0;
+    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_lambda[49] = h_j_cross_h_i_in_j_1;
+    jac_phi_q_t_lambda_A_i[3] = t54;
+    jac_phi_q_t_lambda_A_i[7] = t55;
     jac_phi_q_t_lambda_lambda[50] = h_j_cross_h_i_in_j_2;
     const jg_real v_4_in_j_2 = lambda[5] * h_j_cross_h_i_in_j_2;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
     const jg_real t61 = A_j[6] * v_5_in_j_2;
     const jg_real t62 = s_j[0] * t38 - s_j[1] * t54 + (C_j[0] * t36 - C_j[1] * t53) + lambda[5] * (C_j[6] * t35 -
         C_j[7] * t52);
-    jac_phi_q_t_lambda_A_i[8] = t62;
-    jac_phi_q_t_lambda_A_i[0] = -(t61 + A_ji_2 * t62 + (t30 + A_ji_0 * t39 + (t50 + A_ji_1 * t55)));
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t64 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = t64 - (t31 * v_5_in_j_2 + A_ji_5 * t62 + (t51 * v_5_in_j_0 + A_ji_3 * t39 + (t34 *
-        v_5_in_j_1 + A_ji_4 * t55)));
     const jg_real t65 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t39 + A_ji_7 * t55 + A_ji_8 * t62 + t65);
     const jg_real t66 = A_j[1] * v_5_in_j_0;
     const jg_real t67 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t68 = A_j[7] * C_i[6] + C_i[7] * t67;
@@ -1093,32 +1091,31 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t71 = A_j[4] * C_i[6] + C_i[7] * t70;
     const jg_real t72 = lambda[3] * (A_j[4] * C_i[0] + C_i[1] * t70) + lambda[4] * t71;
     const jg_real t73 = lambda[0] * A_j[7] + lambda[1] * t67;
-    jac_phi_q_t_lambda_A_i[14] = t73;
     const jg_real t74 = lambda[0] * A_j[4] + lambda[1] * t70;
-    jac_phi_q_t_lambda_A_i[13] = t74;
     const jg_real t75 = s_j[1] * t73 - s_j[2] * t74 + (C_j[1] * t69 - C_j[2] * t72) + lambda[5] * (C_j[7] * t68 -
         C_j[8] * t71);
-    jac_phi_q_t_lambda_A_i[15] = t75;
     const jg_real t76 = A_j[4] * v_5_in_j_1;
     const jg_real t77 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t78 = A_j[1] * C_i[6] + C_i[7] * t77;
     const jg_real t79 = lambda[3] * (A_j[1] * C_i[0] + C_i[1] * t77) + lambda[4] * t78;
     const jg_real t80 = lambda[0] * A_j[1] + lambda[1] * t77;
+    jac_phi_q_t_lambda_A_i[8] = t62;
+    jac_phi_q_t_lambda_A_i[0] = -(t61 + A_ji_2 * t62 + (t30 + A_ji_0 * t39 + (t50 + A_ji_1 * t55)));
+    jac_phi_q_t_lambda_A_i[1] = t64 - (t31 * v_5_in_j_2 + A_ji_5 * t62 + (t51 * v_5_in_j_0 + A_ji_3 * t39 + (t34 *
+        v_5_in_j_1 + A_ji_4 * t55)));
+    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t39 + A_ji_7 * t55 + A_ji_8 * t62 + t65);
+    jac_phi_q_t_lambda_A_i[14] = t73;
+    jac_phi_q_t_lambda_A_i[13] = t74;
+    jac_phi_q_t_lambda_A_i[15] = t75;
     jac_phi_q_t_lambda_A_i[12] = t80;
     const jg_real t81 = s_j[2] * t80 - s_j[0] * t73 + (C_j[2] * t79 - C_j[0] * t69) + lambda[5] * (C_j[8] * t78 -
         C_j[6] * t68);
-    jac_phi_q_t_lambda_A_i[16] = t81;
     const jg_real t82 = A_j[7] * v_5_in_j_2;
     const jg_real t83 = s_j[0] * t74 - s_j[1] * t80 + (C_j[0] * t72 - C_j[1] * t79) + lambda[5] * (C_j[6] * t71 -
         C_j[7] * t78);
-    jac_phi_q_t_lambda_A_i[17] = t83;
-    jac_phi_q_t_lambda_A_i[9] = -(t82 + A_ji_2 * t83 + (t66 + A_ji_0 * t75 + (t76 + A_ji_1 * t81)));
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t85 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[10] = t85 - (t67 * v_5_in_j_2 + A_ji_5 * t83 + (t77 * v_5_in_j_0 + A_ji_3 * t75 + (t70 *
-        v_5_in_j_1 + A_ji_4 * t81)));
     const jg_real t86 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[11] = -(A_ji_6 * t75 + A_ji_7 * t81 + A_ji_8 * t83 + t86);
     const jg_real t87 = A_j[2] * v_5_in_j_0;
     const jg_real t88 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t89 = A_j[8] * C_i[6] + C_i[7] * t88;
@@ -1127,41 +1124,43 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t92 = A_j[5] * C_i[6] + C_i[7] * t91;
     const jg_real t93 = lambda[3] * (A_j[5] * C_i[0] + C_i[1] * t91) + lambda[4] * t92;
     const jg_real t94 = lambda[0] * A_j[8] + lambda[1] * t88;
-    jac_phi_q_t_lambda_A_i[23] = t94;
     const jg_real t95 = lambda[0] * A_j[5] + lambda[1] * t91;
-    jac_phi_q_t_lambda_A_i[22] = t95;
     const jg_real t96 = s_j[1] * t94 - s_j[2] * t95 + (C_j[1] * t90 - C_j[2] * t93) + lambda[5] * (C_j[7] * t89 -
         C_j[8] * t92);
+    jac_phi_q_t_lambda_A_i[16] = t81;
+    jac_phi_q_t_lambda_A_i[17] = t83;
+    jac_phi_q_t_lambda_A_i[9] = -(t82 + A_ji_2 * t83 + (t66 + A_ji_0 * t75 + (t76 + A_ji_1 * t81)));
+    jac_phi_q_t_lambda_A_i[10] = t85 - (t67 * v_5_in_j_2 + A_ji_5 * t83 + (t77 * v_5_in_j_0 + A_ji_3 * t75 + (t70 *
+        v_5_in_j_1 + A_ji_4 * t81)));
+    jac_phi_q_t_lambda_A_i[11] = -(A_ji_6 * t75 + A_ji_7 * t81 + A_ji_8 * t83 + t86);
+    jac_phi_q_t_lambda_A_i[23] = t94;
+    jac_phi_q_t_lambda_A_i[22] = t95;
     jac_phi_q_t_lambda_A_i[24] = t96;
     const jg_real t97 = A_j[5] * v_5_in_j_1;
     const jg_real t98 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t99 = A_j[2] * C_i[6] + C_i[7] * t98;
     const jg_real t100 = lambda[3] * (A_j[2] * C_i[0] + C_i[1] * t98) + lambda[4] * t99;
     const jg_real t101 = lambda[0] * A_j[2] + lambda[1] * t98;
-    jac_phi_q_t_lambda_A_i[21] = t101;
     const jg_real t102 = s_j[2] * t101 - s_j[0] * t94 + (C_j[2] * t100 - C_j[0] * t90) + lambda[5] * (C_j[8] * t99 -
         C_j[6] * t89);
-    jac_phi_q_t_lambda_A_i[25] = t102;
     const jg_real t103 = A_j[8] * v_5_in_j_2;
     const jg_real t104 = s_j[0] * t95 - s_j[1] * t101 + (C_j[0] * t93 - C_j[1] * t100) + lambda[5] * (C_j[6] * t92 -
         C_j[7] * t99);
-    jac_phi_q_t_lambda_A_i[26] = t104;
-    jac_phi_q_t_lambda_A_i[18] = -(t103 + A_ji_2 * t104 + (t87 + A_ji_0 * t96 + (t97 + A_ji_1 * t102)));
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t106 = lambda[2] * v_0_world_2;
+    const jg_real t107 = lambda[1] * v_0_world_2;
+    const jg_real t108 = lambda[0] * v_0_world_0;
+    jac_phi_q_t_lambda_A_i[21] = t101;
+    jac_phi_q_t_lambda_A_i[25] = t102;
+    jac_phi_q_t_lambda_A_i[26] = t104;
+    jac_phi_q_t_lambda_A_i[18] = -(t103 + A_ji_2 * t104 + (t87 + A_ji_0 * t96 + (t97 + A_ji_1 * t102)));
     jac_phi_q_t_lambda_A_i[19] = t106 - (t88 * v_5_in_j_2 + A_ji_5 * t104 + (t98 * v_5_in_j_0 + A_ji_3 * t96 + (t91
         * v_5_in_j_1 + A_ji_4 * t102)));
-    const jg_real t107 = lambda[1] * v_0_world_2;
     jac_phi_q_t_lambda_A_i[20] = -(A_ji_6 * t96 + A_ji_7 * t102 + A_ji_8 * t104 + t107);
     jac_phi_q_t_lambda_A_i[27] = -t64;
-    const jg_real t108 = lambda[0] * v_0_world_0;
     jac_phi_q_t_lambda_A_i[28] = t108;
-    jac_phi_q_t_lambda_A_i[29] = -t85;
     const jg_real t109 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[30] = t109;
-    jac_phi_q_t_lambda_A_i[31] = -t106;
     const jg_real t110 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[32] = t110;
     const jg_real t111 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t112 = A_j[6] * C_i[8] + C_i[7] * t111;
     const jg_real t113 = lambda[3] * (A_j[6] * C_i[2] + C_i[1] * t111) + lambda[4] * t112;
@@ -1169,27 +1168,25 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t115 = A_j[3] * C_i[8] + C_i[7] * t114;
     const jg_real t116 = lambda[3] * (A_j[3] * C_i[2] + C_i[1] * t114) + lambda[4] * t115;
     const jg_real t117 = lambda[2] * A_j[6] + lambda[1] * t111;
-    jac_phi_q_t_lambda_A_i[38] = t117;
     const jg_real t118 = lambda[2] * A_j[3] + lambda[1] * t114;
-    jac_phi_q_t_lambda_A_i[37] = t118;
     const jg_real t119 = s_j[1] * t117 - s_j[2] * t118 + (C_j[1] * t113 - C_j[2] * t116) + lambda[5] * (C_j[7] *
         t112 - C_j[8] * t115);
-    jac_phi_q_t_lambda_A_i[39] = t119;
     const jg_real t120 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t121 = A_j[0] * C_i[8] + C_i[7] * t120;
     const jg_real t122 = lambda[3] * (A_j[0] * C_i[2] + C_i[1] * t120) + lambda[4] * t121;
     const jg_real t123 = lambda[2] * A_j[0] + lambda[1] * t120;
+    jac_phi_q_t_lambda_A_i[29] = -t85;
+    jac_phi_q_t_lambda_A_i[30] = t109;
+    jac_phi_q_t_lambda_A_i[31] = -t106;
+    jac_phi_q_t_lambda_A_i[32] = t110;
+    jac_phi_q_t_lambda_A_i[38] = t117;
+    jac_phi_q_t_lambda_A_i[37] = t118;
+    jac_phi_q_t_lambda_A_i[39] = t119;
     jac_phi_q_t_lambda_A_i[36] = t123;
     const jg_real t124 = s_j[2] * t123 - s_j[0] * t117 + (C_j[2] * t122 - C_j[0] * t113) + lambda[5] * (C_j[8] *
         t121 - C_j[6] * t112);
-    jac_phi_q_t_lambda_A_i[40] = t124;
     const jg_real t125 = s_j[0] * t118 - s_j[1] * t123 + (C_j[0] * t116 - C_j[1] * t122) + lambda[5] * (C_j[6] *
         t115 - C_j[7] * t121);
-    jac_phi_q_t_lambda_A_i[41] = t125;
-    jac_phi_q_t_lambda_A_i[33] = t65 - (A_ji_0 * t119 + A_ji_1 * t124 + A_ji_2 * t125);
-    jac_phi_q_t_lambda_A_i[34] = -(t111 * v_5_in_j_2 + A_ji_5 * t125 + (t120 * v_5_in_j_0 + A_ji_3 * t119 + (t114 *
-        v_5_in_j_1 + A_ji_4 * t124)) + t108);
-    jac_phi_q_t_lambda_A_i[35] = -(t61 + A_ji_8 * t125 + (t30 + A_ji_6 * t119 + (t50 + A_ji_7 * t124)));
     const jg_real t126 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t127 = A_j[7] * C_i[8] + C_i[7] * t126;
     const jg_real t128 = lambda[3] * (A_j[7] * C_i[2] + C_i[1] * t126) + lambda[4] * t127;
@@ -1197,27 +1194,26 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t130 = A_j[4] * C_i[8] + C_i[7] * t129;
     const jg_real t131 = lambda[3] * (A_j[4] * C_i[2] + C_i[1] * t129) + lambda[4] * t130;
     const jg_real t132 = lambda[2] * A_j[7] + lambda[1] * t126;
-    jac_phi_q_t_lambda_A_i[47] = t132;
     const jg_real t133 = lambda[2] * A_j[4] + lambda[1] * t129;
-    jac_phi_q_t_lambda_A_i[46] = t133;
     const jg_real t134 = s_j[1] * t132 - s_j[2] * t133 + (C_j[1] * t128 - C_j[2] * t131) + lambda[5] * (C_j[7] *
         t127 - C_j[8] * t130);
+    jac_phi_q_t_lambda_A_i[40] = t124;
+    jac_phi_q_t_lambda_A_i[41] = t125;
+    jac_phi_q_t_lambda_A_i[33] = t65 - (A_ji_0 * t119 + A_ji_1 * t124 + A_ji_2 * t125);
+    jac_phi_q_t_lambda_A_i[34] = -(t111 * v_5_in_j_2 + A_ji_5 * t125 + (t120 * v_5_in_j_0 + A_ji_3 * t119 + (t114 *
+        v_5_in_j_1 + A_ji_4 * t124)) + t108);
+    jac_phi_q_t_lambda_A_i[35] = -(t61 + A_ji_8 * t125 + (t30 + A_ji_6 * t119 + (t50 + A_ji_7 * t124)));
+    jac_phi_q_t_lambda_A_i[47] = t132;
+    jac_phi_q_t_lambda_A_i[46] = t133;
     jac_phi_q_t_lambda_A_i[48] = t134;
     const jg_real t135 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t136 = A_j[1] * C_i[8] + C_i[7] * t135;
     const jg_real t137 = lambda[3] * (A_j[1] * C_i[2] + C_i[1] * t135) + lambda[4] * t136;
     const jg_real t138 = lambda[2] * A_j[1] + lambda[1] * t135;
-    jac_phi_q_t_lambda_A_i[45] = t138;
     const jg_real t139 = s_j[2] * t138 - s_j[0] * t132 + (C_j[2] * t137 - C_j[0] * t128) + lambda[5] * (C_j[8] *
         t136 - C_j[6] * t127);
-    jac_phi_q_t_lambda_A_i[49] = t139;
     const jg_real t140 = s_j[0] * t133 - s_j[1] * t138 + (C_j[0] * t131 - C_j[1] * t137) + lambda[5] * (C_j[6] *
         t130 - C_j[7] * t136);
-    jac_phi_q_t_lambda_A_i[50] = t140;
-    jac_phi_q_t_lambda_A_i[42] = t86 - (A_ji_0 * t134 + A_ji_1 * t139 + A_ji_2 * t140);
-    jac_phi_q_t_lambda_A_i[43] = -(t126 * v_5_in_j_2 + A_ji_5 * t140 + (t135 * v_5_in_j_0 + A_ji_3 * t134 + (t129 *
-        v_5_in_j_1 + A_ji_4 * t139)) + t109);
-    jac_phi_q_t_lambda_A_i[44] = -(t82 + A_ji_8 * t140 + (t66 + A_ji_6 * t134 + (t76 + A_ji_7 * t139)));
     const jg_real t141 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t142 = A_j[8] * C_i[8] + C_i[7] * t141;
     const jg_real t143 = lambda[3] * (A_j[8] * C_i[2] + C_i[1] * t141) + lambda[4] * t142;
@@ -1225,22 +1221,29 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t145 = A_j[5] * C_i[8] + C_i[7] * t144;
     const jg_real t146 = lambda[3] * (A_j[5] * C_i[2] + C_i[1] * t144) + lambda[4] * t145;
     const jg_real t147 = lambda[2] * A_j[8] + lambda[1] * t141;
-    jac_phi_q_t_lambda_A_i[56] = t147;
     const jg_real t148 = lambda[2] * A_j[5] + lambda[1] * t144;
+    jac_phi_q_t_lambda_A_i[45] = t138;
+    jac_phi_q_t_lambda_A_i[49] = t139;
+    jac_phi_q_t_lambda_A_i[50] = t140;
+    jac_phi_q_t_lambda_A_i[42] = t86 - (A_ji_0 * t134 + A_ji_1 * t139 + A_ji_2 * t140);
+    jac_phi_q_t_lambda_A_i[43] = -(t126 * v_5_in_j_2 + A_ji_5 * t140 + (t135 * v_5_in_j_0 + A_ji_3 * t134 + (t129 *
+        v_5_in_j_1 + A_ji_4 * t139)) + t109);
+    jac_phi_q_t_lambda_A_i[44] = -(t82 + A_ji_8 * t140 + (t66 + A_ji_6 * t134 + (t76 + A_ji_7 * t139)));
+    jac_phi_q_t_lambda_A_i[56] = t147;
     jac_phi_q_t_lambda_A_i[55] = t148;
     const jg_real t149 = s_j[1] * t147 - s_j[2] * t148 + (C_j[1] * t143 - C_j[2] * t146) + lambda[5] * (C_j[7] *
         t142 - C_j[8] * t145);
-    jac_phi_q_t_lambda_A_i[57] = t149;
     const jg_real t150 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t151 = A_j[2] * C_i[8] + C_i[7] * t150;
     const jg_real t152 = lambda[3] * (A_j[2] * C_i[2] + C_i[1] * t150) + lambda[4] * t151;
     const jg_real t153 = lambda[2] * A_j[2] + lambda[1] * t150;
-    jac_phi_q_t_lambda_A_i[54] = t153;
     const jg_real t154 = s_j[2] * t153 - s_j[0] * t147 + (C_j[2] * t152 - C_j[0] * t143) + lambda[5] * (C_j[8] *
         t151 - C_j[6] * t142);
-    jac_phi_q_t_lambda_A_i[58] = t154;
     const jg_real t155 = s_j[0] * t148 - s_j[1] * t153 + (C_j[0] * t146 - C_j[1] * t152) + lambda[5] * (C_j[6] *
         t145 - C_j[7] * t151);
+    jac_phi_q_t_lambda_A_i[57] = t149;
+    jac_phi_q_t_lambda_A_i[54] = t153;
+    jac_phi_q_t_lambda_A_i[58] = t154;
     jac_phi_q_t_lambda_A_i[59] = t155;
     jac_phi_q_t_lambda_A_i[51] = t107 - (A_ji_0 * t149 + A_ji_1 * t154 + A_ji_2 * t155);
     jac_phi_q_t_lambda_A_i[52] = -(t141 * v_5_in_j_2 + A_ji_5 * t155 + (t150 * v_5_in_j_0 + A_ji_3 * t149 + (t144 *
@@ -1264,35 +1267,31 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t162 = C_i[1] * t160 * lambda[3] + lambda[4] * t161;
     const jg_real t163 = C_j[2] * t162;
     const jg_real t164 = lambda[1] * t156;
-    jac_phi_q_t_lambda_A_j[5] = t164;
     const jg_real t165 = s_j[1] * t164;
     const jg_real t166 = lambda[1] * t160;
-    jac_phi_q_t_lambda_A_j[4] = t166;
     const jg_real t167 = s_j[2] * t166;
     const jg_real t168 = C_j[7] * t157;
     const jg_real t169 = C_j[8] * t161;
     const jg_real t170 = t165 - t167 + (t159 - t163) + lambda[5] * (t168 - t169);
-    jac_phi_q_t_lambda_A_j[6] = t170;
     const jg_real t171 = A_i[0] * C_i[6] + A_i[6] * C_i[8];
     const jg_real t172 = lambda[3] * (A_i[0] * C_i[0] + A_i[6] * C_i[2]) + lambda[4] * t171;
     const jg_real t173 = C_j[2] * t172;
     const jg_real t174 = lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t174;
-    jac_phi_q_t_lambda_A_j[31] = t174;
-    jac_phi_q_t_lambda_A_j[59] = t174;
     const jg_real t175 = s_j[2] * t174;
     const jg_real t176 = C_j[8] * t171;
     const jg_real t177 = t175 - s_j[0] * t164 + (t173 - C_j[0] * t158) + lambda[5] * (t176 - C_j[6] * t157);
-    jac_phi_q_t_lambda_A_j[7] = t177;
     const jg_real t178 = C_j[1] * t172;
     const jg_real t179 = s_j[1] * t174;
     const jg_real t180 = C_j[7] * t171;
     const jg_real t181 = s_j[0] * t166 - t179 + (C_j[0] * t162 - t178) + lambda[5] * (C_j[6] * t161 - t180);
+    jac_phi_q_t_lambda_A_j[5] = t164;
+    jac_phi_q_t_lambda_A_j[4] = t166;
+    jac_phi_q_t_lambda_A_j[6] = t170;
+    jac_phi_q_t_lambda_A_j[3] = t174;
+    jac_phi_q_t_lambda_A_j[31] = t174;
+    jac_phi_q_t_lambda_A_j[59] = t174;
+    jac_phi_q_t_lambda_A_j[7] = t177;
     jac_phi_q_t_lambda_A_j[8] = t181;
-    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_5_in_j_0 + A_ji_0 * t170 + A_ji_1 * t177 + A_ji_2 * t181);
-    jac_phi_q_t_lambda_A_j[1] = -(t156 * v_5_in_j_2 + A_ji_5 * t181 + (t160 * v_5_in_j_1 + A_ji_4 * t177 + A_ji_3 *
-        t170));
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ji_6 * t170 + A_ji_7 * t177 + A_ji_8 * t181);
     const jg_real t182 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t183 = C_i[7] * t182;
     const jg_real t184 = C_i[1] * t182 * lambda[3] + lambda[4] * t183;
@@ -1302,35 +1301,33 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t188 = C_i[1] * t186 * lambda[3] + lambda[4] * t187;
     const jg_real t189 = C_j[2] * t188;
     const jg_real t190 = lambda[1] * t182;
-    jac_phi_q_t_lambda_A_j[14] = t190;
     const jg_real t191 = s_j[1] * t190;
     const jg_real t192 = lambda[1] * t186;
-    jac_phi_q_t_lambda_A_j[13] = t192;
     const jg_real t193 = s_j[2] * t192;
     const jg_real t194 = C_j[7] * t183;
     const jg_real t195 = C_j[8] * t187;
     const jg_real t196 = t191 - t193 + (t185 - t189) + lambda[5] * (t194 - t195);
-    jac_phi_q_t_lambda_A_j[15] = t196;
     const jg_real t197 = A_i[1] * C_i[6] + A_i[7] * C_i[8];
     const jg_real t198 = lambda[3] * (A_i[1] * C_i[0] + A_i[7] * C_i[2]) + lambda[4] * t197;
     const jg_real t199 = C_j[2] * t198;
     const jg_real t200 = lambda[0] * A_i[1] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_5_in_j_0 + A_ji_0 * t170 + A_ji_1 * t177 + A_ji_2 * t181);
+    jac_phi_q_t_lambda_A_j[1] = -(t156 * v_5_in_j_2 + A_ji_5 * t181 + (t160 * v_5_in_j_1 + A_ji_4 * t177 + A_ji_3 *
+        t170));
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ji_6 * t170 + A_ji_7 * t177 + A_ji_8 * t181);
+    jac_phi_q_t_lambda_A_j[14] = t190;
+    jac_phi_q_t_lambda_A_j[13] = t192;
+    jac_phi_q_t_lambda_A_j[15] = t196;
     jac_phi_q_t_lambda_A_j[12] = t200;
     jac_phi_q_t_lambda_A_j[40] = t200;
     jac_phi_q_t_lambda_A_j[68] = t200;
     const jg_real t201 = s_j[2] * t200;
     const jg_real t202 = C_j[8] * t197;
     const jg_real t203 = t201 - s_j[0] * t190 + (t199 - C_j[0] * t184) + lambda[5] * (t202 - C_j[6] * t183);
-    jac_phi_q_t_lambda_A_j[16] = t203;
     const jg_real t204 = C_j[1] * t198;
     const jg_real t205 = s_j[1] * t200;
     const jg_real t206 = C_j[7] * t197;
     const jg_real t207 = s_j[0] * t192 - t205 + (C_j[0] * t188 - t204) + lambda[5] * (C_j[6] * t187 - t206);
-    jac_phi_q_t_lambda_A_j[17] = t207;
-    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_5_in_j_0 + A_ji_0 * t196 + A_ji_1 * t203 + A_ji_2 * t207);
-    jac_phi_q_t_lambda_A_j[10] = -(t182 * v_5_in_j_2 + A_ji_5 * t207 + (t186 * v_5_in_j_1 + A_ji_4 * t203 + A_ji_3 *
-        t196));
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_5_in_j_0 + A_ji_6 * t196 + A_ji_7 * t203 + A_ji_8 * t207);
     const jg_real t208 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t209 = C_i[7] * t208;
     const jg_real t210 = C_i[1] * t208 * lambda[3] + lambda[4] * t209;
@@ -1340,30 +1337,36 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t214 = C_i[1] * t212 * lambda[3] + lambda[4] * t213;
     const jg_real t215 = C_j[2] * t214;
     const jg_real t216 = lambda[1] * t208;
-    jac_phi_q_t_lambda_A_j[23] = t216;
     const jg_real t217 = s_j[1] * t216;
     const jg_real t218 = lambda[1] * t212;
-    jac_phi_q_t_lambda_A_j[22] = t218;
     const jg_real t219 = s_j[2] * t218;
     const jg_real t220 = C_j[7] * t209;
     const jg_real t221 = C_j[8] * t213;
     const jg_real t222 = t217 - t219 + (t211 - t215) + lambda[5] * (t220 - t221);
+    jac_phi_q_t_lambda_A_j[16] = t203;
+    jac_phi_q_t_lambda_A_j[17] = t207;
+    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_5_in_j_0 + A_ji_0 * t196 + A_ji_1 * t203 + A_ji_2 * t207);
+    jac_phi_q_t_lambda_A_j[10] = -(t182 * v_5_in_j_2 + A_ji_5 * t207 + (t186 * v_5_in_j_1 + A_ji_4 * t203 + A_ji_3 *
+        t196));
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_5_in_j_0 + A_ji_6 * t196 + A_ji_7 * t203 + A_ji_8 * t207);
+    jac_phi_q_t_lambda_A_j[23] = t216;
+    jac_phi_q_t_lambda_A_j[22] = t218;
     jac_phi_q_t_lambda_A_j[24] = t222;
     const jg_real t223 = A_i[2] * C_i[6] + A_i[8] * C_i[8];
     const jg_real t224 = lambda[3] * (A_i[2] * C_i[0] + A_i[8] * C_i[2]) + lambda[4] * t223;
     const jg_real t225 = C_j[2] * t224;
     const jg_real t226 = lambda[0] * A_i[2] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[21] = t226;
-    jac_phi_q_t_lambda_A_j[49] = t226;
-    jac_phi_q_t_lambda_A_j[77] = t226;
     const jg_real t227 = s_j[2] * t226;
     const jg_real t228 = C_j[8] * t223;
     const jg_real t229 = t227 - s_j[0] * t216 + (t225 - C_j[0] * t210) + lambda[5] * (t228 - C_j[6] * t209);
-    jac_phi_q_t_lambda_A_j[25] = t229;
     const jg_real t230 = C_j[1] * t224;
     const jg_real t231 = s_j[1] * t226;
     const jg_real t232 = C_j[7] * t223;
     const jg_real t233 = s_j[0] * t218 - t231 + (C_j[0] * t214 - t230) + lambda[5] * (C_j[6] * t213 - t232);
+    jac_phi_q_t_lambda_A_j[21] = t226;
+    jac_phi_q_t_lambda_A_j[49] = t226;
+    jac_phi_q_t_lambda_A_j[77] = t226;
+    jac_phi_q_t_lambda_A_j[25] = t229;
     jac_phi_q_t_lambda_A_j[26] = t233;
     jac_phi_q_t_lambda_A_j[18] = -(A_i[2] * v_5_in_j_0 + A_ji_0 * t222 + A_ji_1 * t229 + A_ji_2 * t233);
     jac_phi_q_t_lambda_A_j[19] = -(t208 * v_5_in_j_2 + A_ji_5 * t233 + (t212 * v_5_in_j_1 + A_ji_4 * t229 + A_ji_3 *
@@ -1374,16 +1377,16 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t236 = C_i[1] * t234 * lambda[3] + lambda[4] * t235;
     const jg_real t237 = C_j[0] * t236;
     const jg_real t238 = lambda[1] * t234;
-    jac_phi_q_t_lambda_A_j[32] = t238;
     const jg_real t239 = s_j[0] * t238;
     const jg_real t240 = C_j[6] * t235;
     const jg_real t241 = t239 + t167 + (t237 + t163) + lambda[5] * (t240 + t169);
     const jg_real t242 = s_j[1] * t238 - t175 + (C_j[1] * t236 - t173) + lambda[5] * (C_j[7] * t235 - t176);
-    jac_phi_q_t_lambda_A_j[33] = t242;
     const jg_real t243 = C_j[0] * t172;
     const jg_real t244 = s_j[0] * t174;
     const jg_real t245 = C_j[6] * t171;
     const jg_real t246 = t244 + s_j[1] * t166 + (t243 + C_j[1] * t162) + lambda[5] * (t245 + C_j[7] * t161);
+    jac_phi_q_t_lambda_A_j[32] = t238;
+    jac_phi_q_t_lambda_A_j[33] = t242;
     jac_phi_q_t_lambda_A_j[35] = t246;
     jac_phi_q_t_lambda_A_j[27] = -(A_i[0] * v_5_in_j_1 - A_ji_1 * t241 + A_ji_0 * t242 + A_ji_2 * t246);
     jac_phi_q_t_lambda_A_j[28] = -(t234 * v_5_in_j_2 + A_ji_5 * t246 + (A_ji_3 * t242 - t160 * v_5_in_j_0 - A_ji_4 *
@@ -1396,16 +1399,16 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t249 = C_i[1] * t247 * lambda[3] + lambda[4] * t248;
     const jg_real t250 = C_j[0] * t249;
     const jg_real t251 = lambda[1] * t247;
-    jac_phi_q_t_lambda_A_j[41] = t251;
     const jg_real t252 = s_j[0] * t251;
     const jg_real t253 = C_j[6] * t248;
     const jg_real t254 = t252 + t193 + (t250 + t189) + lambda[5] * (t253 + t195);
     const jg_real t255 = s_j[1] * t251 - t201 + (C_j[1] * t249 - t199) + lambda[5] * (C_j[7] * t248 - t202);
-    jac_phi_q_t_lambda_A_j[42] = t255;
     const jg_real t256 = C_j[0] * t198;
     const jg_real t257 = s_j[0] * t200;
     const jg_real t258 = C_j[6] * t197;
     const jg_real t259 = t257 + s_j[1] * t192 + (t256 + C_j[1] * t188) + lambda[5] * (t258 + C_j[7] * t187);
+    jac_phi_q_t_lambda_A_j[41] = t251;
+    jac_phi_q_t_lambda_A_j[42] = t255;
     jac_phi_q_t_lambda_A_j[44] = t259;
     jac_phi_q_t_lambda_A_j[36] = -(A_i[1] * v_5_in_j_1 - A_ji_1 * t254 + A_ji_0 * t255 + A_ji_2 * t259);
     jac_phi_q_t_lambda_A_j[37] = -(t247 * v_5_in_j_2 + A_ji_5 * t259 + (A_ji_3 * t255 - t186 * v_5_in_j_0 - A_ji_4 *
@@ -1418,16 +1421,16 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t262 = C_i[1] * t260 * lambda[3] + lambda[4] * t261;
     const jg_real t263 = C_j[0] * t262;
     const jg_real t264 = lambda[1] * t260;
-    jac_phi_q_t_lambda_A_j[50] = t264;
     const jg_real t265 = s_j[0] * t264;
     const jg_real t266 = C_j[6] * t261;
     const jg_real t267 = t265 + t219 + (t263 + t215) + lambda[5] * (t266 + t221);
     const jg_real t268 = s_j[1] * t264 - t227 + (C_j[1] * t262 - t225) + lambda[5] * (C_j[7] * t261 - t228);
-    jac_phi_q_t_lambda_A_j[51] = t268;
     const jg_real t269 = C_j[0] * t224;
     const jg_real t270 = s_j[0] * t226;
     const jg_real t271 = C_j[6] * t223;
     const jg_real t272 = t270 + s_j[1] * t218 + (t269 + C_j[1] * t214) + lambda[5] * (t271 + C_j[7] * t213);
+    jac_phi_q_t_lambda_A_j[50] = t264;
+    jac_phi_q_t_lambda_A_j[51] = t268;
     jac_phi_q_t_lambda_A_j[53] = t272;
     jac_phi_q_t_lambda_A_j[45] = -(A_i[2] * v_5_in_j_1 - A_ji_1 * t267 + A_ji_0 * t268 + A_ji_2 * t272);
     jac_phi_q_t_lambda_A_j[46] = -(t260 * v_5_in_j_2 + A_ji_5 * t272 + (A_ji_3 * t268 - t212 * v_5_in_j_0 - A_ji_4 *
@@ -1436,10 +1439,10 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_A_j[48] = -t218;
     jac_phi_q_t_lambda_A_j[52] = -t267;
     const jg_real t273 = t165 - t239 + (t159 - t237) + lambda[5] * (t168 - t240);
-    jac_phi_q_t_lambda_A_j[62] = t273;
     const jg_real t274 = t179 + s_j[2] * t238 + (t178 + C_j[2] * t236) + lambda[5] * (t180 + C_j[8] * t235);
-    jac_phi_q_t_lambda_A_j[60] = t274;
     const jg_real t275 = t244 + s_j[2] * t164 + (t243 + C_j[2] * t158) + lambda[5] * (t245 + C_j[8] * t157);
+    jac_phi_q_t_lambda_A_j[62] = t273;
+    jac_phi_q_t_lambda_A_j[60] = t274;
     jac_phi_q_t_lambda_A_j[54] = -(A_i[0] * v_5_in_j_2 + A_ji_2 * t273 + (A_ji_0 * t274 - A_ji_1 * t275));
     jac_phi_q_t_lambda_A_j[55] = -(A_ji_3 * t274 - t156 * v_5_in_j_0 - (t234 * v_5_in_j_1 + A_ji_4 * t275) + A_ji_5
         * t273);
@@ -1448,10 +1451,10 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_A_j[58] = -t238;
     jac_phi_q_t_lambda_A_j[61] = -t275;
     const jg_real t276 = t191 - t252 + (t185 - t250) + lambda[5] * (t194 - t253);
-    jac_phi_q_t_lambda_A_j[71] = t276;
     const jg_real t277 = t205 + s_j[2] * t251 + (t204 + C_j[2] * t249) + lambda[5] * (t206 + C_j[8] * t248);
-    jac_phi_q_t_lambda_A_j[69] = t277;
     const jg_real t278 = t257 + s_j[2] * t190 + (t256 + C_j[2] * t184) + lambda[5] * (t258 + C_j[8] * t183);
+    jac_phi_q_t_lambda_A_j[71] = t276;
+    jac_phi_q_t_lambda_A_j[69] = t277;
     jac_phi_q_t_lambda_A_j[63] = -(A_i[1] * v_5_in_j_2 + A_ji_2 * t276 + (A_ji_0 * t277 - A_ji_1 * t278));
     jac_phi_q_t_lambda_A_j[64] = -(A_ji_3 * t277 - t182 * v_5_in_j_0 - (t247 * v_5_in_j_1 + A_ji_4 * t278) + A_ji_5
         * t276);
@@ -1460,10 +1463,10 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_A_j[67] = -t251;
     jac_phi_q_t_lambda_A_j[70] = -t278;
     const jg_real t279 = t217 - t265 + (t211 - t263) + lambda[5] * (t220 - t266);
-    jac_phi_q_t_lambda_A_j[80] = t279;
     const jg_real t280 = t231 + s_j[2] * t264 + (t230 + C_j[2] * t262) + lambda[5] * (t232 + C_j[8] * t261);
-    jac_phi_q_t_lambda_A_j[78] = t280;
     const jg_real t281 = t270 + s_j[2] * t216 + (t269 + C_j[2] * t210) + lambda[5] * (t271 + C_j[8] * t209);
+    jac_phi_q_t_lambda_A_j[80] = t279;
+    jac_phi_q_t_lambda_A_j[78] = t280;
     jac_phi_q_t_lambda_A_j[72] = -(A_i[2] * v_5_in_j_2 + A_ji_2 * t279 + (A_ji_0 * t280 - A_ji_1 * t281));
     jac_phi_q_t_lambda_A_j[73] = -(A_ji_3 * t280 - t208 * v_5_in_j_0 - (t260 * v_5_in_j_1 + A_ji_4 * t281) + A_ji_5
         * t279);
@@ -1474,16 +1477,16 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    jac_phi_q_t_lambda_lambda[44] = cosine_0;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
-    jac_phi_q_t_lambda_alpha[0] = cosine_0 * cosine_1 * lambda[3];
-    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * sine_1 * sine_0);
-    jac_phi_q_t_lambda_alpha[2] = -(sine_0 * sine_1 * lambda[3]);
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jac_phi_q_t_lambda_lambda[44] = cosine_0;
+    jac_phi_q_t_lambda_alpha[0] = cosine_0 * cosine_1 * lambda[3];
+    jac_phi_q_t_lambda_alpha[1] = -(lambda[3] * sine_1 * sine_0);
+    jac_phi_q_t_lambda_alpha[2] = -(sine_0 * sine_1 * lambda[3]);
     jac_phi_q_t_lambda_alpha[3] = cosine_0 * (lambda[3] * cosine_1 + lambda[5] * cosine_2) - lambda[4] * sine_0;
     jac_phi_q_t_lambda_alpha[4] = -(sine_0 * sine_2 * lambda[5]);
     jac_phi_q_t_lambda_alpha[5] = -(lambda[5] * sine_2 * sine_0);
@@ -1491,47 +1494,47 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t288 = lambda[3] * A_ji_2;
     const jg_real t289 = lambda[3] * A_ji_1;
     const jg_real t290 = C_j[1] * t288 - C_j[2] * t289;
-    jac_phi_q_t_lambda_geometry[3] = t290;
     const jg_real t291 = lambda[3] * A_ji_0;
     const jg_real t292 = C_j[2] * t291 - C_j[0] * t288;
-    jac_phi_q_t_lambda_geometry[4] = t292;
     const jg_real t293 = C_j[0] * t289 - C_j[1] * t291;
+    const jg_real t294 = lambda[3] * A_ji_5;
+    const jg_real t295 = lambda[3] * A_ji_4;
+    const jg_real t296 = C_j[1] * t294 - C_j[2] * t295;
+    const jg_real t297 = lambda[3] * A_ji_3;
+    const jg_real t298 = C_j[2] * t297 - C_j[0] * t294;
+    jac_phi_q_t_lambda_geometry[3] = t290;
+    jac_phi_q_t_lambda_geometry[4] = t292;
     jac_phi_q_t_lambda_geometry[5] = t293;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t290 + A_ji_1 * t292 + A_ji_2 * t293);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t290 + A_ji_4 * t292 + A_ji_5 * t293);
     jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t290 + A_ji_7 * t292 + A_ji_8 * t293);
-    const jg_real t294 = lambda[3] * A_ji_5;
-    const jg_real t295 = lambda[3] * A_ji_4;
-    const jg_real t296 = C_j[1] * t294 - C_j[2] * t295;
     jac_phi_q_t_lambda_geometry[9] = t296;
-    const jg_real t297 = lambda[3] * A_ji_3;
-    const jg_real t298 = C_j[2] * t297 - C_j[0] * t294;
     jac_phi_q_t_lambda_geometry[10] = t298;
     const jg_real t299 = C_j[0] * t295 - C_j[1] * t297;
+    const jg_real t300 = lambda[3] * A_ji_8;
+    const jg_real t301 = lambda[3] * A_ji_7;
+    const jg_real t302 = C_j[1] * t300 - C_j[2] * t301;
+    const jg_real t303 = lambda[3] * A_ji_6;
+    const jg_real t304 = C_j[2] * t303 - C_j[0] * t300;
+    const jg_real t305 = C_j[0] * t301 - C_j[1] * t303;
     jac_phi_q_t_lambda_geometry[11] = t299;
     jac_phi_q_t_lambda_geometry[6] = -(A_ji_0 * t296 + A_ji_1 * t298 + A_ji_2 * t299);
     jac_phi_q_t_lambda_geometry[7] = -(A_ji_3 * t296 + A_ji_4 * t298 + A_ji_5 * t299);
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_6 * t296 + A_ji_7 * t298 + A_ji_8 * t299);
-    const jg_real t300 = lambda[3] * A_ji_8;
-    const jg_real t301 = lambda[3] * A_ji_7;
-    const jg_real t302 = C_j[1] * t300 - C_j[2] * t301;
     jac_phi_q_t_lambda_geometry[15] = t302;
-    const jg_real t303 = lambda[3] * A_ji_6;
-    const jg_real t304 = C_j[2] * t303 - C_j[0] * t300;
     jac_phi_q_t_lambda_geometry[16] = t304;
-    const jg_real t305 = C_j[0] * t301 - C_j[1] * t303;
     jac_phi_q_t_lambda_geometry[17] = t305;
     jac_phi_q_t_lambda_geometry[12] = -(A_ji_0 * t302 + A_ji_1 * t304 + A_ji_2 * t305);
-    jac_phi_q_t_lambda_geometry[13] = -(A_ji_3 * t302 + A_ji_4 * t304 + A_ji_5 * t305);
-    jac_phi_q_t_lambda_geometry[14] = -(A_ji_6 * t302 + A_ji_7 * t304 + A_ji_8 * t305);
     const jg_real t306 = lambda[4] * A_ji_2;
     const jg_real t307 = lambda[4] * A_ji_1;
     const jg_real t308 = C_j[1] * t306 - C_j[2] * t307 + lambda[5] * (C_j[7] * A_ji_2 - C_j[8] * A_ji_1);
-    jac_phi_q_t_lambda_geometry[21] = t308;
     const jg_real t309 = lambda[4] * A_ji_0;
     const jg_real t310 = C_j[2] * t309 - C_j[0] * t306 + lambda[5] * (C_j[8] * A_ji_0 - C_j[6] * A_ji_2);
-    jac_phi_q_t_lambda_geometry[22] = t310;
     const jg_real t311 = C_j[0] * t307 - C_j[1] * t309 + lambda[5] * (C_j[6] * A_ji_1 - C_j[7] * A_ji_0);
+    jac_phi_q_t_lambda_geometry[13] = -(A_ji_3 * t302 + A_ji_4 * t304 + A_ji_5 * t305);
+    jac_phi_q_t_lambda_geometry[14] = -(A_ji_6 * t302 + A_ji_7 * t304 + A_ji_8 * t305);
+    jac_phi_q_t_lambda_geometry[21] = t308;
+    jac_phi_q_t_lambda_geometry[22] = t310;
     jac_phi_q_t_lambda_geometry[23] = t311;
     jac_phi_q_t_lambda_geometry[18] = -(A_ji_0 * t308 + A_ji_1 * t310 + A_ji_2 * t311);
     jac_phi_q_t_lambda_geometry[19] = -(A_ji_3 * t308 + A_ji_4 * t310 + A_ji_5 * t311);
@@ -1539,21 +1542,21 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t312 = lambda[4] * A_ji_5;
     const jg_real t313 = lambda[4] * A_ji_4;
     const jg_real t314 = C_j[1] * t312 - C_j[2] * t313 + lambda[5] * (C_j[7] * A_ji_5 - C_j[8] * A_ji_4);
-    jac_phi_q_t_lambda_geometry[27] = t314;
     const jg_real t315 = lambda[4] * A_ji_3;
     const jg_real t316 = C_j[2] * t315 - C_j[0] * t312 + lambda[5] * (C_j[8] * A_ji_3 - C_j[6] * A_ji_5);
-    jac_phi_q_t_lambda_geometry[28] = t316;
     const jg_real t317 = C_j[0] * t313 - C_j[1] * t315 + lambda[5] * (C_j[6] * A_ji_4 - C_j[7] * A_ji_3);
+    const jg_real t318 = lambda[4] * A_ji_8;
+    const jg_real t319 = lambda[4] * A_ji_7;
+    const jg_real t320 = C_j[1] * t318 - C_j[2] * t319 + lambda[5] * (C_j[7] * A_ji_8 - C_j[8] * A_ji_7);
+    const jg_real t321 = lambda[4] * A_ji_6;
+    const jg_real t322 = C_j[2] * t321 - C_j[0] * t318 + lambda[5] * (C_j[8] * A_ji_6 - C_j[6] * A_ji_8);
+    jac_phi_q_t_lambda_geometry[27] = t314;
+    jac_phi_q_t_lambda_geometry[28] = t316;
     jac_phi_q_t_lambda_geometry[29] = t317;
     jac_phi_q_t_lambda_geometry[24] = -(A_ji_0 * t314 + A_ji_1 * t316 + A_ji_2 * t317);
     jac_phi_q_t_lambda_geometry[25] = -(A_ji_3 * t314 + A_ji_4 * t316 + A_ji_5 * t317);
     jac_phi_q_t_lambda_geometry[26] = -(A_ji_6 * t314 + A_ji_7 * t316 + A_ji_8 * t317);
-    const jg_real t318 = lambda[4] * A_ji_8;
-    const jg_real t319 = lambda[4] * A_ji_7;
-    const jg_real t320 = C_j[1] * t318 - C_j[2] * t319 + lambda[5] * (C_j[7] * A_ji_8 - C_j[8] * A_ji_7);
     jac_phi_q_t_lambda_geometry[33] = t320;
-    const jg_real t321 = lambda[4] * A_ji_6;
-    const jg_real t322 = C_j[2] * t321 - C_j[0] * t318 + lambda[5] * (C_j[8] * A_ji_6 - C_j[6] * A_ji_8);
     jac_phi_q_t_lambda_geometry[34] = t322;
     const jg_real t323 = C_j[0] * t319 - C_j[1] * t321 + lambda[5] * (C_j[6] * A_ji_7 - C_j[7] * A_ji_6);
     jac_phi_q_t_lambda_geometry[35] = t323;
@@ -1580,67 +1583,67 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[57] = A_ji_5 * v_2_in_j_0 - A_ji_3 * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[58] = A_ji_8 * v_2_in_j_0 - A_ji_6 * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[60] = -v_2_in_j_0;
+    const jg_real t324 = lambda[5] * h_i_in_j_2;
+    const jg_real t325 = lambda[5] * h_i_in_j_1;
     jac_phi_q_t_lambda_geometry[61] = A_ji_0 * v_2_in_j_1 - A_ji_1 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[62] = A_ji_3 * v_2_in_j_1 - A_ji_4 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[63] = A_ji_6 * v_2_in_j_1 - A_ji_7 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[64] = -v_2_in_j_1;
-    const jg_real t324 = lambda[5] * h_i_in_j_2;
     jac_phi_q_t_lambda_geometry[74] = t324;
-    const jg_real t325 = lambda[5] * h_i_in_j_1;
     jac_phi_q_t_lambda_geometry[70] = t325;
     jac_phi_q_t_lambda_geometry[66] = A_ji_1 * t324 - A_ji_2 * t325;
     jac_phi_q_t_lambda_geometry[67] = A_ji_4 * t324 - A_ji_5 * t325;
+    const jg_real t326 = lambda[5] * h_i_in_j_0;
     jac_phi_q_t_lambda_geometry[68] = A_ji_7 * t324 - A_ji_8 * t325;
     jac_phi_q_t_lambda_geometry[69] = -t324;
-    const jg_real t326 = lambda[5] * h_i_in_j_0;
     jac_phi_q_t_lambda_geometry[80] = t326;
     jac_phi_q_t_lambda_geometry[71] = A_ji_2 * t326 - A_ji_0 * t324;
     jac_phi_q_t_lambda_geometry[72] = A_ji_5 * t326 - A_ji_3 * t324;
     jac_phi_q_t_lambda_geometry[73] = A_ji_8 * t326 - A_ji_6 * t324;
     jac_phi_q_t_lambda_geometry[75] = -t326;
     jac_phi_q_t_lambda_geometry[76] = A_ji_0 * t325 - A_ji_1 * t326;
+    const jg_real t327 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    const jg_real t328 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_geometry[77] = A_ji_3 * t325 - A_ji_4 * t326;
     jac_phi_q_t_lambda_geometry[78] = A_ji_6 * t325 - A_ji_7 * t326;
     jac_phi_q_t_lambda_geometry[79] = -t325;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
-    const jg_real t327 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t327;
-    const jg_real t328 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t328;
     const jg_real t329 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_t_lambda_lambda[9] = t329;
-    jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t327 + A_ji_1 * t328 + A_ji_2 * t329);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t327 + A_ji_4 * t328 + A_ji_5 * t329 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t327 + A_ji_7 * t328 + A_ji_8 * t329);
     const jg_real t332 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_t_lambda_lambda[17] = t332;
     const jg_real t333 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_t_lambda_lambda[18] = t333;
     const jg_real t334 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_t_lambda_lambda[9] = t329;
+    jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t327 + A_ji_1 * t328 + A_ji_2 * t329);
+    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t327 + A_ji_4 * t328 + A_ji_5 * t329 + v_0_in_i_2);
+    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t327 + A_ji_7 * t328 + A_ji_8 * t329);
+    jac_phi_q_t_lambda_lambda[17] = t332;
+    jac_phi_q_t_lambda_lambda[18] = t333;
     jac_phi_q_t_lambda_lambda[19] = t334;
     jac_phi_q_t_lambda_lambda[11] = v_0_in_i_2 - (A_ji_0 * t332 + A_ji_1 * t333 + A_ji_2 * t334);
-    jac_phi_q_t_lambda_lambda[12] = -(A_ji_3 * t332 + A_ji_4 * t333 + A_ji_5 * t334);
     const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t332 + A_ji_7 * t333 + A_ji_8 * t334 + v_0_in_i_0);
     const jg_real t336 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_t_lambda_lambda[27] = t336;
     const jg_real t337 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_t_lambda_lambda[28] = t337;
     const jg_real t338 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    jac_phi_q_t_lambda_lambda[12] = -(A_ji_3 * t332 + A_ji_4 * t333 + A_ji_5 * t334);
+    jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t332 + A_ji_7 * t333 + A_ji_8 * t334 + v_0_in_i_0);
+    jac_phi_q_t_lambda_lambda[27] = t336;
+    jac_phi_q_t_lambda_lambda[28] = t337;
     jac_phi_q_t_lambda_lambda[29] = t338;
     jac_phi_q_t_lambda_lambda[21] = -(A_ji_0 * t336 + A_ji_1 * t337 + A_ji_2 * t338 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[22] = v_0_in_i_0 - (A_ji_3 * t336 + A_ji_4 * t337 + A_ji_5 * t338);
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_6 * t336 + A_ji_7 * t337 + A_ji_8 * t338);
     const jg_real t339 = C_j[1] * f_i_in_j_2 - C_j[2] * f_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[33] = t339;
     const jg_real t340 = C_j[2] * f_i_in_j_0 - C_j[0] * f_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[34] = t340;
     const jg_real t341 = C_j[0] * f_i_in_j_1 - C_j[1] * f_i_in_j_0;
+    jac_phi_q_t_lambda_lambda[33] = t339;
+    jac_phi_q_t_lambda_lambda[34] = t340;
     jac_phi_q_t_lambda_lambda[35] = t341;
     jac_phi_q_t_lambda_lambda[30] = -(A_ji_0 * t339 + A_ji_1 * t340 + A_ji_2 * t341);
     jac_phi_q_t_lambda_lambda[31] = -(A_ji_3 * t339 + A_ji_4 * t340 + A_ji_5 * t341);
@@ -1648,10 +1651,10 @@ static void jg_ball_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_lambda[36] = cosine_0 * sine_1;
     jac_phi_q_t_lambda_lambda[37] = sine_0 * cosine_1;
     const jg_real t342 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[41] = t342;
     const jg_real t343 = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[42] = t343;
     const jg_real t344 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
+    jac_phi_q_t_lambda_lambda[41] = t342;
+    jac_phi_q_t_lambda_lambda[42] = t343;
     jac_phi_q_t_lambda_lambda[43] = t344;
     jac_phi_q_t_lambda_lambda[38] = -(A_ji_0 * t342 + A_ji_1 * t343 + A_ji_2 * t344);
     jac_phi_q_t_lambda_lambda[39] = -(A_ji_3 * t342 + A_ji_4 * t343 + A_ji_5 * t344);

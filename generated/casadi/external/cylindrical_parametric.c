@@ -21,11 +21,9 @@
 #define JG_EXPORT
 #endif
 
-static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
-    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_alpha,
-    jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_cylindrical_parametric_phi_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *jac_phi_r_i, jg_real *jac_phi_A_i,
+    jg_real *jac_phi_r_j, jg_real *jac_phi_A_j, jg_real *jac_phi_alpha, jg_real *jac_phi_geometry)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -46,17 +44,12 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
@@ -69,7 +62,6 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[20] = f_j_in_i_2;
     const jg_real t11 = f_j_world_0 * g_j_in_i_2 - g_j_world_0 * f_j_in_i_2;
     jg_real sine_0;
     jg_real cosine_0;
@@ -77,90 +69,96 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[18] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real t17 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_geometry[20] = f_j_in_i_2;
+    jac_phi_geometry[18] = f_j_in_i_1;
     jac_phi_A_i[1] = -(t11 * g_star_in_i_1 + t17 * g_star_in_i_2);
-    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
+    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
+    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
+    jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
-    const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(t23 * g_star_in_i_1 + t24 * g_star_in_i_2);
     jac_phi_A_i[6] = C_i[6] * f_j_world_1;
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    jac_phi_A_i[8] = e_ij_world_2;
-    jac_phi_A_i[20] = e_ij_world_2;
-    jac_phi_A_i[32] = e_ij_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t29 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
-    jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
-    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
-    jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
+    const jg_real t29 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[16] = f_j_in_i_0;
     const jg_real t33 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
+    jac_phi_A_i[8] = e_ij_world_2;
+    jac_phi_A_i[20] = e_ij_world_2;
+    jac_phi_A_i[32] = e_ij_world_2;
+    jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
+    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
+    jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
+    jac_phi_geometry[16] = f_j_in_i_0;
     jac_phi_A_i[13] = t11 * g_star_in_i_0 - t33 * g_star_in_i_2;
-    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
     const jg_real f_star_in_i_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     const jg_real t35 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
+    const jg_real t36 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
+    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
+    jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     jac_phi_A_i[17] = t23 * g_star_in_i_0 - t35 * g_star_in_i_2;
     jac_phi_A_i[18] = C_i[7] * f_j_world_1;
     jac_phi_A_i[19] = g_j_world_1 * f_star_in_i_1;
-    const jg_real t36 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
     jac_phi_A_i[21] = t28 * g_star_in_i_0 - t36 * g_star_in_i_2;
     jac_phi_A_i[22] = C_i[7] * f_j_world_2;
     jac_phi_A_i[23] = g_j_world_2 * f_star_in_i_1;
+    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[25] = t17 * g_star_in_i_0 + t33 * g_star_in_i_1;
     jac_phi_A_i[26] = C_i[8] * f_j_world_0;
-    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[27] = g_j_world_0 * f_star_in_i_2;
     jac_phi_A_i[29] = t24 * g_star_in_i_0 + t35 * g_star_in_i_1;
     jac_phi_A_i[30] = C_i[8] * f_j_world_1;
     jac_phi_A_i[31] = g_j_world_1 * f_star_in_i_2;
     jac_phi_A_i[33] = t29 * g_star_in_i_0 + t36 * g_star_in_i_1;
     jac_phi_A_i[34] = C_i[8] * f_j_world_2;
-    jac_phi_A_i[35] = g_j_world_2 * f_star_in_i_2;
-    jac_phi_A_j[0] = s_j[0] * A_i[0];
-    jac_phi_A_j[1] = s_j[0] * A_i[3];
-    jac_phi_A_j[2] = s_j[0] * A_i[6];
     const jg_real t38 = A_i[3] * C_j[0];
     const jg_real t39 = A_i[6] * C_j[3];
     const jg_real t40 = A_i[6] * C_j[0];
     const jg_real t41 = A_i[3] * C_j[3];
     const jg_real t42 = A_i[0] * C_j[3];
     const jg_real t43 = A_i[0] * C_j[0];
+    jac_phi_A_i[35] = g_j_world_2 * f_star_in_i_2;
+    jac_phi_A_j[0] = s_j[0] * A_i[0];
+    jac_phi_A_j[1] = s_j[0] * A_i[3];
+    jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = (t38 * g_j_in_i_2 + t39 * f_j_in_i_1 - (t40 * g_j_in_i_1 + t41 * f_j_in_i_2)) * g_star_in_i_0 +
         (t40 * g_j_in_i_0 + t42 * f_j_in_i_2 - (t43 * g_j_in_i_2 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (t43 *
         g_j_in_i_1 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + t42 * f_j_in_i_1)) * g_star_in_i_2;
     jac_phi_A_j[4] = C_i[7] * t38 + C_i[6] * t43 + C_i[8] * t40;
     jac_phi_A_j[5] = t42 * f_star_in_i_0 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
-    jac_phi_A_j[7] = s_j[0] * A_i[4];
-    jac_phi_A_j[8] = s_j[0] * A_i[7];
     const jg_real t44 = A_i[4] * C_j[0];
     const jg_real t45 = A_i[7] * C_j[3];
     const jg_real t46 = A_i[7] * C_j[0];
     const jg_real t47 = A_i[4] * C_j[3];
     const jg_real t48 = A_i[1] * C_j[3];
     const jg_real t49 = A_i[1] * C_j[0];
+    jac_phi_A_j[7] = s_j[0] * A_i[4];
+    jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = (t44 * g_j_in_i_2 + t45 * f_j_in_i_1 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
         (t46 * g_j_in_i_0 + t48 * f_j_in_i_2 - (t49 * g_j_in_i_2 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (t49 *
-        g_j_in_i_1 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + t48 * f_j_in_i_1)) * g_star_in_i_2;
+        g_j_in_i_1 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + f_j_in_i_1 * t48)) * g_star_in_i_2;
     jac_phi_A_j[10] = C_i[7] * t44 + C_i[6] * t49 + C_i[8] * t46;
     jac_phi_A_j[11] = t48 * f_star_in_i_0 + t47 * f_star_in_i_1 + t45 * f_star_in_i_2;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
@@ -172,51 +170,51 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t53 = A_i[5] * C_j[3];
     const jg_real t54 = A_i[2] * C_j[3];
     const jg_real t55 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + t51 * f_j_in_i_1 - (t52 * g_j_in_i_1 + t53 * f_j_in_i_2)) * g_star_in_i_0
-        + (t52 * g_j_in_i_0 + t54 * f_j_in_i_2 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
-        g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + t54 * f_j_in_i_1)) * g_star_in_i_2;
-    jac_phi_A_j[16] = C_i[7] * t50 + C_i[6] * t55 + C_i[8] * t52;
-    jac_phi_A_j[17] = t54 * f_star_in_i_0 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
-    jac_phi_A_j[18] = s_j[1] * A_i[0];
-    jac_phi_A_j[19] = s_j[1] * A_i[3];
-    jac_phi_A_j[20] = s_j[1] * A_i[6];
     const jg_real t56 = A_i[3] * C_j[1];
     const jg_real t57 = A_i[6] * C_j[4];
     const jg_real t58 = A_i[6] * C_j[1];
     const jg_real t59 = A_i[3] * C_j[4];
     const jg_real t60 = A_i[0] * C_j[4];
     const jg_real t61 = A_i[0] * C_j[1];
+    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + f_j_in_i_1 * t51 - (t52 * g_j_in_i_1 + f_j_in_i_2 * t53)) * g_star_in_i_0
+        + (t52 * g_j_in_i_0 + f_j_in_i_2 * t54 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
+        g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + f_j_in_i_1 * t54)) * g_star_in_i_2;
+    jac_phi_A_j[16] = C_i[7] * t50 + C_i[6] * t55 + C_i[8] * t52;
+    jac_phi_A_j[17] = t54 * f_star_in_i_0 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
+    jac_phi_A_j[18] = s_j[1] * A_i[0];
+    jac_phi_A_j[19] = s_j[1] * A_i[3];
+    jac_phi_A_j[20] = s_j[1] * A_i[6];
     jac_phi_A_j[21] = (t56 * g_j_in_i_2 + t57 * f_j_in_i_1 - (t58 * g_j_in_i_1 + t59 * f_j_in_i_2)) * g_star_in_i_0
         + (t58 * g_j_in_i_0 + t60 * f_j_in_i_2 - (t61 * g_j_in_i_2 + t57 * f_j_in_i_0)) * g_star_in_i_1 + (t61 *
         g_j_in_i_1 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + t60 * f_j_in_i_1)) * g_star_in_i_2;
     jac_phi_A_j[22] = C_i[7] * t56 + C_i[6] * t61 + C_i[8] * t58;
-    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
-    jac_phi_A_j[24] = s_j[1] * A_i[1];
-    jac_phi_A_j[25] = s_j[1] * A_i[4];
-    jac_phi_A_j[26] = s_j[1] * A_i[7];
     const jg_real t62 = A_i[4] * C_j[1];
     const jg_real t63 = A_i[7] * C_j[4];
     const jg_real t64 = A_i[7] * C_j[1];
     const jg_real t65 = A_i[4] * C_j[4];
     const jg_real t66 = A_i[1] * C_j[4];
     const jg_real t67 = A_i[1] * C_j[1];
+    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
+    jac_phi_A_j[24] = s_j[1] * A_i[1];
+    jac_phi_A_j[25] = s_j[1] * A_i[4];
+    jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = (t62 * g_j_in_i_2 + t63 * f_j_in_i_1 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
         + (t64 * g_j_in_i_0 + t66 * f_j_in_i_2 - (t67 * g_j_in_i_2 + t63 * f_j_in_i_0)) * g_star_in_i_1 + (t67 *
-        g_j_in_i_1 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + t66 * f_j_in_i_1)) * g_star_in_i_2;
+        g_j_in_i_1 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + f_j_in_i_1 * t66)) * g_star_in_i_2;
     jac_phi_A_j[28] = C_i[7] * t62 + C_i[6] * t67 + C_i[8] * t64;
     jac_phi_A_j[29] = t66 * f_star_in_i_0 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
-    jac_phi_A_j[31] = s_j[1] * A_i[5];
-    jac_phi_A_j[32] = s_j[1] * A_i[8];
     const jg_real t68 = A_i[5] * C_j[1];
     const jg_real t69 = A_i[8] * C_j[4];
     const jg_real t70 = A_i[8] * C_j[1];
     const jg_real t71 = A_i[5] * C_j[4];
     const jg_real t72 = A_i[2] * C_j[4];
     const jg_real t73 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + t69 * f_j_in_i_1 - (t70 * g_j_in_i_1 + t71 * f_j_in_i_2)) * g_star_in_i_0
-        + (t70 * g_j_in_i_0 + t72 * f_j_in_i_2 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
-        g_j_in_i_1 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + t72 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[31] = s_j[1] * A_i[5];
+    jac_phi_A_j[32] = s_j[1] * A_i[8];
+    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + f_j_in_i_1 * t69 - (t70 * g_j_in_i_1 + f_j_in_i_2 * t71)) * g_star_in_i_0
+        + (t70 * g_j_in_i_0 + f_j_in_i_2 * t72 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
+        g_j_in_i_1 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + f_j_in_i_1 * t72)) * g_star_in_i_2;
     jac_phi_A_j[34] = C_i[7] * t68 + C_i[6] * t73 + C_i[8] * t70;
     jac_phi_A_j[35] = t72 * f_star_in_i_0 + t71 * f_star_in_i_1 + t69 * f_star_in_i_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
@@ -228,6 +226,12 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t77 = A_i[3] * C_j[5];
     const jg_real t78 = A_i[0] * C_j[5];
     const jg_real t79 = A_i[0] * C_j[2];
+    const jg_real t80 = A_i[4] * C_j[2];
+    const jg_real t81 = A_i[7] * C_j[5];
+    const jg_real t82 = A_i[7] * C_j[2];
+    const jg_real t83 = A_i[4] * C_j[5];
+    const jg_real t84 = A_i[1] * C_j[5];
+    const jg_real t85 = A_i[1] * C_j[2];
     jac_phi_A_j[39] = (t74 * g_j_in_i_2 + t75 * f_j_in_i_1 - (t76 * g_j_in_i_1 + t77 * f_j_in_i_2)) * g_star_in_i_0
         + (t76 * g_j_in_i_0 + t78 * f_j_in_i_2 - (t79 * g_j_in_i_2 + t75 * f_j_in_i_0)) * g_star_in_i_1 + (t79 *
         g_j_in_i_1 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + t78 * f_j_in_i_1)) * g_star_in_i_2;
@@ -236,38 +240,32 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
-    const jg_real t80 = A_i[4] * C_j[2];
-    const jg_real t81 = A_i[7] * C_j[5];
-    const jg_real t82 = A_i[7] * C_j[2];
-    const jg_real t83 = A_i[4] * C_j[5];
-    const jg_real t84 = A_i[1] * C_j[5];
-    const jg_real t85 = A_i[1] * C_j[2];
     jac_phi_A_j[45] = (t80 * g_j_in_i_2 + t81 * f_j_in_i_1 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
         + (t82 * g_j_in_i_0 + t84 * f_j_in_i_2 - (t85 * g_j_in_i_2 + t81 * f_j_in_i_0)) * g_star_in_i_1 + (t85 *
-        g_j_in_i_1 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + t84 * f_j_in_i_1)) * g_star_in_i_2;
+        g_j_in_i_1 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + f_j_in_i_1 * t84)) * g_star_in_i_2;
     jac_phi_A_j[46] = C_i[7] * t80 + C_i[6] * t85 + C_i[8] * t82;
-    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
-    jac_phi_A_j[48] = s_j[2] * A_i[2];
-    jac_phi_A_j[49] = s_j[2] * A_i[5];
-    jac_phi_A_j[50] = s_j[2] * A_i[8];
     const jg_real t86 = A_i[5] * C_j[2];
     const jg_real t87 = A_i[8] * C_j[5];
     const jg_real t88 = A_i[8] * C_j[2];
     const jg_real t89 = A_i[5] * C_j[5];
     const jg_real t90 = A_i[2] * C_j[5];
     const jg_real t91 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + t87 * f_j_in_i_1 - (t88 * g_j_in_i_1 + t89 * f_j_in_i_2)) * g_star_in_i_0
-        + (t88 * g_j_in_i_0 + t90 * f_j_in_i_2 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
-        g_j_in_i_1 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + t90 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
+    jac_phi_A_j[48] = s_j[2] * A_i[2];
+    jac_phi_A_j[49] = s_j[2] * A_i[5];
+    jac_phi_A_j[50] = s_j[2] * A_i[8];
+    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + f_j_in_i_1 * t87 - (t88 * g_j_in_i_1 + f_j_in_i_2 * t89)) * g_star_in_i_0
+        + (t88 * g_j_in_i_0 + f_j_in_i_2 * t90 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
+        g_j_in_i_1 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + f_j_in_i_1 * t90)) * g_star_in_i_2;
     jac_phi_A_j[52] = C_i[7] * t86 + C_i[6] * t91 + C_i[8] * t88;
     jac_phi_A_j[53] = t90 * f_star_in_i_0 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
     jac_phi_alpha[0] = -C_i[6];
-    jac_phi_alpha[1] = -C_i[7];
-    jac_phi_alpha[2] = -C_i[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
+    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
+    jac_phi_alpha[1] = -C_i[7];
+    jac_phi_alpha[2] = -C_i[8];
     jac_phi_alpha[3] = -(h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 * f_star_in_i_2);
     jac_phi_alpha[4] = g_j_in_i_0 * g_star_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
     jac_phi_geometry[0] = JG_REAL(-1.0);
@@ -282,30 +280,30 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_geometry[9] = h_j_in_i_0 * cosine_0;
     jac_phi_geometry[10] = g_j_in_i_0 * sine_0;
     jac_phi_geometry[11] = h_j_in_i_1 * cosine_0;
+    const jg_real t95 = -alpha[0];
+    const jg_real t96 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t97 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[12] = g_j_in_i_1 * sine_0;
     jac_phi_geometry[13] = h_j_in_i_2 * cosine_0;
     jac_phi_geometry[14] = g_j_in_i_2 * sine_0;
-    const jg_real t95 = -alpha[0];
     jac_phi_geometry[15] = t95;
     jac_phi_geometry[17] = t95;
     jac_phi_geometry[19] = t95;
-    const jg_real t96 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[21] = t96;
-    const jg_real t97 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[22] = t97;
     const jg_real t98 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[23] = t98;
     const jg_real t99 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    jac_phi_geometry[24] = t99;
     const jg_real t100 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_geometry[25] = t100;
     const jg_real t101 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[26] = t101;
     const jg_real t102 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_geometry[27] = t102;
     const jg_real t103 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[28] = t103;
     const jg_real t104 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[23] = t98;
+    jac_phi_geometry[24] = t99;
+    jac_phi_geometry[25] = t100;
+    jac_phi_geometry[26] = t101;
+    jac_phi_geometry[27] = t102;
+    jac_phi_geometry[28] = t103;
     jac_phi_geometry[29] = t104;
     jac_phi_geometry[30] = (t97 * g_j_in_i_2 - t98 * g_j_in_i_1) * g_star_in_i_0 + (t98 * g_j_in_i_0 - t96 *
         g_j_in_i_2) * g_star_in_i_1 + (t96 * g_j_in_i_1 - t97 * g_j_in_i_0) * g_star_in_i_2;
@@ -316,14 +314,14 @@ static void jg_cylindrical_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_geometry[34] = (t103 * g_j_in_i_2 - t104 * g_j_in_i_1) * g_star_in_i_0 + (t104 * g_j_in_i_0 - t102 *
         g_j_in_i_2) * g_star_in_i_1 + (t102 * g_j_in_i_1 - t103 * g_j_in_i_0) * g_star_in_i_2;
     jac_phi_geometry[35] = C_i[7] * t103 + C_i[6] * t102 + C_i[8] * t104;
-    jac_phi_geometry[36] = (f_j_in_i_1 * t98 - t97 * f_j_in_i_2) * g_star_in_i_0 + (t96 * f_j_in_i_2 - t98 *
-        f_j_in_i_0) * g_star_in_i_1 + (t97 * f_j_in_i_0 - f_j_in_i_1 * t96) * g_star_in_i_2;
+    jac_phi_geometry[36] = (t98 * f_j_in_i_1 - t97 * f_j_in_i_2) * g_star_in_i_0 + (t96 * f_j_in_i_2 - t98 *
+        f_j_in_i_0) * g_star_in_i_1 + (t97 * f_j_in_i_0 - t96 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[37] = t96 * f_star_in_i_0 + t97 * f_star_in_i_1 + t98 * f_star_in_i_2;
-    jac_phi_geometry[38] = (f_j_in_i_1 * t101 - t100 * f_j_in_i_2) * g_star_in_i_0 + (t99 * f_j_in_i_2 - t101 *
-        f_j_in_i_0) * g_star_in_i_1 + (t100 * f_j_in_i_0 - f_j_in_i_1 * t99) * g_star_in_i_2;
+    jac_phi_geometry[38] = (t101 * f_j_in_i_1 - t100 * f_j_in_i_2) * g_star_in_i_0 + (t99 * f_j_in_i_2 - t101 *
+        f_j_in_i_0) * g_star_in_i_1 + (t100 * f_j_in_i_0 - t99 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[39] = t99 * f_star_in_i_0 + t100 * f_star_in_i_1 + t101 * f_star_in_i_2;
-    jac_phi_geometry[40] = (f_j_in_i_1 * t104 - t103 * f_j_in_i_2) * g_star_in_i_0 + (t102 * f_j_in_i_2 - t104 *
-        f_j_in_i_0) * g_star_in_i_1 + (t103 * f_j_in_i_0 - f_j_in_i_1 * t102) * g_star_in_i_2;
+    jac_phi_geometry[40] = (t104 * f_j_in_i_1 - t103 * f_j_in_i_2) * g_star_in_i_0 + (t102 * f_j_in_i_2 - t104 *
+        f_j_in_i_0) * g_star_in_i_1 + (t103 * f_j_in_i_0 - t102 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[41] = t102 * f_star_in_i_0 + t103 * f_star_in_i_1 + t104 * f_star_in_i_2;
 }
 
@@ -343,51 +341,48 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
     const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
+    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
+    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
+    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     jac_phi_q_v_r_j[1] = t1;
     jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
     jac_phi_q_v_r_j[2] = t2;
     jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[3] = t3;
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
+    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
+    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
+    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
     jac_phi_q_v_r_j[5] = t5;
     jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
     jac_phi_q_v_r_j[6] = t6;
     jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_q_v_velocity[25] = A_ij_4;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[29] = A_ij_8;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[26] = A_ij_5;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_v_velocity[28] = A_ij_7;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    jac_phi_q_v_velocity[21] = A_ij_0;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    jac_phi_q_v_r_j[8] = t8;
+    jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_velocity[25] = A_ij_4;
+    jac_phi_q_v_velocity[29] = A_ij_8;
+    jac_phi_q_v_velocity[26] = A_ij_5;
+    jac_phi_q_v_velocity[28] = A_ij_7;
+    jac_phi_q_v_velocity[21] = A_ij_0;
     jac_phi_q_v_velocity[27] = A_ij_6;
     const jg_real A_ij_3 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    jac_phi_q_v_velocity[24] = A_ij_3;
     const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
-    jac_phi_q_v_velocity[22] = A_ij_1;
     const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
-    jac_phi_q_v_velocity[23] = A_ij_2;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ij_0 + omega_i[1] * A_ij_1 + omega_i[2] * A_ij_2;
     const jg_real omega_i_in_j_1 = omega_i[1] * A_ij_4 + omega_i[0] * A_ij_3 + omega_i[2] * A_ij_5;
@@ -412,7 +407,6 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     const jg_real t37 = A_j[3] * v_0_in_j_1 + A_j[6] * v_0_in_j_2;
-    jac_phi_q_v_A_i[0] = t21 + A_ij_6 * t26 + (t29 - A_ij_3 * t31 + A_ij_0 * t32) + t37;
     const jg_real s_j_cross_omega_i_in_j_0 = s_j[1] * omega_i_in_j_2 - s_j[2] * omega_i_in_j_1;
     const jg_real t39 = t22 * s_j_cross_omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
@@ -420,19 +414,17 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     /* v_2_world = r_j - r_i, world axes */
     const jg_real v_2_world_0 = r_j[0] - r_i[0];
     const jg_real t43 = v_0_in_j_0 * t22 + omega_i[2] * v_2_world_0;
-    jac_phi_q_v_A_i[1] = A_ij_1 * t32 - t39 - A_ij_4 * t31 + A_ij_7 * t26 - t43;
     const jg_real t44 = t23 * s_j_cross_omega_i_in_j_0;
     const jg_real t45 = v_0_in_j_0 * t23 - omega_i[1] * v_2_world_0;
-    jac_phi_q_v_A_i[2] = A_ij_2 * t32 - t44 - A_ij_5 * t31 + A_ij_8 * t26 - t45;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
+    const jg_real h_star_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + A_ij_2 * C_i[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real t50 = A_j[3] * g_star_in_i_0;
-    const jg_real t51 = C_i[7] * t22 + C_i[8] * t23;
+    const jg_real t51 = t22 * C_i[7] + t23 * C_i[8];
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_in_j = g_star, axes of body j */
@@ -440,12 +432,12 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real g_star_in_j_0 = A_ij_0 * g_star_in_i_0 + A_ij_1 * g_star_in_i_1 + A_ij_2 * g_star_in_i_2;
     const jg_real t56 = A_j[3] * C_i[6];
     const jg_real t57 = t22 * g_star_in_i_1 + t23 * g_star_in_i_2;
-    const jg_real h_star_in_j_1 = C_i[6] * A_ij_3 + A_ij_4 * C_i[7] + C_i[8] * A_ij_5;
+    const jg_real h_star_in_j_1 = C_i[6] * A_ij_3 + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
     const jg_real t59 = t56 * g_star_in_j_0 - h_star_in_j_1 * t57 - (h_star_in_j_0 * t50 - t51 * g_star_in_j_1);
     const jg_real t60 = A_j[6] * g_star_in_i_0;
     const jg_real g_star_in_j_2 = A_ij_6 * g_star_in_i_0 + A_ij_7 * g_star_in_i_1 + A_ij_8 * g_star_in_i_2;
     const jg_real t62 = A_j[6] * C_i[6];
-    const jg_real h_star_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + A_ij_8 * C_i[8];
+    const jg_real h_star_in_j_2 = C_i[6] * A_ij_6 + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real t64 = h_star_in_j_0 * t60 - t51 * g_star_in_j_2 - (t62 * g_star_in_j_0 - h_star_in_j_2 * t57);
     const jg_real t65 = h_star_in_j_2 * t50 + t62 * g_star_in_j_1 - (h_star_in_j_1 * t60 + t56 * g_star_in_j_2);
     const jg_real t66 = C_j[8] * t50 - C_j[7] * t60;
@@ -455,9 +447,6 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t69 = C_j[8] * t57 + C_j[6] * t60;
     const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
     const jg_real t71 = C_j[7] * t57 + C_j[6] * t50;
-    jac_phi_q_v_A_i[3] = t30 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t71 + (omega_i_in_j_0 * t66 - t24 *
-        g_star_cross_h_j_in_j_0 + (t25 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t69)) - alphadot[1] * (C_j[7] *
-        t64 + C_j[6] * t65 + C_j[8] * t59) - (omega_j[0] * t66 + omega_j[1] * t69 - omega_j[2] * t71);
     const jg_real t72 = t56 * C_j[2] - t62 * C_j[1];
     /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
     const jg_real h_star_cross_f_j_in_j_0 = h_star_in_j_1 * C_j[2] - C_j[1] * h_star_in_j_2;
@@ -465,6 +454,15 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t75 = C_j[2] * t51 + t62 * C_j[0];
     const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - h_star_in_j_1 * C_j[0];
     const jg_real t77 = t56 * C_j[0] + C_j[1] * t51;
+    jac_phi_q_v_velocity[24] = A_ij_3;
+    jac_phi_q_v_velocity[22] = A_ij_1;
+    jac_phi_q_v_velocity[23] = A_ij_2;
+    jac_phi_q_v_A_i[0] = t21 + A_ij_6 * t26 + (t29 - A_ij_3 * t31 + A_ij_0 * t32) + t37;
+    jac_phi_q_v_A_i[1] = A_ij_1 * t32 - t39 - A_ij_4 * t31 + A_ij_7 * t26 - t43;
+    jac_phi_q_v_A_i[2] = A_ij_2 * t32 - t44 - A_ij_5 * t31 + A_ij_8 * t26 - t45;
+    jac_phi_q_v_A_i[3] = t30 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t71 + (omega_i_in_j_0 * t66 - t24 *
+        g_star_cross_h_j_in_j_0 + (t25 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t69)) - alphadot[1] * (C_j[7] *
+        t64 + C_j[6] * t65 + C_j[8] * t59) - (omega_j[0] * t66 + omega_j[1] * t69 - omega_j[2] * t71);
     jac_phi_q_v_A_i[4] = t30 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t77 + (omega_i_in_j_0 * t72 - t24 *
         h_star_cross_f_j_in_j_0 + (t25 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t75)) - (omega_j[1] * t75 +
         omega_j[0] * t72 - omega_j[2] * t77);
@@ -479,9 +477,6 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t84 = C_j[3] * t59 - C_j[5] * t65;
     const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
     const jg_real t86 = C_j[4] * t65 - C_j[3] * t64;
-    jac_phi_q_v_A_i[5] = t30 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t86 + (omega_i_in_j_0 * t78 - t24 *
-        f_star_cross_g_j_in_j_0 + (t25 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t84)) + alphadot[1] * (C_j[4] *
-        t50 - C_j[3] * t57 + C_j[5] * t60) - (omega_j[0] * t78 + omega_j[1] * t84 + omega_j[2] * t86);
     const jg_real t87 = A_j[7] * s_j_cross_omega_i_in_j_2;
     const jg_real t88 = A_j[4] * A_ij_8 - A_j[7] * A_ij_5;
     const jg_real t89 = A_j[7] * A_ij_4 - A_j[4] * A_ij_7;
@@ -493,16 +488,13 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t95 = s_j[0] * t94 + s_j[2] * t90;
     const jg_real t96 = s_j[1] * t94 - s_j[2] * t91;
     const jg_real t97 = A_j[4] * v_0_in_j_1 + A_j[7] * v_0_in_j_2;
-    jac_phi_q_v_A_i[6] = t87 + A_ij_6 * t92 + (t93 - A_ij_3 * t95 + A_ij_0 * t96) + t97;
     const jg_real t98 = t88 * s_j_cross_omega_i_in_j_0;
     const jg_real v_2_world_1 = r_j[1] - r_i[1];
     const jg_real t100 = v_0_in_j_0 * t88 + omega_i[2] * v_2_world_1;
-    jac_phi_q_v_A_i[7] = A_ij_1 * t96 - t98 - A_ij_4 * t95 + A_ij_7 * t92 - t100;
     const jg_real t101 = t89 * s_j_cross_omega_i_in_j_0;
     const jg_real t102 = v_0_in_j_0 * t89 - omega_i[1] * v_2_world_1;
-    jac_phi_q_v_A_i[8] = A_ij_2 * t96 - t101 - A_ij_5 * t95 + A_ij_8 * t92 - t102;
     const jg_real t103 = A_j[4] * g_star_in_i_0;
-    const jg_real t104 = C_i[7] * t88 + C_i[8] * t89;
+    const jg_real t104 = t88 * C_i[7] + t89 * C_i[8];
     const jg_real t105 = A_j[4] * C_i[6];
     const jg_real t106 = t88 * g_star_in_i_1 + t89 * g_star_in_i_2;
     const jg_real t107 = t105 * g_star_in_j_0 - h_star_in_j_1 * t106 - (h_star_in_j_0 * t103 - t104 *
@@ -516,21 +508,12 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t112 = C_j[8] * t103 - C_j[7] * t108;
     const jg_real t113 = C_j[8] * t106 + C_j[6] * t108;
     const jg_real t114 = C_j[7] * t106 + C_j[6] * t103;
-    jac_phi_q_v_A_i[9] = t94 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t114 + (omega_i_in_j_0 * t112 - t90 *
-        g_star_cross_h_j_in_j_0 + (t91 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t113)) - alphadot[1] * (C_j[7] *
-        t110 + C_j[6] * t111 + C_j[8] * t107) - (omega_j[0] * t112 + omega_j[1] * t113 - omega_j[2] * t114);
     const jg_real t115 = t105 * C_j[2] - t109 * C_j[1];
     const jg_real t116 = C_j[2] * t104 + t109 * C_j[0];
     const jg_real t117 = t105 * C_j[0] + C_j[1] * t104;
-    jac_phi_q_v_A_i[10] = t94 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t117 + (omega_i_in_j_0 * t115 - t90 *
-        h_star_cross_f_j_in_j_0 + (t91 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t116)) - (omega_j[1] * t116 +
-        omega_j[0] * t115 - omega_j[2] * t117);
     const jg_real t118 = C_j[5] * t110 - C_j[4] * t107;
     const jg_real t119 = C_j[3] * t107 - C_j[5] * t111;
     const jg_real t120 = C_j[4] * t111 - C_j[3] * t110;
-    jac_phi_q_v_A_i[11] = t94 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t120 + (omega_i_in_j_0 * t118 - t90 *
-        f_star_cross_g_j_in_j_0 + (t91 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t119)) + alphadot[1] * (C_j[4] *
-        t103 - C_j[3] * t106 + C_j[5] * t108) - (omega_j[0] * t118 + omega_j[1] * t119 + omega_j[2] * t120);
     const jg_real t121 = A_j[8] * s_j_cross_omega_i_in_j_2;
     const jg_real t122 = A_j[5] * A_ij_8 - A_j[8] * A_ij_5;
     const jg_real t123 = A_j[8] * A_ij_4 - A_j[5] * A_ij_7;
@@ -542,16 +525,29 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t129 = s_j[0] * t128 + s_j[2] * t124;
     const jg_real t130 = s_j[1] * t128 - s_j[2] * t125;
     const jg_real t131 = A_j[5] * v_0_in_j_1 + A_j[8] * v_0_in_j_2;
+    jac_phi_q_v_A_i[5] = t30 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t86 + (omega_i_in_j_0 * t78 - t24 *
+        f_star_cross_g_j_in_j_0 + (t25 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t84)) + alphadot[1] * (C_j[4] *
+        t50 - C_j[3] * t57 + C_j[5] * t60) - (omega_j[0] * t78 + omega_j[1] * t84 + omega_j[2] * t86);
+    jac_phi_q_v_A_i[6] = t87 + A_ij_6 * t92 + (t93 - A_ij_3 * t95 + A_ij_0 * t96) + t97;
+    jac_phi_q_v_A_i[7] = A_ij_1 * t96 - t98 - A_ij_4 * t95 + A_ij_7 * t92 - t100;
+    jac_phi_q_v_A_i[8] = A_ij_2 * t96 - t101 - A_ij_5 * t95 + A_ij_8 * t92 - t102;
+    jac_phi_q_v_A_i[9] = t94 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t114 + (omega_i_in_j_0 * t112 - t90 *
+        g_star_cross_h_j_in_j_0 + (t91 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t113)) - alphadot[1] * (C_j[7] *
+        t110 + C_j[6] * t111 + C_j[8] * t107) - (omega_j[0] * t112 + omega_j[1] * t113 - omega_j[2] * t114);
+    jac_phi_q_v_A_i[10] = t94 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t117 + (omega_i_in_j_0 * t115 - t90 *
+        h_star_cross_f_j_in_j_0 + (t91 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t116)) - (omega_j[1] * t116 +
+        omega_j[0] * t115 - omega_j[2] * t117);
+    jac_phi_q_v_A_i[11] = t94 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t120 + (omega_i_in_j_0 * t118 - t90 *
+        f_star_cross_g_j_in_j_0 + (t91 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t119)) + alphadot[1] * (C_j[4] *
+        t103 - C_j[3] * t106 + C_j[5] * t108) - (omega_j[0] * t118 + omega_j[1] * t119 + omega_j[2] * t120);
     jac_phi_q_v_A_i[12] = t121 + A_ij_6 * t126 + (t127 - A_ij_3 * t129 + A_ij_0 * t130) + t131;
     const jg_real t132 = t122 * s_j_cross_omega_i_in_j_0;
     const jg_real v_2_world_2 = r_j[2] - r_i[2];
     const jg_real t134 = v_0_in_j_0 * t122 + omega_i[2] * v_2_world_2;
-    jac_phi_q_v_A_i[13] = A_ij_1 * t130 - t132 - A_ij_4 * t129 + A_ij_7 * t126 - t134;
     const jg_real t135 = t123 * s_j_cross_omega_i_in_j_0;
     const jg_real t136 = v_0_in_j_0 * t123 - omega_i[1] * v_2_world_2;
-    jac_phi_q_v_A_i[14] = A_ij_2 * t130 - t135 - A_ij_5 * t129 + A_ij_8 * t126 - t136;
     const jg_real t137 = A_j[5] * g_star_in_i_0;
-    const jg_real t138 = C_i[7] * t122 + C_i[8] * t123;
+    const jg_real t138 = t122 * C_i[7] + t123 * C_i[8];
     const jg_real t139 = A_j[5] * C_i[6];
     const jg_real t140 = t122 * g_star_in_i_1 + t123 * g_star_in_i_2;
     const jg_real t141 = t139 * g_star_in_j_0 - h_star_in_j_1 * t140 - (h_star_in_j_0 * t137 - t138 *
@@ -565,21 +561,12 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t146 = C_j[8] * t137 - C_j[7] * t142;
     const jg_real t147 = C_j[8] * t140 + C_j[6] * t142;
     const jg_real t148 = C_j[7] * t140 + C_j[6] * t137;
-    jac_phi_q_v_A_i[15] = t128 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t148 + (omega_i_in_j_0 * t146 - t124 *
-        g_star_cross_h_j_in_j_0 + (t125 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t147)) - alphadot[1] * (C_j[7]
-        * t144 + C_j[6] * t145 + C_j[8] * t141) - (omega_j[0] * t146 + omega_j[1] * t147 - omega_j[2] * t148);
     const jg_real t149 = t139 * C_j[2] - t143 * C_j[1];
     const jg_real t150 = C_j[2] * t138 + t143 * C_j[0];
     const jg_real t151 = t139 * C_j[0] + C_j[1] * t138;
-    jac_phi_q_v_A_i[16] = t128 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t151 + (omega_i_in_j_0 * t149 - t124 *
-        h_star_cross_f_j_in_j_0 + (t125 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t150)) - (omega_j[1] * t150 +
-        omega_j[0] * t149 - omega_j[2] * t151);
     const jg_real t152 = C_j[5] * t144 - C_j[4] * t141;
     const jg_real t153 = C_j[3] * t141 - C_j[5] * t145;
     const jg_real t154 = C_j[4] * t145 - C_j[3] * t144;
-    jac_phi_q_v_A_i[17] = t128 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t154 + (omega_i_in_j_0 * t152 - t124 *
-        f_star_cross_g_j_in_j_0 + (t125 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t153)) + alphadot[1] * (C_j[4]
-        * t137 - C_j[3] * t140 + C_j[5] * t142) - (omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154);
     const jg_real t155 = A_j[6] * omega_i[1];
     const jg_real t156 = A_j[3] * omega_i[1];
     const jg_real t157 = s_j[1] * t155 - s_j[2] * t156;
@@ -587,13 +574,24 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t159 = omega_i[0] * t22 - omega_i[2] * t158;
     const jg_real t160 = s_j[2] * t159 - s_j[0] * t155;
     const jg_real t161 = s_j[0] * t156 - s_j[1] * t159;
-    jac_phi_q_v_A_i[18] = t39 + A_ij_0 * t157 + A_ij_3 * t160 + A_ij_6 * t161 + t43;
-    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t161 + (t29 + A_ij_4 * t160 + A_ij_1 * t157) + t37;
     const jg_real t162 = t158 * s_j_cross_omega_i_in_j_0;
     const jg_real t163 = v_0_in_j_0 * t158 + omega_i[0] * v_2_world_0;
+    jac_phi_q_v_A_i[13] = A_ij_1 * t130 - t132 - A_ij_4 * t129 + A_ij_7 * t126 - t134;
+    jac_phi_q_v_A_i[14] = A_ij_2 * t130 - t135 - A_ij_5 * t129 + A_ij_8 * t126 - t136;
+    jac_phi_q_v_A_i[15] = t128 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t148 + (omega_i_in_j_0 * t146 - t124 *
+        g_star_cross_h_j_in_j_0 + (t125 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t147)) - alphadot[1] * (C_j[7]
+        * t144 + C_j[6] * t145 + C_j[8] * t141) - (omega_j[0] * t146 + omega_j[1] * t147 - omega_j[2] * t148);
+    jac_phi_q_v_A_i[16] = t128 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t151 + (omega_i_in_j_0 * t149 - t124 *
+        h_star_cross_f_j_in_j_0 + (t125 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t150)) - (omega_j[1] * t150 +
+        omega_j[0] * t149 - omega_j[2] * t151);
+    jac_phi_q_v_A_i[17] = t128 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t154 + (omega_i_in_j_0 * t152 - t124 *
+        f_star_cross_g_j_in_j_0 + (t125 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t153)) + alphadot[1] * (C_j[4]
+        * t137 - C_j[3] * t140 + C_j[5] * t142) - (omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154);
+    jac_phi_q_v_A_i[18] = t39 + A_ij_0 * t157 + A_ij_3 * t160 + A_ij_6 * t161 + t43;
+    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t161 + (t29 + A_ij_4 * t160 + A_ij_1 * t157) + t37;
     jac_phi_q_v_A_i[20] = A_ij_2 * t157 - t162 + A_ij_5 * t160 + A_ij_8 * t161 - t163;
     const jg_real t164 = A_j[3] * g_star_in_i_1;
-    const jg_real t165 = C_i[6] * t22 - C_i[8] * t158;
+    const jg_real t165 = C_i[6] * t22 - t158 * C_i[8];
     const jg_real t166 = A_j[3] * C_i[7];
     const jg_real t167 = t22 * g_star_in_i_0 - t158 * g_star_in_i_2;
     const jg_real t168 = h_star_in_j_1 * t167 + t166 * g_star_in_j_0 - (h_star_in_j_0 * t164 + t165 *
@@ -607,21 +605,12 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t173 = C_j[8] * t164 - C_j[7] * t169;
     const jg_real t174 = C_j[6] * t169 - C_j[8] * t167;
     const jg_real t175 = C_j[7] * t167 - C_j[6] * t164;
-    jac_phi_q_v_A_i[21] = t155 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t175 + (t159 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t173 + (t156 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t174)) - alphadot[1] * (C_j[7] *
-        t171 + C_j[6] * t172 + C_j[8] * t168) - (omega_j[0] * t173 + omega_j[1] * t174 + omega_j[2] * t175);
     const jg_real t176 = t166 * C_j[2] - t170 * C_j[1];
     const jg_real t177 = t170 * C_j[0] - C_j[2] * t165;
     const jg_real t178 = C_j[1] * t165 - t166 * C_j[0];
-    jac_phi_q_v_A_i[22] = t155 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t178 + (t159 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t176 + (t156 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t177)) - (omega_j[1] * t177 +
-        omega_j[0] * t176 + omega_j[2] * t178);
     const jg_real t179 = C_j[5] * t171 - C_j[4] * t168;
     const jg_real t180 = C_j[3] * t168 - C_j[5] * t172;
     const jg_real t181 = C_j[4] * t172 - C_j[3] * t171;
-    jac_phi_q_v_A_i[23] = t155 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t181 + (t159 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t179 + (t156 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t180)) + alphadot[1] * (C_j[3] *
-        t167 + C_j[4] * t164 + C_j[5] * t169) - (omega_j[0] * t179 + omega_j[1] * t180 + omega_j[2] * t181);
     const jg_real t182 = A_j[7] * omega_i[1];
     const jg_real t183 = A_j[4] * omega_i[1];
     const jg_real t184 = s_j[1] * t182 - s_j[2] * t183;
@@ -629,13 +618,10 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t186 = omega_i[0] * t88 - omega_i[2] * t185;
     const jg_real t187 = s_j[2] * t186 - s_j[0] * t182;
     const jg_real t188 = s_j[0] * t183 - s_j[1] * t186;
-    jac_phi_q_v_A_i[24] = t98 + A_ij_0 * t184 + A_ij_3 * t187 + A_ij_6 * t188 + t100;
-    jac_phi_q_v_A_i[25] = t87 + A_ij_7 * t188 + (t93 + A_ij_4 * t187 + A_ij_1 * t184) + t97;
     const jg_real t189 = t185 * s_j_cross_omega_i_in_j_0;
     const jg_real t190 = v_0_in_j_0 * t185 + omega_i[0] * v_2_world_1;
-    jac_phi_q_v_A_i[26] = A_ij_2 * t184 - t189 + A_ij_5 * t187 + A_ij_8 * t188 - t190;
     const jg_real t191 = A_j[4] * g_star_in_i_1;
-    const jg_real t192 = C_i[6] * t88 - C_i[8] * t185;
+    const jg_real t192 = C_i[6] * t88 - t185 * C_i[8];
     const jg_real t193 = A_j[4] * C_i[7];
     const jg_real t194 = t88 * g_star_in_i_0 - t185 * g_star_in_i_2;
     const jg_real t195 = h_star_in_j_1 * t194 + t193 * g_star_in_j_0 - (h_star_in_j_0 * t191 + t192 *
@@ -649,21 +635,30 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t200 = C_j[8] * t191 - C_j[7] * t196;
     const jg_real t201 = C_j[6] * t196 - C_j[8] * t194;
     const jg_real t202 = C_j[7] * t194 - C_j[6] * t191;
-    jac_phi_q_v_A_i[27] = t182 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t202 + (t186 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t200 + (t183 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t201)) - alphadot[1] * (C_j[7] *
-        t198 + C_j[6] * t199 + C_j[8] * t195) - (omega_j[0] * t200 + omega_j[1] * t201 + omega_j[2] * t202);
     const jg_real t203 = t193 * C_j[2] - t197 * C_j[1];
     const jg_real t204 = t197 * C_j[0] - C_j[2] * t192;
     const jg_real t205 = C_j[1] * t192 - t193 * C_j[0];
+    jac_phi_q_v_A_i[21] = t155 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t175 + (t159 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t173 + (t156 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t174)) - alphadot[1] * (C_j[7] *
+        t171 + C_j[6] * t172 + C_j[8] * t168) - (omega_j[0] * t173 + omega_j[1] * t174 + omega_j[2] * t175);
+    jac_phi_q_v_A_i[22] = t155 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t178 + (t159 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t176 + (t156 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t177)) - (omega_j[1] * t177 +
+        omega_j[0] * t176 + omega_j[2] * t178);
+    jac_phi_q_v_A_i[23] = t155 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t181 + (t159 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t179 + (t156 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t180)) + alphadot[1] * (C_j[3] *
+        t167 + C_j[4] * t164 + C_j[5] * t169) - (omega_j[0] * t179 + omega_j[1] * t180 + omega_j[2] * t181);
+    jac_phi_q_v_A_i[24] = t98 + A_ij_0 * t184 + A_ij_3 * t187 + A_ij_6 * t188 + t100;
+    jac_phi_q_v_A_i[25] = t87 + A_ij_7 * t188 + (t93 + A_ij_4 * t187 + A_ij_1 * t184) + t97;
+    jac_phi_q_v_A_i[26] = A_ij_2 * t184 - t189 + A_ij_5 * t187 + A_ij_8 * t188 - t190;
+    jac_phi_q_v_A_i[27] = t182 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t202 + (t186 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t200 + (t183 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t201)) - alphadot[1] * (C_j[7] *
+        t198 + C_j[6] * t199 + C_j[8] * t195) - (omega_j[0] * t200 + omega_j[1] * t201 + omega_j[2] * t202);
     jac_phi_q_v_A_i[28] = t182 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t205 + (t186 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t203 + (t183 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t204)) - (omega_j[1] * t204 +
         omega_j[0] * t203 + omega_j[2] * t205);
     const jg_real t206 = C_j[5] * t198 - C_j[4] * t195;
     const jg_real t207 = C_j[3] * t195 - C_j[5] * t199;
     const jg_real t208 = C_j[4] * t199 - C_j[3] * t198;
-    jac_phi_q_v_A_i[29] = t182 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t208 + (t186 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t206 + (t183 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t207)) + alphadot[1] * (C_j[3] *
-        t194 + C_j[4] * t191 + C_j[5] * t196) - (omega_j[0] * t206 + omega_j[1] * t207 + omega_j[2] * t208);
     const jg_real t209 = A_j[8] * omega_i[1];
     const jg_real t210 = A_j[5] * omega_i[1];
     const jg_real t211 = s_j[1] * t209 - s_j[2] * t210;
@@ -671,13 +666,10 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t213 = omega_i[0] * t122 - omega_i[2] * t212;
     const jg_real t214 = s_j[2] * t213 - s_j[0] * t209;
     const jg_real t215 = s_j[0] * t210 - s_j[1] * t213;
-    jac_phi_q_v_A_i[30] = t132 + A_ij_0 * t211 + A_ij_3 * t214 + A_ij_6 * t215 + t134;
-    jac_phi_q_v_A_i[31] = t121 + A_ij_7 * t215 + (t127 + A_ij_4 * t214 + A_ij_1 * t211) + t131;
     const jg_real t216 = t212 * s_j_cross_omega_i_in_j_0;
     const jg_real t217 = v_0_in_j_0 * t212 + omega_i[0] * v_2_world_2;
-    jac_phi_q_v_A_i[32] = A_ij_2 * t211 - t216 + A_ij_5 * t214 + A_ij_8 * t215 - t217;
     const jg_real t218 = A_j[5] * g_star_in_i_1;
-    const jg_real t219 = C_i[6] * t122 - C_i[8] * t212;
+    const jg_real t219 = C_i[6] * t122 - t212 * C_i[8];
     const jg_real t220 = A_j[5] * C_i[7];
     const jg_real t221 = t122 * g_star_in_i_0 - t212 * g_star_in_i_2;
     const jg_real t222 = h_star_in_j_1 * t221 + t220 * g_star_in_j_0 - (h_star_in_j_0 * t218 + t219 *
@@ -691,30 +683,34 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t227 = C_j[8] * t218 - C_j[7] * t223;
     const jg_real t228 = C_j[6] * t223 - C_j[8] * t221;
     const jg_real t229 = C_j[7] * t221 - C_j[6] * t218;
-    jac_phi_q_v_A_i[33] = t209 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t229 + (t213 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t227 + (t210 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t228)) - alphadot[1] * (C_j[7] *
-        t225 + C_j[6] * t226 + C_j[8] * t222) - (omega_j[0] * t227 + omega_j[1] * t228 + omega_j[2] * t229);
     const jg_real t230 = t220 * C_j[2] - t224 * C_j[1];
     const jg_real t231 = t224 * C_j[0] - C_j[2] * t219;
     const jg_real t232 = C_j[1] * t219 - t220 * C_j[0];
-    jac_phi_q_v_A_i[34] = t209 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t232 + (t213 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t230 + (t210 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t231)) - (omega_j[1] * t231 +
-        omega_j[0] * t230 + omega_j[2] * t232);
     const jg_real t233 = C_j[5] * t225 - C_j[4] * t222;
     const jg_real t234 = C_j[3] * t222 - C_j[5] * t226;
     const jg_real t235 = C_j[4] * t226 - C_j[3] * t225;
-    jac_phi_q_v_A_i[35] = t209 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t235 + (t213 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t233 + (t210 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t234)) + alphadot[1] * (C_j[3] *
-        t221 + C_j[4] * t218 + C_j[5] * t223) - (omega_j[0] * t233 + omega_j[1] * t234 + omega_j[2] * t235);
     const jg_real t236 = A_j[6] * omega_i[2];
     const jg_real t237 = A_j[3] * omega_i[2];
     const jg_real t238 = s_j[1] * t236 - s_j[2] * t237;
     const jg_real t239 = omega_i[0] * t23 + omega_i[1] * t158;
     const jg_real t240 = s_j[2] * t239 - s_j[0] * t236;
     const jg_real t241 = s_j[0] * t237 - s_j[1] * t239;
+    jac_phi_q_v_A_i[29] = t182 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t208 + (t186 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t206 + (t183 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t207)) + alphadot[1] * (C_j[3] *
+        t194 + C_j[4] * t191 + C_j[5] * t196) - (omega_j[0] * t206 + omega_j[1] * t207 + omega_j[2] * t208);
+    jac_phi_q_v_A_i[30] = t132 + A_ij_0 * t211 + A_ij_3 * t214 + A_ij_6 * t215 + t134;
+    jac_phi_q_v_A_i[31] = t121 + A_ij_7 * t215 + (t127 + A_ij_4 * t214 + A_ij_1 * t211) + t131;
+    jac_phi_q_v_A_i[32] = A_ij_2 * t211 - t216 + A_ij_5 * t214 + A_ij_8 * t215 - t217;
+    jac_phi_q_v_A_i[33] = t209 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t229 + (t213 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t227 + (t210 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t228)) - alphadot[1] * (C_j[7] *
+        t225 + C_j[6] * t226 + C_j[8] * t222) - (omega_j[0] * t227 + omega_j[1] * t228 + omega_j[2] * t229);
+    jac_phi_q_v_A_i[34] = t209 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t232 + (t213 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t230 + (t210 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t231)) - (omega_j[1] * t231 +
+        omega_j[0] * t230 + omega_j[2] * t232);
+    jac_phi_q_v_A_i[35] = t209 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t235 + (t213 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t233 + (t210 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t234)) + alphadot[1] * (C_j[3] *
+        t221 + C_j[4] * t218 + C_j[5] * t223) - (omega_j[0] * t233 + omega_j[1] * t234 + omega_j[2] * t235);
     jac_phi_q_v_A_i[36] = t44 + A_ij_0 * t238 + A_ij_3 * t240 + A_ij_6 * t241 + t45;
-    jac_phi_q_v_A_i[37] = t162 + A_ij_1 * t238 + A_ij_4 * t240 + A_ij_7 * t241 + t163;
-    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t241 + (t29 + A_ij_5 * t240 + A_ij_2 * t238) + t37;
     const jg_real t242 = A_j[3] * g_star_in_i_2;
     const jg_real t243 = C_i[6] * t23 + C_i[7] * t158;
     const jg_real t244 = A_j[3] * C_i[8];
@@ -730,27 +726,29 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t251 = C_j[8] * t242 - C_j[7] * t247;
     const jg_real t252 = C_j[6] * t247 - C_j[8] * t245;
     const jg_real t253 = C_j[7] * t245 - C_j[6] * t242;
-    jac_phi_q_v_A_i[39] = t236 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t253 + (t239 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t251 + (t237 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t252)) - alphadot[1] * (C_j[7] *
-        t249 + C_j[6] * t250 + C_j[8] * t246) - (omega_j[0] * t251 + omega_j[1] * t252 + omega_j[2] * t253);
     const jg_real t254 = t244 * C_j[2] - t248 * C_j[1];
     const jg_real t255 = t248 * C_j[0] - t243 * C_j[2];
     const jg_real t256 = t243 * C_j[1] - t244 * C_j[0];
-    jac_phi_q_v_A_i[40] = t236 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t256 + (t239 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t254 + (t237 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t255)) - (omega_j[1] * t255 +
-        omega_j[0] * t254 + omega_j[2] * t256);
     const jg_real t257 = C_j[5] * t249 - C_j[4] * t246;
     const jg_real t258 = C_j[3] * t246 - C_j[5] * t250;
     const jg_real t259 = C_j[4] * t250 - C_j[3] * t249;
-    jac_phi_q_v_A_i[41] = t236 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t259 + (t239 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t257 + (t237 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t258)) + alphadot[1] * (C_j[3] *
-        t245 + C_j[4] * t242 + C_j[5] * t247) - (omega_j[0] * t257 + omega_j[1] * t258 + omega_j[2] * t259);
     const jg_real t260 = A_j[7] * omega_i[2];
     const jg_real t261 = A_j[4] * omega_i[2];
     const jg_real t262 = s_j[1] * t260 - s_j[2] * t261;
     const jg_real t263 = omega_i[0] * t89 + omega_i[1] * t185;
     const jg_real t264 = s_j[2] * t263 - s_j[0] * t260;
     const jg_real t265 = s_j[0] * t261 - s_j[1] * t263;
+    jac_phi_q_v_A_i[37] = t162 + A_ij_1 * t238 + A_ij_4 * t240 + A_ij_7 * t241 + t163;
+    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t241 + (t29 + A_ij_5 * t240 + A_ij_2 * t238) + t37;
+    jac_phi_q_v_A_i[39] = t236 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t253 + (t239 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t251 + (t237 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t252)) - alphadot[1] * (C_j[7] *
+        t249 + C_j[6] * t250 + C_j[8] * t246) - (omega_j[0] * t251 + omega_j[1] * t252 + omega_j[2] * t253);
+    jac_phi_q_v_A_i[40] = t236 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t256 + (t239 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t254 + (t237 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t255)) - (omega_j[1] * t255 +
+        omega_j[0] * t254 + omega_j[2] * t256);
+    jac_phi_q_v_A_i[41] = t236 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t259 + (t239 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t257 + (t237 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t258)) + alphadot[1] * (C_j[3] *
+        t245 + C_j[4] * t242 + C_j[5] * t247) - (omega_j[0] * t257 + omega_j[1] * t258 + omega_j[2] * t259);
     jac_phi_q_v_A_i[42] = t101 + A_ij_0 * t262 + A_ij_3 * t264 + A_ij_6 * t265 + t102;
     jac_phi_q_v_A_i[43] = t189 + A_ij_1 * t262 + A_ij_4 * t264 + A_ij_7 * t265 + t190;
     jac_phi_q_v_A_i[44] = t87 + A_ij_8 * t265 + (t93 + A_ij_5 * t264 + A_ij_2 * t262) + t97;
@@ -769,30 +767,18 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t275 = C_j[8] * t266 - C_j[7] * t271;
     const jg_real t276 = C_j[6] * t271 - C_j[8] * t269;
     const jg_real t277 = C_j[7] * t269 - C_j[6] * t266;
-    jac_phi_q_v_A_i[45] = t260 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t277 + (t263 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t275 + (t261 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t276)) - alphadot[1] * (C_j[7] *
-        t273 + C_j[6] * t274 + C_j[8] * t270) - (omega_j[0] * t275 + omega_j[1] * t276 + omega_j[2] * t277);
     const jg_real t278 = t268 * C_j[2] - t272 * C_j[1];
     const jg_real t279 = t272 * C_j[0] - t267 * C_j[2];
     const jg_real t280 = t267 * C_j[1] - t268 * C_j[0];
-    jac_phi_q_v_A_i[46] = t260 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t280 + (t263 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t278 + (t261 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t279)) - (omega_j[1] * t279 +
-        omega_j[0] * t278 + omega_j[2] * t280);
     const jg_real t281 = C_j[5] * t273 - C_j[4] * t270;
     const jg_real t282 = C_j[3] * t270 - C_j[5] * t274;
     const jg_real t283 = C_j[4] * t274 - C_j[3] * t273;
-    jac_phi_q_v_A_i[47] = t260 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t283 + (t263 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t281 + (t261 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t282)) + alphadot[1] * (C_j[3] *
-        t269 + C_j[4] * t266 + C_j[5] * t271) - (omega_j[0] * t281 + omega_j[1] * t282 + omega_j[2] * t283);
     const jg_real t284 = A_j[8] * omega_i[2];
     const jg_real t285 = A_j[5] * omega_i[2];
     const jg_real t286 = s_j[1] * t284 - s_j[2] * t285;
     const jg_real t287 = omega_i[0] * t123 + omega_i[1] * t212;
     const jg_real t288 = s_j[2] * t287 - s_j[0] * t284;
     const jg_real t289 = s_j[0] * t285 - s_j[1] * t287;
-    jac_phi_q_v_A_i[48] = t135 + A_ij_0 * t286 + A_ij_3 * t288 + A_ij_6 * t289 + t136;
-    jac_phi_q_v_A_i[49] = t216 + A_ij_1 * t286 + A_ij_4 * t288 + A_ij_7 * t289 + t217;
-    jac_phi_q_v_A_i[50] = t121 + A_ij_8 * t289 + (t127 + A_ij_5 * t288 + A_ij_2 * t286) + t131;
     const jg_real t290 = A_j[5] * g_star_in_i_2;
     const jg_real t291 = C_i[6] * t123 + C_i[7] * t212;
     const jg_real t292 = A_j[5] * C_i[8];
@@ -808,21 +794,30 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t299 = C_j[8] * t290 - C_j[7] * t295;
     const jg_real t300 = C_j[6] * t295 - C_j[8] * t293;
     const jg_real t301 = C_j[7] * t293 - C_j[6] * t290;
-    jac_phi_q_v_A_i[51] = t284 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t301 + (t287 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t299 + (t285 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t300)) - alphadot[1] * (C_j[7] *
-        t297 + C_j[6] * t298 + C_j[8] * t294) - (omega_j[0] * t299 + omega_j[1] * t300 + omega_j[2] * t301);
     const jg_real t302 = t292 * C_j[2] - t296 * C_j[1];
     const jg_real t303 = t296 * C_j[0] - t291 * C_j[2];
     const jg_real t304 = t291 * C_j[1] - t292 * C_j[0];
+    jac_phi_q_v_A_i[45] = t260 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t277 + (t263 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t275 + (t261 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t276)) - alphadot[1] * (C_j[7] *
+        t273 + C_j[6] * t274 + C_j[8] * t270) - (omega_j[0] * t275 + omega_j[1] * t276 + omega_j[2] * t277);
+    jac_phi_q_v_A_i[46] = t260 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t280 + (t263 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t278 + (t261 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t279)) - (omega_j[1] * t279 +
+        omega_j[0] * t278 + omega_j[2] * t280);
+    jac_phi_q_v_A_i[47] = t260 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t283 + (t263 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t281 + (t261 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t282)) + alphadot[1] * (C_j[3] *
+        t269 + C_j[4] * t266 + C_j[5] * t271) - (omega_j[0] * t281 + omega_j[1] * t282 + omega_j[2] * t283);
+    jac_phi_q_v_A_i[48] = t135 + A_ij_0 * t286 + A_ij_3 * t288 + A_ij_6 * t289 + t136;
+    jac_phi_q_v_A_i[49] = t216 + A_ij_1 * t286 + A_ij_4 * t288 + A_ij_7 * t289 + t217;
+    jac_phi_q_v_A_i[50] = t121 + A_ij_8 * t289 + (t127 + A_ij_5 * t288 + A_ij_2 * t286) + t131;
+    jac_phi_q_v_A_i[51] = t284 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t301 + (t287 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t299 + (t285 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t300)) - alphadot[1] * (C_j[7] *
+        t297 + C_j[6] * t298 + C_j[8] * t294) - (omega_j[0] * t299 + omega_j[1] * t300 + omega_j[2] * t301);
     jac_phi_q_v_A_i[52] = t284 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t304 + (t287 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t302 + (t285 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t303)) - (omega_j[1] * t303 +
         omega_j[0] * t302 + omega_j[2] * t304);
     const jg_real t305 = C_j[5] * t297 - C_j[4] * t294;
     const jg_real t306 = C_j[3] * t294 - C_j[5] * t298;
     const jg_real t307 = C_j[4] * t298 - C_j[3] * t297;
-    jac_phi_q_v_A_i[53] = t284 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t307 + (t287 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t305 + (t285 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t306)) + alphadot[1] * (C_j[3] *
-        t293 + C_j[4] * t290 + C_j[5] * t295) - (omega_j[0] * t305 + omega_j[1] * t306 + omega_j[2] * t307);
     const jg_real t308 = A_i[3] * A_ij_8 - A_i[6] * A_ij_7;
     const jg_real t309 = A_i[3] * omega_i[1] + A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
     const jg_real t310 = s_j[2] * t309;
@@ -832,15 +827,9 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t314 = s_j[2] * t313;
     const jg_real t315 = s_j[0] * t309;
     const jg_real t316 = t315 - s_j[1] * t313;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_1 + v_0_in_j_0 * t308 + (t308 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t310
-        + (A_i[0] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t314) + A_ij_6 * t316);
-    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_1 + v_0_in_j_0 * t311 + (t311 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t310
-        + (A_i[3] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t314) + A_ij_7 * t316);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_0_in_j_1 + v_0_in_j_0 * t312 + (t312 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t310
-        + (A_i[6] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t314) + A_ij_8 * t316);
     const jg_real t317 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
     const jg_real t318 = h_star_in_j_0 * t317;
-    const jg_real t319 = C_i[6] * t308 + C_i[7] * t311 + C_i[8] * t312;
+    const jg_real t319 = C_i[6] * t308 + C_i[7] * t311 + t312 * C_i[8];
     const jg_real t320 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t321 = t320 * g_star_in_j_0;
     const jg_real t322 = t308 * g_star_in_i_0 + t311 * g_star_in_i_1 + t312 * g_star_in_i_2;
@@ -851,22 +840,13 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t327 = C_j[8] * t322;
     const jg_real t328 = C_j[6] * t317;
     const jg_real t329 = C_j[7] * t322 - t328;
-    jac_phi_q_v_A_j[3] = t313 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t326 + (t309 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t327) + omega_i_in_j_2 * t329 - alphadot[1] * (C_j[7] * t324 + C_j[6] * t325 + C_j[8] *
-        t323) - (omega_j[0] * t326 - omega_j[1] * t327 + omega_j[2] * t329);
     const jg_real t330 = t320 * C_j[2];
     const jg_real t331 = C_j[2] * t319;
     const jg_real t332 = t320 * C_j[0];
     const jg_real t333 = C_j[1] * t319 - t332;
-    jac_phi_q_v_A_j[4] = t313 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t330 + (t309 * h_star_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t331) + omega_i_in_j_2 * t333 - (omega_j[0] * t330 - omega_j[1] * t331 + omega_j[2] *
-        t333);
     const jg_real t334 = C_j[5] * t324 - C_j[4] * t323;
     const jg_real t335 = C_j[3] * t323 - C_j[5] * t325;
     const jg_real t336 = C_j[4] * t325 - C_j[3] * t324;
-    jac_phi_q_v_A_j[5] = t313 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t334 + (t309 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t335) + omega_i_in_j_2 * t336 + alphadot[1] * (C_j[3] * t322 + C_j[4] * t317) - (omega_j[0]
-        * t334 + omega_j[1] * t335 + omega_j[2] * t336);
     const jg_real t337 = A_i[4] * A_ij_8 - A_i[7] * A_ij_7;
     const jg_real t338 = A_i[4] * omega_i[1] + A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
     const jg_real t339 = s_j[2] * t338;
@@ -876,15 +856,29 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t343 = s_j[2] * t342;
     const jg_real t344 = s_j[0] * t338;
     const jg_real t345 = t344 - s_j[1] * t342;
+    jac_phi_q_v_A_i[53] = t284 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t307 + (t287 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t305 + (t285 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t306)) + alphadot[1] * (C_j[3] *
+        t293 + C_j[4] * t290 + C_j[5] * t295) - (omega_j[0] * t305 + omega_j[1] * t306 + omega_j[2] * t307);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_1 + v_0_in_j_0 * t308 + (t308 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t310
+        + (A_i[0] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t314) + A_ij_6 * t316);
+    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_1 + v_0_in_j_0 * t311 + (t311 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t310
+        + (A_i[3] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t314) + A_ij_7 * t316);
+    jac_phi_q_v_A_j[2] = v_0_in_j_0 * t312 + A_i[6] * v_0_in_j_1 + (t312 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t310
+        + (A_i[6] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t314) + A_ij_8 * t316);
+    jac_phi_q_v_A_j[3] = t313 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t326 + (t309 * g_star_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t327) + omega_i_in_j_2 * t329 - alphadot[1] * (C_j[7] * t324 + C_j[6] * t325 + C_j[8] *
+        t323) - (omega_j[0] * t326 - omega_j[1] * t327 + omega_j[2] * t329);
+    jac_phi_q_v_A_j[4] = t313 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t330 + (t309 * h_star_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t331) + omega_i_in_j_2 * t333 - (omega_j[0] * t330 - omega_j[1] * t331 + omega_j[2] *
+        t333);
+    jac_phi_q_v_A_j[5] = t313 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t334 + (t309 * f_star_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t335) + omega_i_in_j_2 * t336 + alphadot[1] * (C_j[3] * t322 + C_j[4] * t317) - (omega_j[0]
+        * t334 + omega_j[1] * t335 + omega_j[2] * t336);
     jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_1 + v_0_in_j_0 * t337 + (t337 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t339
         + (A_i[1] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t343) + A_ij_6 * t345);
-    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_1 + v_0_in_j_0 * t340 + (t340 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t339
-        + (A_i[4] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t343) + A_ij_7 * t345);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_0_in_j_1 + v_0_in_j_0 * t341 + (t341 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t339
-        + (A_i[7] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t343) + A_ij_8 * t345);
     const jg_real t346 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
     const jg_real t347 = h_star_in_j_0 * t346;
-    const jg_real t348 = C_i[6] * t337 + C_i[7] * t340 + C_i[8] * t341;
+    const jg_real t348 = C_i[6] * t337 + C_i[7] * t340 + t341 * C_i[8];
     const jg_real t349 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t350 = t349 * g_star_in_j_0;
     const jg_real t351 = t337 * g_star_in_i_0 + t340 * g_star_in_i_1 + t341 * g_star_in_i_2;
@@ -895,22 +889,13 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t356 = C_j[8] * t351;
     const jg_real t357 = C_j[6] * t346;
     const jg_real t358 = C_j[7] * t351 - t357;
-    jac_phi_q_v_A_j[9] = t342 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t355 + (t338 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t356) + omega_i_in_j_2 * t358 - alphadot[1] * (C_j[7] * t353 + C_j[6] * t354 + C_j[8] *
-        t352) - (omega_j[0] * t355 - omega_j[1] * t356 + omega_j[2] * t358);
     const jg_real t359 = t349 * C_j[2];
     const jg_real t360 = C_j[2] * t348;
     const jg_real t361 = t349 * C_j[0];
     const jg_real t362 = C_j[1] * t348 - t361;
-    jac_phi_q_v_A_j[10] = t342 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t359 + (t338 * h_star_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t360) + omega_i_in_j_2 * t362 - (omega_j[0] * t359 - omega_j[1] * t360 + omega_j[2] *
-        t362);
     const jg_real t363 = C_j[5] * t353 - C_j[4] * t352;
     const jg_real t364 = C_j[3] * t352 - C_j[5] * t354;
     const jg_real t365 = C_j[4] * t354 - C_j[3] * t353;
-    jac_phi_q_v_A_j[11] = t342 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t363 + (t338 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t364) + omega_i_in_j_2 * t365 + alphadot[1] * (C_j[3] * t351 + C_j[4] * t346) - (omega_j[0]
-        * t363 + omega_j[1] * t364 + omega_j[2] * t365);
     const jg_real t366 = A_i[5] * A_ij_8 - A_i[8] * A_ij_7;
     const jg_real t367 = A_i[5] * omega_i[1] + A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
     const jg_real t368 = s_j[2] * t367;
@@ -920,15 +905,28 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t372 = s_j[2] * t371;
     const jg_real t373 = s_j[0] * t367;
     const jg_real t374 = t373 - s_j[1] * t371;
+    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_1 + v_0_in_j_0 * t340 + (t340 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t339
+        + (A_i[4] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t343) + A_ij_7 * t345);
+    jac_phi_q_v_A_j[8] = v_0_in_j_0 * t341 + A_i[7] * v_0_in_j_1 + (t341 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t339
+        + (A_i[7] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t343) + A_ij_8 * t345);
+    jac_phi_q_v_A_j[9] = t342 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t355 + (t338 * g_star_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t356) + omega_i_in_j_2 * t358 - alphadot[1] * (C_j[7] * t353 + C_j[6] * t354 + C_j[8] *
+        t352) - (omega_j[0] * t355 - omega_j[1] * t356 + omega_j[2] * t358);
+    jac_phi_q_v_A_j[10] = t342 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t359 + (t338 * h_star_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t360) + omega_i_in_j_2 * t362 - (omega_j[0] * t359 - omega_j[1] * t360 + omega_j[2] *
+        t362);
+    jac_phi_q_v_A_j[11] = t342 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t363 + (t338 * f_star_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t364) + omega_i_in_j_2 * t365 + alphadot[1] * (C_j[3] * t351 + C_j[4] * t346) - (omega_j[0]
+        * t363 + omega_j[1] * t364 + omega_j[2] * t365);
     jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_1 + v_0_in_j_0 * t366 + (t366 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t368
         + (A_i[2] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t372) + A_ij_6 * t374);
     jac_phi_q_v_A_j[13] = A_i[5] * v_0_in_j_1 + v_0_in_j_0 * t369 + (t369 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t368
         + (A_i[5] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t372) + A_ij_7 * t374);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_0_in_j_1 + v_0_in_j_0 * t370 + (t370 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t368
+    jac_phi_q_v_A_j[14] = v_0_in_j_0 * t370 + A_i[8] * v_0_in_j_1 + (t370 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t368
         + (A_i[8] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t372) + A_ij_8 * t374);
     const jg_real t375 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     const jg_real t376 = h_star_in_j_0 * t375;
-    const jg_real t377 = C_i[6] * t366 + C_i[7] * t369 + C_i[8] * t370;
+    const jg_real t377 = C_i[6] * t366 + C_i[7] * t369 + t370 * C_i[8];
     const jg_real t378 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t379 = t378 * g_star_in_j_0;
     const jg_real t380 = t366 * g_star_in_i_0 + t369 * g_star_in_i_1 + t370 * g_star_in_i_2;
@@ -939,22 +937,13 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t385 = C_j[8] * t380;
     const jg_real t386 = C_j[6] * t375;
     const jg_real t387 = C_j[7] * t380 - t386;
-    jac_phi_q_v_A_j[15] = t371 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t384 + (t367 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t385) + omega_i_in_j_2 * t387 - alphadot[1] * (C_j[7] * t382 + C_j[6] * t383 + C_j[8] *
-        t381) - (omega_j[0] * t384 - omega_j[1] * t385 + omega_j[2] * t387);
     const jg_real t388 = t378 * C_j[2];
     const jg_real t389 = C_j[2] * t377;
     const jg_real t390 = t378 * C_j[0];
     const jg_real t391 = C_j[1] * t377 - t390;
-    jac_phi_q_v_A_j[16] = t371 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t388 + (t367 * h_star_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t389) + omega_i_in_j_2 * t391 - (omega_j[0] * t388 - omega_j[1] * t389 + omega_j[2] *
-        t391);
     const jg_real t392 = C_j[5] * t382 - C_j[4] * t381;
     const jg_real t393 = C_j[3] * t381 - C_j[5] * t383;
     const jg_real t394 = C_j[4] * t383 - C_j[3] * t382;
-    jac_phi_q_v_A_j[17] = t371 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t392 + (t367 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t393) + omega_i_in_j_2 * t394 + alphadot[1] * (C_j[3] * t380 + C_j[4] * t375) - (omega_j[0]
-        * t392 + omega_j[1] * t393 + omega_j[2] * t394);
     const jg_real t395 = A_i[6] * A_ij_4 - A_i[3] * A_ij_5;
     const jg_real t396 = A_i[0] * A_ij_5 - A_i[6] * A_ij_3;
     const jg_real t397 = A_i[3] * A_ij_3 - A_i[0] * A_ij_4;
@@ -962,35 +951,41 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t399 = s_j[1] * t398;
     const jg_real t400 = s_j[1] * t309;
     const jg_real t401 = s_j[2] * t398 - t315;
-    jac_phi_q_v_A_j[18] = A_i[0] * v_0_in_j_2 + v_0_in_j_0 * t395 + (A_i[0] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
-        t399 + (t395 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t400 + A_ij_3 * t401));
-    jac_phi_q_v_A_j[19] = A_i[3] * v_0_in_j_2 + v_0_in_j_0 * t396 + (A_i[3] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
-        t399 + (t396 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t400 + A_ij_4 * t401));
-    jac_phi_q_v_A_j[20] = A_i[6] * v_0_in_j_2 + v_0_in_j_0 * t397 + (A_i[6] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
-        t399 + (t397 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t400 + A_ij_5 * t401));
     const jg_real t402 = C_j[7] * t317;
     const jg_real t403 = t395 * g_star_in_i_0 + t396 * g_star_in_i_1 + t397 * g_star_in_i_2;
     const jg_real t404 = t328 - C_j[8] * t403;
     const jg_real t405 = C_j[7] * t403;
-    const jg_real t406 = C_i[6] * t395 + C_i[7] * t396 + C_i[8] * t397;
+    const jg_real t406 = C_i[6] * t395 + C_i[7] * t396 + t397 * C_i[8];
     const jg_real t407 = t318 + t406 * g_star_in_j_2 - (t321 + h_star_in_j_2 * t403);
     const jg_real t408 = t320 * g_star_in_j_1 - h_star_in_j_1 * t317;
     const jg_real t409 = h_star_in_j_1 * t403 - t406 * g_star_in_j_1;
-    jac_phi_q_v_A_j[21] = t309 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t405 + (t398 * g_star_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t402 + omega_i_in_j_1 * t404) - alphadot[1] * (C_j[7] * t407 + C_j[6] * t408 + C_j[8] *
-        t409) - (omega_j[1] * t404 - omega_j[0] * t402 + omega_j[2] * t405);
     const jg_real t410 = t320 * C_j[1];
     const jg_real t411 = t332 - C_j[2] * t406;
     const jg_real t412 = C_j[1] * t406;
+    jac_phi_q_v_A_j[15] = t371 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t384 + (t367 * g_star_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t385) + omega_i_in_j_2 * t387 - alphadot[1] * (C_j[7] * t382 + C_j[6] * t383 + C_j[8] *
+        t381) - (omega_j[0] * t384 - omega_j[1] * t385 + omega_j[2] * t387);
+    jac_phi_q_v_A_j[16] = t371 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t388 + (t367 * h_star_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t389) + omega_i_in_j_2 * t391 - (omega_j[0] * t388 - omega_j[1] * t389 + omega_j[2] *
+        t391);
+    jac_phi_q_v_A_j[17] = t371 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t392 + (t367 * f_star_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t393) + omega_i_in_j_2 * t394 + alphadot[1] * (C_j[3] * t380 + C_j[4] * t375) - (omega_j[0]
+        * t392 + omega_j[1] * t393 + omega_j[2] * t394);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_0_in_j_2 + v_0_in_j_0 * t395 + (A_i[0] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
+        t399 + (t395 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t400 + A_ij_3 * t401));
+    jac_phi_q_v_A_j[19] = v_0_in_j_0 * t396 + A_i[3] * v_0_in_j_2 + (A_i[3] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
+        t399 + (t396 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t400 + A_ij_4 * t401));
+    jac_phi_q_v_A_j[20] = v_0_in_j_0 * t397 + A_i[6] * v_0_in_j_2 + (A_i[6] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
+        t399 + (t397 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t400 + A_ij_5 * t401));
+    jac_phi_q_v_A_j[21] = t309 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t405 + (t398 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t402 + omega_i_in_j_1 * t404) - alphadot[1] * (C_j[7] * t407 + C_j[6] * t408 + C_j[8] *
+        t409) - (omega_j[1] * t404 - omega_j[0] * t402 + omega_j[2] * t405);
     jac_phi_q_v_A_j[22] = t309 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t412 + (t398 * h_star_cross_f_j_in_j_0 -
         omega_i_in_j_0 * t410 + omega_i_in_j_1 * t411) - (omega_j[1] * t411 - omega_j[0] * t410 + omega_j[2] *
         t412);
     const jg_real t413 = C_j[4] * t408 - C_j[3] * t407;
     const jg_real t414 = C_j[5] * t407 - C_j[4] * t409;
     const jg_real t415 = C_j[3] * t409 - C_j[5] * t408;
-    jac_phi_q_v_A_j[23] = t309 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t413 + (t398 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t414 + omega_i_in_j_1 * t415) + alphadot[1] * (C_j[3] * t403 + C_j[5] * t317) - (omega_j[0]
-        * t414 + omega_j[1] * t415 + omega_j[2] * t413);
     const jg_real t416 = A_i[7] * A_ij_4 - A_i[4] * A_ij_5;
     const jg_real t417 = A_i[1] * A_ij_5 - A_i[7] * A_ij_3;
     const jg_real t418 = A_i[4] * A_ij_3 - A_i[1] * A_ij_4;
@@ -998,35 +993,20 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t420 = s_j[1] * t419;
     const jg_real t421 = s_j[1] * t338;
     const jg_real t422 = s_j[2] * t419 - t344;
-    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_0 * t416 + (A_i[1] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
-        t420 + (t416 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t421 + A_ij_3 * t422));
-    jac_phi_q_v_A_j[25] = A_i[4] * v_0_in_j_2 + v_0_in_j_0 * t417 + (A_i[4] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
-        t420 + (t417 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t421 + A_ij_4 * t422));
-    jac_phi_q_v_A_j[26] = A_i[7] * v_0_in_j_2 + v_0_in_j_0 * t418 + (A_i[7] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
-        t420 + (t418 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t421 + A_ij_5 * t422));
     const jg_real t423 = C_j[7] * t346;
     const jg_real t424 = t416 * g_star_in_i_0 + t417 * g_star_in_i_1 + t418 * g_star_in_i_2;
     const jg_real t425 = t357 - C_j[8] * t424;
     const jg_real t426 = C_j[7] * t424;
-    const jg_real t427 = C_i[6] * t416 + C_i[7] * t417 + C_i[8] * t418;
+    const jg_real t427 = C_i[6] * t416 + C_i[7] * t417 + t418 * C_i[8];
     const jg_real t428 = t347 + t427 * g_star_in_j_2 - (t350 + h_star_in_j_2 * t424);
     const jg_real t429 = t349 * g_star_in_j_1 - h_star_in_j_1 * t346;
     const jg_real t430 = h_star_in_j_1 * t424 - t427 * g_star_in_j_1;
-    jac_phi_q_v_A_j[27] = t338 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t426 + (t419 * g_star_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t423 + omega_i_in_j_1 * t425) - alphadot[1] * (C_j[7] * t428 + C_j[6] * t429 + C_j[8] *
-        t430) - (omega_j[1] * t425 - omega_j[0] * t423 + omega_j[2] * t426);
     const jg_real t431 = t349 * C_j[1];
     const jg_real t432 = t361 - C_j[2] * t427;
     const jg_real t433 = C_j[1] * t427;
-    jac_phi_q_v_A_j[28] = t338 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t433 + (t419 * h_star_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t431 + omega_i_in_j_1 * t432) - (omega_j[1] * t432 - omega_j[0] * t431 + omega_j[2] *
-        t433);
     const jg_real t434 = C_j[4] * t429 - C_j[3] * t428;
     const jg_real t435 = C_j[5] * t428 - C_j[4] * t430;
     const jg_real t436 = C_j[3] * t430 - C_j[5] * t429;
-    jac_phi_q_v_A_j[29] = t338 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t434 + (t419 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t435 + omega_i_in_j_1 * t436) + alphadot[1] * (C_j[3] * t424 + C_j[5] * t346) - (omega_j[0]
-        * t435 + omega_j[1] * t436 + omega_j[2] * t434);
     const jg_real t437 = A_i[8] * A_ij_4 - A_i[5] * A_ij_5;
     const jg_real t438 = A_i[2] * A_ij_5 - A_i[8] * A_ij_3;
     const jg_real t439 = A_i[5] * A_ij_3 - A_i[2] * A_ij_4;
@@ -1034,35 +1014,40 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t441 = s_j[1] * t440;
     const jg_real t442 = s_j[1] * t367;
     const jg_real t443 = s_j[2] * t440 - t373;
+    jac_phi_q_v_A_j[23] = t309 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t413 + (t398 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t414 + omega_i_in_j_1 * t415) + alphadot[1] * (C_j[3] * t403 + C_j[5] * t317) - (omega_j[0]
+        * t414 + omega_j[1] * t415 + omega_j[2] * t413);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_0 * t416 + (A_i[1] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
+        t420 + (t416 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t421 + A_ij_3 * t422));
+    jac_phi_q_v_A_j[25] = v_0_in_j_0 * t417 + A_i[4] * v_0_in_j_2 + (A_i[4] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
+        t420 + (t417 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t421 + A_ij_4 * t422));
+    jac_phi_q_v_A_j[26] = v_0_in_j_0 * t418 + A_i[7] * v_0_in_j_2 + (A_i[7] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
+        t420 + (t418 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t421 + A_ij_5 * t422));
+    jac_phi_q_v_A_j[27] = t338 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t426 + (t419 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t423 + omega_i_in_j_1 * t425) - alphadot[1] * (C_j[7] * t428 + C_j[6] * t429 + C_j[8] *
+        t430) - (omega_j[1] * t425 - omega_j[0] * t423 + omega_j[2] * t426);
+    jac_phi_q_v_A_j[28] = t338 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t433 + (t419 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t431 + omega_i_in_j_1 * t432) - (omega_j[1] * t432 - omega_j[0] * t431 + omega_j[2] *
+        t433);
+    jac_phi_q_v_A_j[29] = t338 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t434 + (t419 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t435 + omega_i_in_j_1 * t436) + alphadot[1] * (C_j[3] * t424 + C_j[5] * t346) - (omega_j[0]
+        * t435 + omega_j[1] * t436 + omega_j[2] * t434);
     jac_phi_q_v_A_j[30] = A_i[2] * v_0_in_j_2 + v_0_in_j_0 * t437 + (A_i[2] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
         t441 + (t437 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t442 + A_ij_3 * t443));
-    jac_phi_q_v_A_j[31] = A_i[5] * v_0_in_j_2 + v_0_in_j_0 * t438 + (A_i[5] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
-        t441 + (t438 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t442 + A_ij_4 * t443));
-    jac_phi_q_v_A_j[32] = A_i[8] * v_0_in_j_2 + v_0_in_j_0 * t439 + (A_i[8] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
-        t441 + (t439 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t442 + A_ij_5 * t443));
     const jg_real t444 = C_j[7] * t375;
     const jg_real t445 = t437 * g_star_in_i_0 + t438 * g_star_in_i_1 + t439 * g_star_in_i_2;
     const jg_real t446 = t386 - C_j[8] * t445;
     const jg_real t447 = C_j[7] * t445;
-    const jg_real t448 = C_i[6] * t437 + C_i[7] * t438 + C_i[8] * t439;
+    const jg_real t448 = C_i[6] * t437 + C_i[7] * t438 + t439 * C_i[8];
     const jg_real t449 = t376 + t448 * g_star_in_j_2 - (t379 + h_star_in_j_2 * t445);
     const jg_real t450 = t378 * g_star_in_j_1 - h_star_in_j_1 * t375;
     const jg_real t451 = h_star_in_j_1 * t445 - t448 * g_star_in_j_1;
-    jac_phi_q_v_A_j[33] = t367 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t447 + (t440 * g_star_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t444 + omega_i_in_j_1 * t446) - alphadot[1] * (C_j[7] * t449 + C_j[6] * t450 + C_j[8] *
-        t451) - (omega_j[1] * t446 - omega_j[0] * t444 + omega_j[2] * t447);
     const jg_real t452 = t378 * C_j[1];
     const jg_real t453 = t390 - C_j[2] * t448;
     const jg_real t454 = C_j[1] * t448;
-    jac_phi_q_v_A_j[34] = t367 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t454 + (t440 * h_star_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453) - (omega_j[1] * t453 - omega_j[0] * t452 + omega_j[2] *
-        t454);
     const jg_real t455 = C_j[4] * t450 - C_j[3] * t449;
     const jg_real t456 = C_j[5] * t449 - C_j[4] * t451;
     const jg_real t457 = C_j[3] * t451 - C_j[5] * t450;
-    jac_phi_q_v_A_j[35] = t367 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t455 + (t440 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t456 + omega_i_in_j_1 * t457) + alphadot[1] * (C_j[3] * t445 + C_j[5] * t375) - (omega_j[0]
-        * t456 + omega_j[1] * t457 + omega_j[2] * t455);
     const jg_real t458 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t459 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t460 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -1075,15 +1060,9 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t467 = C_j[7] * t464 - C_j[8] * t461;
     const jg_real t468 = C_j[8] * t462 - C_j[6] * t464;
     const jg_real t469 = C_j[6] * t461 - C_j[7] * t462;
-    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t467 + omega_i_in_j_1 * t468 + omega_i_in_j_2 * t469 - alphadot[1] *
-        (C_j[7] * t465 + C_j[6] * t466 + C_j[8] * t463) - (omega_j[0] * t467 + omega_j[1] * t468 + omega_j[2] *
-        t469);
     const jg_real t470 = C_j[5] * t465 - C_j[4] * t463;
     const jg_real t471 = C_j[3] * t463 - C_j[5] * t466;
     const jg_real t472 = C_j[4] * t466 - C_j[3] * t465;
-    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t470 + omega_i_in_j_1 * t471 + omega_i_in_j_2 * t472 - alphadot[1] *
-        (C_j[3] * t462 + C_j[4] * t461 + C_j[5] * t464) - (omega_j[0] * t470 + omega_j[1] * t471 + omega_j[2] *
-        t472);
     const jg_real t473 = A_ij_3 * sine_0;
     const jg_real t474 = A_ij_0 * sine_0;
     const jg_real t475 = h_star_in_j_0 * t473 - h_star_in_j_1 * t474;
@@ -1093,15 +1072,31 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t479 = C_j[7] * t476 - C_j[8] * t473;
     const jg_real t480 = C_j[8] * t474 - C_j[6] * t476;
     const jg_real t481 = C_j[6] * t473 - C_j[7] * t474;
+    jac_phi_q_v_A_j[31] = v_0_in_j_0 * t438 + A_i[5] * v_0_in_j_2 + (A_i[5] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
+        t441 + (t438 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t442 + A_ij_4 * t443));
+    jac_phi_q_v_A_j[32] = v_0_in_j_0 * t439 + A_i[8] * v_0_in_j_2 + (A_i[8] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
+        t441 + (t439 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t442 + A_ij_5 * t443));
+    jac_phi_q_v_A_j[33] = t367 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t447 + (t440 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t444 + omega_i_in_j_1 * t446) - alphadot[1] * (C_j[7] * t449 + C_j[6] * t450 + C_j[8] *
+        t451) - (omega_j[1] * t446 - omega_j[0] * t444 + omega_j[2] * t447);
+    jac_phi_q_v_A_j[34] = t367 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t454 + (t440 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453) - (omega_j[1] * t453 - omega_j[0] * t452 + omega_j[2] *
+        t454);
+    jac_phi_q_v_A_j[35] = t367 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t455 + (t440 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t456 + omega_i_in_j_1 * t457) + alphadot[1] * (C_j[3] * t445 + C_j[5] * t375) - (omega_j[0]
+        * t456 + omega_j[1] * t457 + omega_j[2] * t455);
+    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t467 + omega_i_in_j_1 * t468 + omega_i_in_j_2 * t469 - alphadot[1] *
+        (C_j[7] * t465 + C_j[6] * t466 + C_j[8] * t463) - (omega_j[0] * t467 + omega_j[1] * t468 + omega_j[2] *
+        t469);
+    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t470 + omega_i_in_j_1 * t471 + omega_i_in_j_2 * t472 - alphadot[1] *
+        (C_j[3] * t462 + C_j[4] * t461 + C_j[5] * t464) - (omega_j[0] * t470 + omega_j[1] * t471 + omega_j[2] *
+        t472);
     jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t479 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t481 - alphadot[1] *
         (C_j[7] * t477 + C_j[6] * t478 + C_j[8] * t475) - (omega_j[0] * t479 + omega_j[1] * t480 + omega_j[2] *
         t481);
     const jg_real t482 = C_j[5] * t477 - C_j[4] * t475;
     const jg_real t483 = C_j[3] * t475 - C_j[5] * t478;
     const jg_real t484 = C_j[4] * t478 - C_j[3] * t477;
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t482 + omega_i_in_j_1 * t483 + omega_i_in_j_2 * t484 - alphadot[1] *
-        (C_j[3] * t474 + C_j[4] * t473 + C_j[5] * t476) - (omega_j[0] * t482 + omega_j[1] * t483 + omega_j[2] *
-        t484);
     const jg_real t485 = A_ij_4 * sine_0;
     const jg_real t486 = A_ij_1 * sine_0;
     const jg_real t487 = h_star_in_j_0 * t485 - h_star_in_j_1 * t486;
@@ -1111,15 +1106,9 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t491 = C_j[7] * t488 - C_j[8] * t485;
     const jg_real t492 = C_j[8] * t486 - C_j[6] * t488;
     const jg_real t493 = C_j[6] * t485 - C_j[7] * t486;
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t491 + omega_i_in_j_1 * t492 + omega_i_in_j_2 * t493 - alphadot[1] *
-        (C_j[7] * t489 + C_j[6] * t490 + C_j[8] * t487) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] *
-        t493);
     const jg_real t494 = C_j[5] * t489 - C_j[4] * t487;
     const jg_real t495 = C_j[3] * t487 - C_j[5] * t490;
     const jg_real t496 = C_j[4] * t490 - C_j[3] * t489;
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t494 + omega_i_in_j_1 * t495 + omega_i_in_j_2 * t496 - alphadot[1] *
-        (C_j[3] * t486 + C_j[4] * t485 + C_j[5] * t488) - (omega_j[0] * t494 + omega_j[1] * t495 + omega_j[2] *
-        t496);
     const jg_real t497 = A_ij_5 * sine_0;
     const jg_real t498 = A_ij_2 * sine_0;
     const jg_real t499 = h_star_in_j_0 * t497 - h_star_in_j_1 * t498;
@@ -1129,15 +1118,9 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t503 = C_j[7] * t500 - C_j[8] * t497;
     const jg_real t504 = C_j[8] * t498 - C_j[6] * t500;
     const jg_real t505 = C_j[6] * t497 - C_j[7] * t498;
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t503 + omega_i_in_j_1 * t504 + omega_i_in_j_2 * t505 - alphadot[1] *
-        (C_j[7] * t501 + C_j[6] * t502 + C_j[8] * t499) - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] *
-        t505);
     const jg_real t506 = C_j[5] * t501 - C_j[4] * t499;
     const jg_real t507 = C_j[3] * t499 - C_j[5] * t502;
     const jg_real t508 = C_j[4] * t502 - C_j[3] * t501;
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t506 + omega_i_in_j_1 * t507 + omega_i_in_j_2 * t508 - alphadot[1] *
-        (C_j[3] * t498 + C_j[4] * t497 + C_j[5] * t500) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] *
-        t508);
     const jg_real t509 = A_ij_3 * cosine_0;
     const jg_real t510 = A_ij_0 * cosine_0;
     const jg_real t511 = h_star_in_j_1 * t510 - h_star_in_j_0 * t509;
@@ -1147,15 +1130,9 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t515 = C_j[8] * t509 - C_j[7] * t512;
     const jg_real t516 = C_j[6] * t512 - C_j[8] * t510;
     const jg_real t517 = C_j[7] * t510 - C_j[6] * t509;
-    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t515 + omega_i_in_j_1 * t516 + omega_i_in_j_2 * t517 - alphadot[1] *
-        (C_j[7] * t513 + C_j[6] * t514 + C_j[8] * t511) - (omega_j[0] * t515 + omega_j[1] * t516 + omega_j[2] *
-        t517);
     const jg_real t518 = C_j[5] * t513 - C_j[4] * t511;
     const jg_real t519 = C_j[3] * t511 - C_j[5] * t514;
     const jg_real t520 = C_j[4] * t514 - C_j[3] * t513;
-    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t518 + omega_i_in_j_1 * t519 + omega_i_in_j_2 * t520 + alphadot[1] *
-        (C_j[3] * t510 + C_j[4] * t509 + C_j[5] * t512) - (omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] *
-        t520);
     const jg_real t521 = A_ij_4 * cosine_0;
     const jg_real t522 = A_ij_1 * cosine_0;
     const jg_real t523 = h_star_in_j_1 * t522 - h_star_in_j_0 * t521;
@@ -1165,15 +1142,33 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t527 = C_j[8] * t521 - C_j[7] * t524;
     const jg_real t528 = C_j[6] * t524 - C_j[8] * t522;
     const jg_real t529 = C_j[7] * t522 - C_j[6] * t521;
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t482 + omega_i_in_j_1 * t483 + omega_i_in_j_2 * t484 - alphadot[1] *
+        (C_j[3] * t474 + C_j[4] * t473 + C_j[5] * t476) - (omega_j[0] * t482 + omega_j[1] * t483 + omega_j[2] *
+        t484);
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t491 + omega_i_in_j_1 * t492 + omega_i_in_j_2 * t493 - alphadot[1] *
+        (C_j[7] * t489 + C_j[6] * t490 + C_j[8] * t487) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] *
+        t493);
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t494 + omega_i_in_j_1 * t495 + omega_i_in_j_2 * t496 - alphadot[1] *
+        (C_j[3] * t486 + C_j[4] * t485 + C_j[5] * t488) - (omega_j[0] * t494 + omega_j[1] * t495 + omega_j[2] *
+        t496);
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t503 + omega_i_in_j_1 * t504 + omega_i_in_j_2 * t505 - alphadot[1] *
+        (C_j[7] * t501 + C_j[6] * t502 + C_j[8] * t499) - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] *
+        t505);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t506 + omega_i_in_j_1 * t507 + omega_i_in_j_2 * t508 - alphadot[1] *
+        (C_j[3] * t498 + C_j[4] * t497 + C_j[5] * t500) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] *
+        t508);
+    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t515 + omega_i_in_j_1 * t516 + omega_i_in_j_2 * t517 - alphadot[1] *
+        (C_j[7] * t513 + C_j[6] * t514 + C_j[8] * t511) - (omega_j[0] * t515 + omega_j[1] * t516 + omega_j[2] *
+        t517);
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t518 + omega_i_in_j_1 * t519 + omega_i_in_j_2 * t520 + alphadot[1] *
+        (C_j[3] * t510 + C_j[4] * t509 + C_j[5] * t512) - (omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] *
+        t520);
     jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t527 + omega_i_in_j_1 * t528 + omega_i_in_j_2 * t529 - alphadot[1] *
         (C_j[7] * t525 + C_j[6] * t526 + C_j[8] * t523) - (omega_j[0] * t527 + omega_j[1] * t528 + omega_j[2] *
         t529);
     const jg_real t530 = C_j[5] * t525 - C_j[4] * t523;
     const jg_real t531 = C_j[3] * t523 - C_j[5] * t526;
     const jg_real t532 = C_j[4] * t526 - C_j[3] * t525;
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t530 + omega_i_in_j_1 * t531 + omega_i_in_j_2 * t532 + alphadot[1] *
-        (C_j[3] * t522 + C_j[4] * t521 + C_j[5] * t524) - (omega_j[0] * t530 + omega_j[1] * t531 + omega_j[2] *
-        t532);
     const jg_real t533 = A_ij_5 * cosine_0;
     const jg_real t534 = A_ij_2 * cosine_0;
     const jg_real t535 = h_star_in_j_1 * t534 - h_star_in_j_0 * t533;
@@ -1183,59 +1178,62 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real t539 = C_j[8] * t533 - C_j[7] * t536;
     const jg_real t540 = C_j[6] * t536 - C_j[8] * t534;
     const jg_real t541 = C_j[7] * t534 - C_j[6] * t533;
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t539 + omega_i_in_j_1 * t540 + omega_i_in_j_2 * t541 - alphadot[1] *
-        (C_j[7] * t537 + C_j[6] * t538 + C_j[8] * t535) - (omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2] *
-        t541);
     const jg_real t542 = C_j[5] * t537 - C_j[4] * t535;
     const jg_real t543 = C_j[3] * t535 - C_j[5] * t538;
     const jg_real t544 = C_j[4] * t538 - C_j[3] * t537;
-    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t542 + omega_i_in_j_1 * t543 + omega_i_in_j_2 * t544 + alphadot[1] *
-        (C_j[3] * t534 + C_j[4] * t533 + C_j[5] * t536) - (omega_j[0] * t542 + omega_j[1] * t543 + omega_j[2] *
-        t544);
     const jg_real t545 = -alphadot[0];
-    jac_phi_q_v_geometry[12] = t545;
-    jac_phi_q_v_geometry[16] = t545;
-    jac_phi_q_v_geometry[20] = t545;
     const jg_real t546 = A_ij_3 * g_star_in_j_0 - A_ij_0 * g_star_in_j_1;
     const jg_real t547 = A_ij_0 * g_star_in_j_2 - A_ij_6 * g_star_in_j_0;
     const jg_real t548 = A_ij_6 * g_star_in_j_1 - A_ij_3 * g_star_in_j_2;
-    jac_phi_q_v_geometry[13] = -(alphadot[1] * (C_j[7] * t547 + C_j[6] * t548 + C_j[8] * t546));
     const jg_real t549 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
     const jg_real t550 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
     const jg_real t551 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
+    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t530 + omega_i_in_j_1 * t531 + omega_i_in_j_2 * t532 + alphadot[1] *
+        (C_j[3] * t522 + C_j[4] * t521 + C_j[5] * t524) - (omega_j[0] * t530 + omega_j[1] * t531 + omega_j[2] *
+        t532);
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t539 + omega_i_in_j_1 * t540 + omega_i_in_j_2 * t541 - alphadot[1] *
+        (C_j[7] * t537 + C_j[6] * t538 + C_j[8] * t535) - (omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2] *
+        t541);
+    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t542 + omega_i_in_j_1 * t543 + omega_i_in_j_2 * t544 + alphadot[1] *
+        (C_j[3] * t534 + C_j[4] * t533 + C_j[5] * t536) - (omega_j[0] * t542 + omega_j[1] * t543 + omega_j[2] *
+        t544);
+    jac_phi_q_v_geometry[12] = t545;
+    jac_phi_q_v_geometry[16] = t545;
+    jac_phi_q_v_geometry[20] = t545;
+    jac_phi_q_v_geometry[13] = -(alphadot[1] * (C_j[7] * t547 + C_j[6] * t548 + C_j[8] * t546));
     jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t549 + omega_i_in_j_1 * t550 + omega_i_in_j_2 * t551 - (omega_j[1] *
         t550 + omega_j[0] * t549 + omega_j[2] * t551);
     const jg_real t552 = C_j[5] * t547 - C_j[4] * t546;
     const jg_real t553 = C_j[3] * t546 - C_j[5] * t548;
     const jg_real t554 = C_j[4] * t548 - C_j[3] * t547;
-    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t552 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
-        t552 + omega_j[1] * t553 + omega_j[2] * t554);
     const jg_real t555 = A_ij_4 * g_star_in_j_0 - A_ij_1 * g_star_in_j_1;
     const jg_real t556 = A_ij_1 * g_star_in_j_2 - A_ij_7 * g_star_in_j_0;
     const jg_real t557 = A_ij_7 * g_star_in_j_1 - A_ij_4 * g_star_in_j_2;
-    jac_phi_q_v_geometry[17] = -(alphadot[1] * (C_j[7] * t556 + C_j[6] * t557 + C_j[8] * t555));
     const jg_real t558 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
     const jg_real t559 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
     const jg_real t560 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
-    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t558 + omega_i_in_j_1 * t559 + omega_i_in_j_2 * t560 - (omega_j[1] *
-        t559 + omega_j[0] * t558 + omega_j[2] * t560);
     const jg_real t561 = C_j[5] * t556 - C_j[4] * t555;
     const jg_real t562 = C_j[3] * t555 - C_j[5] * t557;
     const jg_real t563 = C_j[4] * t557 - C_j[3] * t556;
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - (omega_j[0] *
-        t561 + omega_j[1] * t562 + omega_j[2] * t563);
     const jg_real t564 = A_ij_5 * g_star_in_j_0 - A_ij_2 * g_star_in_j_1;
     const jg_real t565 = A_ij_2 * g_star_in_j_2 - A_ij_8 * g_star_in_j_0;
     const jg_real t566 = A_ij_8 * g_star_in_j_1 - A_ij_5 * g_star_in_j_2;
-    jac_phi_q_v_geometry[21] = -(alphadot[1] * (C_j[7] * t565 + C_j[6] * t566 + C_j[8] * t564));
     const jg_real t567 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
     const jg_real t568 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
     const jg_real t569 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
-    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t567 + omega_i_in_j_1 * t568 + omega_i_in_j_2 * t569 - (omega_j[1] *
-        t568 + omega_j[0] * t567 + omega_j[2] * t569);
     const jg_real t570 = C_j[5] * t565 - C_j[4] * t564;
     const jg_real t571 = C_j[3] * t564 - C_j[5] * t566;
     const jg_real t572 = C_j[4] * t566 - C_j[3] * t565;
+    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t552 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
+        t552 + omega_j[1] * t553 + omega_j[2] * t554);
+    jac_phi_q_v_geometry[17] = -(alphadot[1] * (C_j[7] * t556 + C_j[6] * t557 + C_j[8] * t555));
+    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t558 + omega_i_in_j_1 * t559 + omega_i_in_j_2 * t560 - (omega_j[1] *
+        t559 + omega_j[0] * t558 + omega_j[2] * t560);
+    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - (omega_j[0] *
+        t561 + omega_j[1] * t562 + omega_j[2] * t563);
+    jac_phi_q_v_geometry[21] = -(alphadot[1] * (C_j[7] * t565 + C_j[6] * t566 + C_j[8] * t564));
+    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t567 + omega_i_in_j_1 * t568 + omega_i_in_j_2 * t569 - (omega_j[1] *
+        t568 + omega_j[0] * t567 + omega_j[2] * t569);
     jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t570 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - (omega_j[0] *
         t570 + omega_j[1] * t571 + omega_j[2] * t572);
     jac_phi_q_v_geometry[24] = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6 + (A_ij_6 * omega_i_in_j_1 - A_ij_3 *
@@ -1260,7 +1258,7 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
     jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
         h_star_in_j_0 - omega_j[0] * h_star_in_j_2);
-    jac_phi_q_v_geometry[35] = h_star_in_j_1 * omega_i_in_j_0 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
+    jac_phi_q_v_geometry[35] = omega_i_in_j_0 * h_star_in_j_1 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
         h_star_in_j_1 - omega_j[1] * h_star_in_j_0);
     jac_phi_q_v_geometry[36] = omega_i_in_j_1 * f_star_in_j_2 - omega_i_in_j_2 * f_star_in_j_1 + alphadot[1] *
         g_star_in_j_0 - (omega_j[1] * f_star_in_j_2 - omega_j[2] * f_star_in_j_1);
@@ -1272,22 +1270,25 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         f_star_in_j_0 - (omega_j[1] * g_star_in_j_2 - omega_j[2] * g_star_in_j_1);
     jac_phi_q_v_geometry[40] = omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2 - alphadot[1] *
         f_star_in_j_1 - (omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2);
+    const jg_real t573 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    const jg_real t574 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    const jg_real t575 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_v_geometry[41] = omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0 - alphadot[1] *
         f_star_in_j_2 - (omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    const jg_real t573 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_v_velocity[30] = t573;
-    const jg_real t574 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[36] = t574;
-    const jg_real t575 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_v_velocity[42] = t575;
     jac_phi_q_v_velocity[3] = A_ij_0 * t573 + A_ij_3 * t574 + A_ij_6 * t575;
     /* v_2_in_i = r_j - r_i, axes of body i */
     const jg_real v_2_in_i_2 = A_i[6] * v_2_world_0 + A_i[7] * v_2_world_1 + A_i[8] * v_2_world_2;
-    jac_phi_q_v_velocity[4] = A_ij_1 * t573 + A_ij_4 * t574 + A_ij_7 * t575 + v_2_in_i_2;
     const jg_real v_2_in_i_1 = A_i[3] * v_2_world_0 + A_i[4] * v_2_world_1 + A_i[5] * v_2_world_2;
+    const jg_real t578 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    const jg_real t579 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    const jg_real t580 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    jac_phi_q_v_velocity[4] = A_ij_1 * t573 + A_ij_4 * t574 + A_ij_7 * t575 + v_2_in_i_2;
     jac_phi_q_v_velocity[5] = A_ij_2 * t573 + A_ij_5 * t574 + A_ij_8 * t575 - v_2_in_i_1;
     jac_phi_q_v_velocity[6] = A_ij_0 * g_star_cross_h_j_in_j_0 + A_ij_3 * g_star_cross_h_j_in_j_1 + A_ij_6 *
         g_star_cross_h_j_in_j_2;
@@ -1295,15 +1296,14 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[8] = A_ij_0 * f_star_cross_g_j_in_j_0 + A_ij_3 * f_star_cross_g_j_in_j_1 + A_ij_6 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t578 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_v_velocity[31] = t578;
-    const jg_real t579 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[37] = t579;
-    const jg_real t580 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_v_velocity[43] = t580;
+    const jg_real v_2_in_i_0 = A_i[0] * v_2_world_0 + A_i[1] * v_2_world_1 + A_i[2] * v_2_world_2;
+    const jg_real t582 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    const jg_real t583 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[9] = A_ij_0 * t578 + A_ij_3 * t579 + A_ij_6 * t580 - v_2_in_i_2;
     jac_phi_q_v_velocity[10] = A_ij_1 * t578 + A_ij_4 * t579 + A_ij_7 * t580;
-    const jg_real v_2_in_i_0 = A_i[0] * v_2_world_0 + A_i[1] * v_2_world_1 + A_i[2] * v_2_world_2;
     jac_phi_q_v_velocity[11] = A_ij_2 * t578 + A_ij_5 * t579 + A_ij_8 * t580 + v_2_in_i_0;
     jac_phi_q_v_velocity[12] = A_ij_1 * g_star_cross_h_j_in_j_0 + A_ij_4 * g_star_cross_h_j_in_j_1 + A_ij_7 *
         g_star_cross_h_j_in_j_2;
@@ -1311,9 +1311,7 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ij_1 * f_star_cross_g_j_in_j_0 + A_ij_4 * f_star_cross_g_j_in_j_1 + A_ij_7 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t582 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_v_velocity[32] = t582;
-    const jg_real t583 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_v_velocity[38] = t583;
     const jg_real t584 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_v_velocity[44] = t584;
@@ -1335,81 +1333,72 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_2;
+    /* f_star_dot_h_j = f_star . h_j */
+    const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
+    /* g_star_dot_g_j = g_star . g_j */
+    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[48] = -C_i[6];
     jac_phi_q_v_velocity[49] = -C_i[7];
     jac_phi_q_v_velocity[50] = -C_i[8];
-    /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
     jac_phi_q_v_velocity[51] = -f_star_dot_h_j;
-    /* g_star_dot_g_j = g_star . g_j */
-    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[52] = g_star_dot_g_j;
 }
 
-static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
+static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i,
+    const jg_real *r_j, const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *jac_phi_q_t_lambda_r_i, jg_real *jac_phi_q_t_lambda_A_i, jg_real *jac_phi_q_t_lambda_r_j,
+    jg_real *jac_phi_q_t_lambda_A_j, jg_real *jac_phi_q_t_lambda_alpha, jg_real *jac_phi_q_t_lambda_geometry,
+    jg_real *jac_phi_q_t_lambda_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t10 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[0] = t10;
     const jg_real t11 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = -t11;
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t13 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[2] = t13;
     const jg_real t14 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[3] = -t14;
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t16 = lambda[2] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[4] = t16;
     const jg_real t17 = lambda[1] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[5] = -t17;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_A_i[0] = t10;
+    jac_phi_q_t_lambda_A_i[1] = -t11;
+    jac_phi_q_t_lambda_A_i[2] = t13;
+    jac_phi_q_t_lambda_A_i[3] = -t14;
+    jac_phi_q_t_lambda_A_i[4] = t16;
+    jac_phi_q_t_lambda_A_i[5] = -t17;
     jac_phi_q_t_lambda_lambda[17] = A_ji_5;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[26] = A_ji_6;
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    jac_phi_q_t_lambda_lambda[15] = A_ji_3;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_t_lambda_lambda[28] = A_ji_8;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    jac_phi_q_t_lambda_lambda[16] = A_ji_4;
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_t_lambda_lambda[27] = A_ji_7;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = C_i[7] * A_ji_4 + C_i[6] * A_ji_1 + C_i[8] * A_ji_7;
     const jg_real A_ji_0 = A_ji_8 * A_ji_4 - A_ji_5 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -1426,6 +1415,13 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     /* v_4_in_j = lambda_5 g_j, axes of body j */
     const jg_real v_4_in_j_1 = C_j[4] * lambda[5];
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_6 * A_ji_4;
+    jac_phi_q_t_lambda_lambda[26] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_3;
+    jac_phi_q_t_lambda_lambda[28] = A_ji_8;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_4;
+    jac_phi_q_t_lambda_lambda[27] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real g_star_in_j_2 = A_ji_2 * g_star_in_i_0 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
     const jg_real h_star_in_j_2 = C_i[7] * A_ji_5 + C_i[6] * A_ji_2 + C_i[8] * A_ji_8;
@@ -1440,9 +1436,7 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real v_3_in_j_0 = v_2_in_j_1 * h_star_in_j_2 - v_2_in_j_2 * h_star_in_j_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ji_5 + lambda[0] * A_ji_2 + lambda[2] * A_ji_8;
-    jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = lambda[1] * A_ji_4 + lambda[0] * A_ji_1 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* v_6_in_j = lambda_3 h_j, axes of body j */
@@ -1464,28 +1458,30 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t62 = A_j[6] * C_i[7] + C_i[6] * t60;
     const jg_real t63 = t57 * g_star_in_j_2 + h_star_in_j_0 * t61 - (t62 * g_star_in_j_0 + h_star_in_j_2 * t56);
     const jg_real t64 = lambda[1] * A_j[6] + lambda[0] * t60;
-    jac_phi_q_t_lambda_A_i[11] = t64;
     const jg_real t65 = lambda[1] * A_j[3] + lambda[0] * t54;
-    jac_phi_q_t_lambda_A_i[10] = t65;
     const jg_real t66 = v_6_in_j_1 * t61 - v_6_in_j_2 * t58 + (v_2_in_j_1 * t62 - v_2_in_j_2 * t55 + (s_j[1] * t64 -
         s_j[2] * t65) + (v_4_in_j_1 * t59 - v_4_in_j_2 * t63));
-    jac_phi_q_t_lambda_A_i[12] = t66;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real v_4_in_j_0 = lambda[5] * C_j[3];
     const jg_real v_5_in_j_1 = v_4_in_j_2 * f_star_in_j_0 - v_4_in_j_0 * f_star_in_j_2;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[80] = lambda_0_1_2_in_j_0;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_2_in_j_0 = lambda[4] * C_j[0];
     const jg_real v_3_in_j_1 = v_2_in_j_2 * h_star_in_j_0 - v_2_in_j_0 * h_star_in_j_2;
+    const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_6_in_j_0 = lambda[3] * C_j[6];
     const jg_real v_7_in_j_1 = v_6_in_j_2 * g_star_in_j_0 - v_6_in_j_0 * g_star_in_j_2;
-    const jg_real v_8_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
+    const jg_real v_8_in_j_1 = v_3_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
     const jg_real t77 = t62 * g_star_in_j_1 + h_star_in_j_2 * t58 - (t55 * g_star_in_j_2 + h_star_in_j_1 * t61);
     const jg_real t78 = lambda[1] * A_j[0] + lambda[0] * t53;
+    const jg_real t79 = v_6_in_j_2 * t56 - v_6_in_j_0 * t61 + (v_2_in_j_2 * t57 - v_2_in_j_0 * t62 + (s_j[2] * t78 -
+        s_j[0] * t64) + (v_4_in_j_2 * t77 - v_4_in_j_0 * t59));
+    jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_A_i[11] = t64;
+    jac_phi_q_t_lambda_A_i[10] = t65;
+    jac_phi_q_t_lambda_A_i[12] = t66;
+    jac_phi_q_t_lambda_geometry[80] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_A_i[9] = t78;
-    const jg_real t79 = v_6_in_j_2 * t56 - v_6_in_j_0 * t61 + (s_j[2] * t78 - s_j[0] * t64 + (v_2_in_j_2 * t57 -
-        v_2_in_j_0 * t62) + (v_4_in_j_2 * t77 - v_4_in_j_0 * t59));
     jac_phi_q_t_lambda_A_i[13] = t79;
     const jg_real v_5_in_j_2 = v_4_in_j_0 * f_star_in_j_1 - v_4_in_j_1 * f_star_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
@@ -1494,19 +1490,10 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real v_8_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_5_in_j_2 + v_7_in_j_2;
     const jg_real t85 = v_6_in_j_0 * t58 - v_6_in_j_1 * t56 + (s_j[0] * t65 - s_j[1] * t78 + (v_2_in_j_0 * t55 -
         v_2_in_j_1 * t57) + (v_4_in_j_0 * t63 - v_4_in_j_1 * t77));
-    jac_phi_q_t_lambda_A_i[14] = t85;
-    jac_phi_q_t_lambda_A_i[6] = -(t60 * v_8_in_j_2 + A_ji_2 * t85 + (t53 * v_8_in_j_0 + A_ji_0 * t66 + (t54 *
-        v_8_in_j_1 + A_ji_1 * t79)) + t10);
     const jg_real t86 = A_j[0] * v_8_in_j_0;
     const jg_real t87 = A_j[3] * v_8_in_j_1;
     const jg_real t88 = A_j[6] * v_8_in_j_2;
-    jac_phi_q_t_lambda_A_i[7] = -(t88 + A_ji_5 * t85 + (t86 + A_ji_3 * t66 + (t87 + A_ji_4 * t79)));
     const jg_real t89 = lambda[0] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[8] = t89 - (A_ji_6 * t66 + A_ji_7 * t79 + A_ji_8 * t85);
-    jac_phi_q_t_lambda_A_i[15] = -(t64 * h_star_in_j_2 + t62 * lambda_0_1_2_in_j_2 + (t65 * h_star_in_j_1 + t55 *
-        lambda_0_1_2_in_j_1 + (t78 * h_star_in_j_0 + t57 * lambda_0_1_2_in_j_0)));
-    jac_phi_q_t_lambda_A_i[16] = v_4_in_j_0 * t56 + v_4_in_j_1 * t58 + v_4_in_j_2 * t61 - (v_6_in_j_0 * t77 +
-        v_6_in_j_1 * t63 + v_6_in_j_2 * t59);
     const jg_real t90 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t91 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
     const jg_real t92 = A_j[4] * C_i[7] + C_i[6] * t91;
@@ -1519,33 +1506,40 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t99 = A_j[7] * C_i[7] + C_i[6] * t97;
     const jg_real t100 = t94 * g_star_in_j_2 + h_star_in_j_0 * t98 - (t99 * g_star_in_j_0 + h_star_in_j_2 * t93);
     const jg_real t101 = lambda[1] * A_j[7] + lambda[0] * t97;
-    jac_phi_q_t_lambda_A_i[22] = t101;
     const jg_real t102 = lambda[1] * A_j[4] + lambda[0] * t91;
+    jac_phi_q_t_lambda_A_i[14] = t85;
+    jac_phi_q_t_lambda_A_i[6] = -(t60 * v_8_in_j_2 + A_ji_2 * t85 + (t53 * v_8_in_j_0 + A_ji_0 * t66 + (t54 *
+        v_8_in_j_1 + A_ji_1 * t79)) + t10);
+    jac_phi_q_t_lambda_A_i[7] = -(t88 + A_ji_5 * t85 + (t86 + A_ji_3 * t66 + (t87 + A_ji_4 * t79)));
+    jac_phi_q_t_lambda_A_i[8] = t89 - (A_ji_6 * t66 + A_ji_7 * t79 + A_ji_8 * t85);
+    jac_phi_q_t_lambda_A_i[15] = -(t64 * h_star_in_j_2 + t62 * lambda_0_1_2_in_j_2 + (t78 * h_star_in_j_0 + t57 *
+        lambda_0_1_2_in_j_0 + (t65 * h_star_in_j_1 + t55 * lambda_0_1_2_in_j_1)));
+    jac_phi_q_t_lambda_A_i[16] = v_4_in_j_0 * t56 + v_4_in_j_1 * t58 + v_4_in_j_2 * t61 - (v_6_in_j_0 * t77 +
+        v_6_in_j_1 * t63 + v_6_in_j_2 * t59);
+    jac_phi_q_t_lambda_A_i[22] = t101;
     jac_phi_q_t_lambda_A_i[21] = t102;
     const jg_real t103 = v_6_in_j_1 * t98 - v_6_in_j_2 * t95 + (v_2_in_j_1 * t99 - v_2_in_j_2 * t92 + (s_j[1] * t101
         - s_j[2] * t102) + (v_4_in_j_1 * t96 - v_4_in_j_2 * t100));
-    jac_phi_q_t_lambda_A_i[23] = t103;
     const jg_real t104 = t99 * g_star_in_j_1 + h_star_in_j_2 * t95 - (t92 * g_star_in_j_2 + h_star_in_j_1 * t98);
     const jg_real t105 = lambda[1] * A_j[1] + lambda[0] * t90;
-    jac_phi_q_t_lambda_A_i[20] = t105;
-    const jg_real t106 = v_6_in_j_2 * t93 - v_6_in_j_0 * t98 + (s_j[2] * t105 - s_j[0] * t101 + (v_2_in_j_2 * t94 -
-        v_2_in_j_0 * t99) + (v_4_in_j_2 * t104 - v_4_in_j_0 * t96));
-    jac_phi_q_t_lambda_A_i[24] = t106;
+    const jg_real t106 = v_6_in_j_2 * t93 - v_6_in_j_0 * t98 + (v_2_in_j_2 * t94 - v_2_in_j_0 * t99 + (s_j[2] * t105
+        - s_j[0] * t101) + (v_4_in_j_2 * t104 - v_4_in_j_0 * t96));
     const jg_real t107 = v_6_in_j_0 * t95 - v_6_in_j_1 * t93 + (s_j[0] * t102 - s_j[1] * t105 + (v_2_in_j_0 * t92 -
         v_2_in_j_1 * t94) + (v_4_in_j_0 * t100 - v_4_in_j_1 * t104));
-    jac_phi_q_t_lambda_A_i[25] = t107;
-    jac_phi_q_t_lambda_A_i[17] = -(t97 * v_8_in_j_2 + A_ji_2 * t107 + (t90 * v_8_in_j_0 + A_ji_0 * t103 + (t91 *
-        v_8_in_j_1 + A_ji_1 * t106)) + t13);
     const jg_real t108 = A_j[1] * v_8_in_j_0;
     const jg_real t109 = A_j[4] * v_8_in_j_1;
     const jg_real t110 = A_j[7] * v_8_in_j_2;
-    jac_phi_q_t_lambda_A_i[18] = -(t110 + A_ji_5 * t107 + (t108 + A_ji_3 * t103 + (t109 + A_ji_4 * t106)));
     const jg_real t111 = lambda[0] * v_0_world_1;
+    jac_phi_q_t_lambda_A_i[23] = t103;
+    jac_phi_q_t_lambda_A_i[20] = t105;
+    jac_phi_q_t_lambda_A_i[24] = t106;
+    jac_phi_q_t_lambda_A_i[25] = t107;
+    jac_phi_q_t_lambda_A_i[17] = -(t97 * v_8_in_j_2 + A_ji_2 * t107 + (t90 * v_8_in_j_0 + A_ji_0 * t103 + (t91 *
+        v_8_in_j_1 + A_ji_1 * t106)) + t13);
+    jac_phi_q_t_lambda_A_i[18] = -(t110 + A_ji_5 * t107 + (t108 + A_ji_3 * t103 + (t109 + A_ji_4 * t106)));
     jac_phi_q_t_lambda_A_i[19] = t111 - (A_ji_6 * t103 + A_ji_7 * t106 + A_ji_8 * t107);
-    jac_phi_q_t_lambda_A_i[26] = -(t101 * h_star_in_j_2 + t99 * lambda_0_1_2_in_j_2 + (t102 * h_star_in_j_1 + t92 *
-        lambda_0_1_2_in_j_1 + (t105 * h_star_in_j_0 + t94 * lambda_0_1_2_in_j_0)));
-    jac_phi_q_t_lambda_A_i[27] = v_4_in_j_0 * t93 + v_4_in_j_1 * t95 + v_4_in_j_2 * t98 - (v_6_in_j_0 * t104 +
-        v_6_in_j_1 * t100 + v_6_in_j_2 * t96);
+    jac_phi_q_t_lambda_A_i[26] = -(t101 * h_star_in_j_2 + t99 * lambda_0_1_2_in_j_2 + (t105 * h_star_in_j_0 + t94 *
+        lambda_0_1_2_in_j_0 + (t102 * h_star_in_j_1 + t92 * lambda_0_1_2_in_j_1)));
     const jg_real t112 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t113 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
     const jg_real t114 = A_j[5] * C_i[7] + C_i[6] * t113;
@@ -1560,34 +1554,30 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t122 = t116 * g_star_in_j_2 + h_star_in_j_0 * t120 - (t121 * g_star_in_j_0 + h_star_in_j_2 *
         t115);
     const jg_real t123 = lambda[1] * A_j[8] + lambda[0] * t119;
-    jac_phi_q_t_lambda_A_i[33] = t123;
     const jg_real t124 = lambda[1] * A_j[5] + lambda[0] * t113;
-    jac_phi_q_t_lambda_A_i[32] = t124;
     const jg_real t125 = v_6_in_j_1 * t120 - v_6_in_j_2 * t117 + (v_2_in_j_1 * t121 - v_2_in_j_2 * t114 + (s_j[1] *
         t123 - s_j[2] * t124) + (v_4_in_j_1 * t118 - v_4_in_j_2 * t122));
-    jac_phi_q_t_lambda_A_i[34] = t125;
     const jg_real t126 = t121 * g_star_in_j_1 + h_star_in_j_2 * t117 - (t114 * g_star_in_j_2 + h_star_in_j_1 *
         t120);
     const jg_real t127 = lambda[1] * A_j[2] + lambda[0] * t112;
-    jac_phi_q_t_lambda_A_i[31] = t127;
-    const jg_real t128 = v_6_in_j_2 * t115 - v_6_in_j_0 * t120 + (s_j[2] * t127 - s_j[0] * t123 + (v_2_in_j_2 * t116
-        - v_2_in_j_0 * t121) + (v_4_in_j_2 * t126 - v_4_in_j_0 * t118));
-    jac_phi_q_t_lambda_A_i[35] = t128;
+    const jg_real t128 = v_6_in_j_2 * t115 - v_6_in_j_0 * t120 + (v_2_in_j_2 * t116 - v_2_in_j_0 * t121 + (s_j[2] *
+        t127 - s_j[0] * t123) + (v_4_in_j_2 * t126 - v_4_in_j_0 * t118));
     const jg_real t129 = v_6_in_j_0 * t117 - v_6_in_j_1 * t115 + (s_j[0] * t124 - s_j[1] * t127 + (v_2_in_j_0 * t114
         - v_2_in_j_1 * t116) + (v_4_in_j_0 * t122 - v_4_in_j_1 * t126));
+    jac_phi_q_t_lambda_A_i[27] = v_4_in_j_0 * t93 + v_4_in_j_1 * t95 + v_4_in_j_2 * t98 - (v_6_in_j_0 * t104 +
+        v_6_in_j_1 * t100 + v_6_in_j_2 * t96);
+    jac_phi_q_t_lambda_A_i[33] = t123;
+    jac_phi_q_t_lambda_A_i[32] = t124;
+    jac_phi_q_t_lambda_A_i[34] = t125;
+    jac_phi_q_t_lambda_A_i[31] = t127;
+    jac_phi_q_t_lambda_A_i[35] = t128;
     jac_phi_q_t_lambda_A_i[36] = t129;
     jac_phi_q_t_lambda_A_i[28] = -(t119 * v_8_in_j_2 + A_ji_2 * t129 + (t112 * v_8_in_j_0 + A_ji_0 * t125 + (t113 *
         v_8_in_j_1 + A_ji_1 * t128)) + t16);
     const jg_real t130 = A_j[2] * v_8_in_j_0;
     const jg_real t131 = A_j[5] * v_8_in_j_1;
     const jg_real t132 = A_j[8] * v_8_in_j_2;
-    jac_phi_q_t_lambda_A_i[29] = -(t132 + A_ji_5 * t129 + (t130 + A_ji_3 * t125 + (t131 + A_ji_4 * t128)));
     const jg_real t133 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[30] = t133 - (A_ji_6 * t125 + A_ji_7 * t128 + A_ji_8 * t129);
-    jac_phi_q_t_lambda_A_i[37] = -(t123 * h_star_in_j_2 + t121 * lambda_0_1_2_in_j_2 + (t124 * h_star_in_j_1 + t114
-        * lambda_0_1_2_in_j_1 + (t127 * h_star_in_j_0 + t116 * lambda_0_1_2_in_j_0)));
-    jac_phi_q_t_lambda_A_i[38] = v_4_in_j_0 * t115 + v_4_in_j_1 * t117 + v_4_in_j_2 * t120 - (v_6_in_j_0 * t126 +
-        v_6_in_j_1 * t122 + v_6_in_j_2 * t118);
     const jg_real t134 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
     const jg_real t135 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
     const jg_real t136 = A_j[3] * C_i[8] + C_i[6] * t135;
@@ -1602,30 +1592,26 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t144 = t138 * g_star_in_j_2 + h_star_in_j_0 * t142 - (t143 * g_star_in_j_0 + h_star_in_j_2 *
         t137);
     const jg_real t145 = lambda[2] * A_j[6] + lambda[0] * t141;
-    jac_phi_q_t_lambda_A_i[44] = t145;
     const jg_real t146 = lambda[2] * A_j[3] + lambda[0] * t135;
-    jac_phi_q_t_lambda_A_i[43] = t146;
     const jg_real t147 = v_6_in_j_1 * t142 - v_6_in_j_2 * t139 + (v_2_in_j_1 * t143 - v_2_in_j_2 * t136 + (s_j[1] *
         t145 - s_j[2] * t146) + (v_4_in_j_1 * t140 - v_4_in_j_2 * t144));
-    jac_phi_q_t_lambda_A_i[45] = t147;
     const jg_real t148 = t143 * g_star_in_j_1 + h_star_in_j_2 * t139 - (t136 * g_star_in_j_2 + h_star_in_j_1 *
         t142);
     const jg_real t149 = lambda[2] * A_j[0] + lambda[0] * t134;
+    jac_phi_q_t_lambda_A_i[29] = -(t132 + A_ji_5 * t129 + (t130 + A_ji_3 * t125 + (t131 + A_ji_4 * t128)));
+    jac_phi_q_t_lambda_A_i[30] = t133 - (A_ji_6 * t125 + A_ji_7 * t128 + A_ji_8 * t129);
+    jac_phi_q_t_lambda_A_i[37] = -(t123 * h_star_in_j_2 + t121 * lambda_0_1_2_in_j_2 + (t127 * h_star_in_j_0 + t116
+        * lambda_0_1_2_in_j_0 + (t124 * h_star_in_j_1 + t114 * lambda_0_1_2_in_j_1)));
+    jac_phi_q_t_lambda_A_i[38] = v_4_in_j_0 * t115 + v_4_in_j_1 * t117 + v_4_in_j_2 * t120 - (v_6_in_j_0 * t126 +
+        v_6_in_j_1 * t122 + v_6_in_j_2 * t118);
+    jac_phi_q_t_lambda_A_i[44] = t145;
+    jac_phi_q_t_lambda_A_i[43] = t146;
+    jac_phi_q_t_lambda_A_i[45] = t147;
     jac_phi_q_t_lambda_A_i[42] = t149;
-    const jg_real t150 = v_6_in_j_2 * t137 - v_6_in_j_0 * t142 + (s_j[2] * t149 - s_j[0] * t145 + (v_2_in_j_2 * t138
-        - v_2_in_j_0 * t143) + (v_4_in_j_2 * t148 - v_4_in_j_0 * t140));
-    jac_phi_q_t_lambda_A_i[46] = t150;
+    const jg_real t150 = v_6_in_j_2 * t137 - v_6_in_j_0 * t142 + (v_2_in_j_2 * t138 - v_2_in_j_0 * t143 + (s_j[2] *
+        t149 - s_j[0] * t145) + (v_4_in_j_2 * t148 - v_4_in_j_0 * t140));
     const jg_real t151 = v_6_in_j_0 * t139 - v_6_in_j_1 * t137 + (s_j[0] * t146 - s_j[1] * t149 + (v_2_in_j_0 * t136
         - v_2_in_j_1 * t138) + (v_4_in_j_0 * t144 - v_4_in_j_1 * t148));
-    jac_phi_q_t_lambda_A_i[47] = t151;
-    jac_phi_q_t_lambda_A_i[39] = t11 - (t141 * v_8_in_j_2 + A_ji_2 * t151 + (t134 * v_8_in_j_0 + A_ji_0 * t147 +
-        (t135 * v_8_in_j_1 + A_ji_1 * t150)));
-    jac_phi_q_t_lambda_A_i[40] = -(A_ji_3 * t147 + A_ji_4 * t150 + A_ji_5 * t151 + t89);
-    jac_phi_q_t_lambda_A_i[41] = -(t88 + A_ji_8 * t151 + (t86 + A_ji_6 * t147 + (t87 + A_ji_7 * t150)));
-    jac_phi_q_t_lambda_A_i[48] = -(h_star_in_j_2 * t145 + t143 * lambda_0_1_2_in_j_2 + (h_star_in_j_1 * t146 + t136
-        * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t149 + t138 * lambda_0_1_2_in_j_0)));
-    jac_phi_q_t_lambda_A_i[49] = v_4_in_j_0 * t137 + v_4_in_j_1 * t139 + v_4_in_j_2 * t142 - (v_6_in_j_0 * t148 +
-        v_6_in_j_1 * t144 + v_6_in_j_2 * t140);
     const jg_real t152 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
     const jg_real t153 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
     const jg_real t154 = A_j[4] * C_i[8] + C_i[6] * t153;
@@ -1640,30 +1626,36 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t162 = t156 * g_star_in_j_2 + h_star_in_j_0 * t160 - (t161 * g_star_in_j_0 + h_star_in_j_2 *
         t155);
     const jg_real t163 = lambda[2] * A_j[7] + lambda[0] * t159;
+    jac_phi_q_t_lambda_A_i[46] = t150;
+    jac_phi_q_t_lambda_A_i[47] = t151;
+    jac_phi_q_t_lambda_A_i[39] = t11 - (t141 * v_8_in_j_2 + A_ji_2 * t151 + (t134 * v_8_in_j_0 + A_ji_0 * t147 +
+        (t135 * v_8_in_j_1 + A_ji_1 * t150)));
+    jac_phi_q_t_lambda_A_i[40] = -(A_ji_3 * t147 + A_ji_4 * t150 + A_ji_5 * t151 + t89);
+    jac_phi_q_t_lambda_A_i[41] = -(t88 + A_ji_8 * t151 + (t86 + A_ji_6 * t147 + (t87 + A_ji_7 * t150)));
+    jac_phi_q_t_lambda_A_i[48] = -(h_star_in_j_2 * t145 + t143 * lambda_0_1_2_in_j_2 + (h_star_in_j_0 * t149 + t138
+        * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t146 + t136 * lambda_0_1_2_in_j_1)));
+    jac_phi_q_t_lambda_A_i[49] = v_4_in_j_0 * t137 + v_4_in_j_1 * t139 + v_4_in_j_2 * t142 - (v_6_in_j_0 * t148 +
+        v_6_in_j_1 * t144 + v_6_in_j_2 * t140);
     jac_phi_q_t_lambda_A_i[55] = t163;
     const jg_real t164 = lambda[2] * A_j[4] + lambda[0] * t153;
-    jac_phi_q_t_lambda_A_i[54] = t164;
     const jg_real t165 = v_6_in_j_1 * t160 - v_6_in_j_2 * t157 + (v_2_in_j_1 * t161 - v_2_in_j_2 * t154 + (s_j[1] *
         t163 - s_j[2] * t164) + (v_4_in_j_1 * t158 - v_4_in_j_2 * t162));
-    jac_phi_q_t_lambda_A_i[56] = t165;
     const jg_real t166 = t161 * g_star_in_j_1 + h_star_in_j_2 * t157 - (t154 * g_star_in_j_2 + h_star_in_j_1 *
         t160);
     const jg_real t167 = lambda[2] * A_j[1] + lambda[0] * t152;
-    jac_phi_q_t_lambda_A_i[53] = t167;
-    const jg_real t168 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (s_j[2] * t167 - s_j[0] * t163 + (v_2_in_j_2 * t156
-        - v_2_in_j_0 * t161) + (v_4_in_j_2 * t166 - v_4_in_j_0 * t158));
-    jac_phi_q_t_lambda_A_i[57] = t168;
+    const jg_real t168 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (v_2_in_j_2 * t156 - v_2_in_j_0 * t161 + (s_j[2] *
+        t167 - s_j[0] * t163) + (v_4_in_j_2 * t166 - v_4_in_j_0 * t158));
     const jg_real t169 = v_6_in_j_0 * t157 - v_6_in_j_1 * t155 + (s_j[0] * t164 - s_j[1] * t167 + (v_2_in_j_0 * t154
         - v_2_in_j_1 * t156) + (v_4_in_j_0 * t162 - v_4_in_j_1 * t166));
+    jac_phi_q_t_lambda_A_i[54] = t164;
+    jac_phi_q_t_lambda_A_i[56] = t165;
+    jac_phi_q_t_lambda_A_i[53] = t167;
+    jac_phi_q_t_lambda_A_i[57] = t168;
     jac_phi_q_t_lambda_A_i[58] = t169;
     jac_phi_q_t_lambda_A_i[50] = t14 - (t159 * v_8_in_j_2 + A_ji_2 * t169 + (t152 * v_8_in_j_0 + A_ji_0 * t165 +
         (t153 * v_8_in_j_1 + A_ji_1 * t168)));
     jac_phi_q_t_lambda_A_i[51] = -(A_ji_3 * t165 + A_ji_4 * t168 + A_ji_5 * t169 + t111);
     jac_phi_q_t_lambda_A_i[52] = -(t110 + A_ji_8 * t169 + (t108 + A_ji_6 * t165 + (t109 + A_ji_7 * t168)));
-    jac_phi_q_t_lambda_A_i[59] = -(h_star_in_j_2 * t163 + t161 * lambda_0_1_2_in_j_2 + (h_star_in_j_1 * t164 + t154
-        * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t167 + t156 * lambda_0_1_2_in_j_0)));
-    jac_phi_q_t_lambda_A_i[60] = v_4_in_j_0 * t155 + v_4_in_j_1 * t157 + v_4_in_j_2 * t160 - (v_6_in_j_0 * t166 +
-        v_6_in_j_1 * t162 + v_6_in_j_2 * t158);
     const jg_real t170 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
     const jg_real t171 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
     const jg_real t172 = A_j[5] * C_i[8] + C_i[6] * t171;
@@ -1678,39 +1670,37 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t180 = t174 * g_star_in_j_2 + h_star_in_j_0 * t178 - (t179 * g_star_in_j_0 + h_star_in_j_2 *
         t173);
     const jg_real t181 = lambda[2] * A_j[8] + lambda[0] * t177;
-    jac_phi_q_t_lambda_A_i[66] = t181;
     const jg_real t182 = lambda[2] * A_j[5] + lambda[0] * t171;
-    jac_phi_q_t_lambda_A_i[65] = t182;
     const jg_real t183 = v_6_in_j_1 * t178 - v_6_in_j_2 * t175 + (v_2_in_j_1 * t179 - v_2_in_j_2 * t172 + (s_j[1] *
         t181 - s_j[2] * t182) + (v_4_in_j_1 * t176 - v_4_in_j_2 * t180));
-    jac_phi_q_t_lambda_A_i[67] = t183;
     const jg_real t184 = t179 * g_star_in_j_1 + h_star_in_j_2 * t175 - (t172 * g_star_in_j_2 + h_star_in_j_1 *
         t178);
     const jg_real t185 = lambda[2] * A_j[2] + lambda[0] * t170;
-    jac_phi_q_t_lambda_A_i[64] = t185;
-    const jg_real t186 = v_6_in_j_2 * t173 - v_6_in_j_0 * t178 + (s_j[2] * t185 - s_j[0] * t181 + (v_2_in_j_2 * t174
-        - v_2_in_j_0 * t179) + (v_4_in_j_2 * t184 - v_4_in_j_0 * t176));
-    jac_phi_q_t_lambda_A_i[68] = t186;
+    const jg_real t186 = v_6_in_j_2 * t173 - v_6_in_j_0 * t178 + (v_2_in_j_2 * t174 - v_2_in_j_0 * t179 + (s_j[2] *
+        t185 - s_j[0] * t181) + (v_4_in_j_2 * t184 - v_4_in_j_0 * t176));
     const jg_real t187 = v_6_in_j_0 * t175 - v_6_in_j_1 * t173 + (s_j[0] * t182 - s_j[1] * t185 + (v_2_in_j_0 * t172
         - v_2_in_j_1 * t174) + (v_4_in_j_0 * t180 - v_4_in_j_1 * t184));
+    jac_phi_q_t_lambda_A_i[59] = -(h_star_in_j_2 * t163 + t161 * lambda_0_1_2_in_j_2 + (h_star_in_j_0 * t167 + t156
+        * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t164 + t154 * lambda_0_1_2_in_j_1)));
+    jac_phi_q_t_lambda_A_i[60] = v_4_in_j_0 * t155 + v_4_in_j_1 * t157 + v_4_in_j_2 * t160 - (v_6_in_j_0 * t166 +
+        v_6_in_j_1 * t162 + v_6_in_j_2 * t158);
+    jac_phi_q_t_lambda_A_i[66] = t181;
+    jac_phi_q_t_lambda_A_i[65] = t182;
+    jac_phi_q_t_lambda_A_i[67] = t183;
+    jac_phi_q_t_lambda_A_i[64] = t185;
+    jac_phi_q_t_lambda_A_i[68] = t186;
     jac_phi_q_t_lambda_A_i[69] = t187;
     jac_phi_q_t_lambda_A_i[61] = t17 - (t177 * v_8_in_j_2 + A_ji_2 * t187 + (t170 * v_8_in_j_0 + A_ji_0 * t183 +
         (t171 * v_8_in_j_1 + A_ji_1 * t186)));
     jac_phi_q_t_lambda_A_i[62] = -(A_ji_3 * t183 + A_ji_4 * t186 + A_ji_5 * t187 + t133);
     jac_phi_q_t_lambda_A_i[63] = -(t132 + A_ji_8 * t187 + (t130 + A_ji_6 * t183 + (t131 + A_ji_7 * t186)));
-    jac_phi_q_t_lambda_A_i[70] = -(h_star_in_j_2 * t181 + t179 * lambda_0_1_2_in_j_2 + (h_star_in_j_1 * t182 + t172
-        * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t185 + t174 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_i[70] = -(h_star_in_j_2 * t181 + t179 * lambda_0_1_2_in_j_2 + (h_star_in_j_0 * t185 + t174
+        * lambda_0_1_2_in_j_0 + (h_star_in_j_1 * t182 + t172 * lambda_0_1_2_in_j_1)));
     jac_phi_q_t_lambda_A_i[71] = v_4_in_j_0 * t173 + v_4_in_j_1 * t175 + v_4_in_j_2 * t178 - (v_6_in_j_0 * t184 +
         v_6_in_j_1 * t180 + v_6_in_j_2 * t176);
     jac_phi_q_t_lambda_r_j[0] = -t0;
     jac_phi_q_t_lambda_r_j[1] = -t1;
     jac_phi_q_t_lambda_r_j[2] = -t2;
-    jac_phi_q_t_lambda_r_j[3] = -t3;
-    jac_phi_q_t_lambda_r_j[4] = -t4;
-    jac_phi_q_t_lambda_r_j[5] = -t5;
-    jac_phi_q_t_lambda_r_j[6] = -t6;
-    jac_phi_q_t_lambda_r_j[7] = -t7;
-    jac_phi_q_t_lambda_r_j[8] = -t8;
     const jg_real t188 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t189 = t188 * g_star_in_j_2;
     const jg_real t190 = A_i[6] * A_ji_4 - A_i[3] * A_ji_7;
@@ -1728,8 +1718,14 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t202 = h_star_in_j_1 * t191;
     const jg_real t203 = t198 - t199 - (t201 - t202);
     const jg_real t204 = lambda[0] * t196;
-    jac_phi_q_t_lambda_A_j[4] = t204;
     const jg_real t205 = lambda[1] * A_i[3] + lambda[2] * A_i[6];
+    jac_phi_q_t_lambda_r_j[3] = -t3;
+    jac_phi_q_t_lambda_r_j[4] = -t4;
+    jac_phi_q_t_lambda_r_j[5] = -t5;
+    jac_phi_q_t_lambda_r_j[6] = -t6;
+    jac_phi_q_t_lambda_r_j[7] = -t7;
+    jac_phi_q_t_lambda_r_j[8] = -t8;
+    jac_phi_q_t_lambda_A_j[4] = t204;
     jac_phi_q_t_lambda_A_j[3] = t205;
     jac_phi_q_t_lambda_A_j[37] = t205;
     jac_phi_q_t_lambda_A_j[71] = t205;
@@ -1738,35 +1734,31 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t208 = v_6_in_j_1 * t192;
     const jg_real t209 = v_6_in_j_0 * t197 - t208 + (s_j[0] * t204 - t206 + (v_2_in_j_0 * t200 - t207) + (v_4_in_j_0
         * t195 - v_4_in_j_1 * t203));
-    jac_phi_q_t_lambda_A_j[8] = t209;
     const jg_real t210 = h_star_in_j_1 * t192;
     const jg_real t211 = t188 * g_star_in_j_1;
     const jg_real t212 = t200 * g_star_in_j_0 + t210 - (t211 + h_star_in_j_0 * t197);
-    const jg_real t213 = lambda[0] * t190;
-    jac_phi_q_t_lambda_A_j[69] = t213;
-    const jg_real t214 = s_j[2] * t205;
-    const jg_real t215 = v_2_in_j_2 * t188;
+    const jg_real t213 = v_2_in_j_2 * t188;
+    const jg_real t214 = lambda[0] * t190;
+    const jg_real t215 = s_j[2] * t205;
     const jg_real t216 = v_6_in_j_2 * t192;
-    const jg_real t217 = t216 + v_6_in_j_0 * t191 + (t214 + s_j[0] * t213 + (t215 + v_2_in_j_0 * t194) + (v_4_in_j_2
+    const jg_real t217 = t216 + v_6_in_j_0 * t191 + (t213 + v_2_in_j_0 * t194 + (t215 + s_j[0] * t214) + (v_4_in_j_2
         * t203 - v_4_in_j_0 * t212));
-    jac_phi_q_t_lambda_A_j[7] = t217;
     const jg_real t218 = v_2_in_j_2 * t200;
     const jg_real t219 = v_2_in_j_1 * t194;
     const jg_real t220 = s_j[2] * t204;
-    const jg_real t221 = s_j[1] * t213;
+    const jg_real t221 = s_j[1] * t214;
     const jg_real t222 = v_6_in_j_2 * t197;
     const jg_real t223 = v_6_in_j_1 * t191;
     const jg_real t224 = v_4_in_j_1 * t212 - v_4_in_j_2 * t195 - (t218 + t219 + (t220 + t221)) - (t222 + t223);
+    jac_phi_q_t_lambda_A_j[8] = t209;
+    jac_phi_q_t_lambda_A_j[69] = t214;
+    jac_phi_q_t_lambda_A_j[7] = t217;
     jac_phi_q_t_lambda_A_j[6] = t224;
     jac_phi_q_t_lambda_A_j[0] = -(A_ji_2 * t209 - t190 * v_8_in_j_2 + (t196 * v_8_in_j_1 + A_ji_1 * t217 + A_ji_0 *
         t224));
     jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_8_in_j_0 + A_ji_3 * t224 + A_ji_4 * t217 + A_ji_5 * t209);
     jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_8_in_j_0 + A_ji_6 * t224 + A_ji_7 * t217 + A_ji_8 * t209);
-    jac_phi_q_t_lambda_A_j[5] = -t213;
-    jac_phi_q_t_lambda_A_j[9] = t213 * h_star_in_j_2 + t194 * lambda_0_1_2_in_j_2 - (t204 * h_star_in_j_1 + t200 *
-        lambda_0_1_2_in_j_1 + (t205 * h_star_in_j_0 + t188 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[10] = v_4_in_j_0 * t192 + v_4_in_j_1 * t197 - v_4_in_j_2 * t191 - (v_6_in_j_0 * t203 +
-        v_6_in_j_1 * t195 + v_6_in_j_2 * t212);
+    jac_phi_q_t_lambda_A_j[5] = -t214;
     const jg_real t225 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t226 = t225 * g_star_in_j_2;
     const jg_real t227 = A_i[7] * A_ji_4 - A_i[4] * A_ji_7;
@@ -1784,43 +1776,47 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t239 = h_star_in_j_1 * t228;
     const jg_real t240 = t235 - t236 - (t238 - t239);
     const jg_real t241 = lambda[0] * t233;
-    jac_phi_q_t_lambda_A_j[15] = t241;
     const jg_real t242 = lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[14] = t242;
-    jac_phi_q_t_lambda_A_j[48] = t242;
-    jac_phi_q_t_lambda_A_j[82] = t242;
     const jg_real t243 = s_j[1] * t242;
     const jg_real t244 = v_2_in_j_1 * t225;
     const jg_real t245 = v_6_in_j_1 * t229;
     const jg_real t246 = v_6_in_j_0 * t234 - t245 + (s_j[0] * t241 - t243 + (v_2_in_j_0 * t237 - t244) + (v_4_in_j_0
         * t232 - v_4_in_j_1 * t240));
-    jac_phi_q_t_lambda_A_j[19] = t246;
     const jg_real t247 = h_star_in_j_1 * t229;
     const jg_real t248 = t225 * g_star_in_j_1;
     const jg_real t249 = t237 * g_star_in_j_0 + t247 - (t248 + h_star_in_j_0 * t234);
-    const jg_real t250 = lambda[0] * t227;
-    jac_phi_q_t_lambda_A_j[80] = t250;
-    const jg_real t251 = s_j[2] * t242;
-    const jg_real t252 = v_2_in_j_2 * t225;
+    const jg_real t250 = v_2_in_j_2 * t225;
+    const jg_real t251 = lambda[0] * t227;
+    jac_phi_q_t_lambda_A_j[9] = t214 * h_star_in_j_2 + t194 * lambda_0_1_2_in_j_2 - (t205 * h_star_in_j_0 + t188 *
+        lambda_0_1_2_in_j_0 + (t204 * h_star_in_j_1 + t200 * lambda_0_1_2_in_j_1));
+    jac_phi_q_t_lambda_A_j[10] = v_4_in_j_0 * t192 + v_4_in_j_1 * t197 - v_4_in_j_2 * t191 - (v_6_in_j_0 * t203 +
+        v_6_in_j_1 * t195 + v_6_in_j_2 * t212);
+    jac_phi_q_t_lambda_A_j[15] = t241;
+    jac_phi_q_t_lambda_A_j[14] = t242;
+    jac_phi_q_t_lambda_A_j[48] = t242;
+    jac_phi_q_t_lambda_A_j[82] = t242;
+    jac_phi_q_t_lambda_A_j[19] = t246;
+    jac_phi_q_t_lambda_A_j[80] = t251;
+    const jg_real t252 = s_j[2] * t242;
     const jg_real t253 = v_6_in_j_2 * t229;
-    const jg_real t254 = t253 + v_6_in_j_0 * t228 + (t251 + s_j[0] * t250 + (t252 + v_2_in_j_0 * t231) + (v_4_in_j_2
+    const jg_real t254 = t253 + v_6_in_j_0 * t228 + (t250 + v_2_in_j_0 * t231 + (t252 + s_j[0] * t251) + (v_4_in_j_2
         * t240 - v_4_in_j_0 * t249));
-    jac_phi_q_t_lambda_A_j[18] = t254;
     const jg_real t255 = v_2_in_j_2 * t237;
     const jg_real t256 = v_2_in_j_1 * t231;
     const jg_real t257 = s_j[2] * t241;
-    const jg_real t258 = s_j[1] * t250;
+    const jg_real t258 = s_j[1] * t251;
     const jg_real t259 = v_6_in_j_2 * t234;
     const jg_real t260 = v_6_in_j_1 * t228;
     const jg_real t261 = v_4_in_j_1 * t249 - v_4_in_j_2 * t232 - (t255 + t256 + (t257 + t258)) - (t259 + t260);
+    jac_phi_q_t_lambda_A_j[18] = t254;
     jac_phi_q_t_lambda_A_j[17] = t261;
     jac_phi_q_t_lambda_A_j[11] = -(A_ji_2 * t246 - t227 * v_8_in_j_2 + (t233 * v_8_in_j_1 + A_ji_1 * t254 + A_ji_0 *
         t261));
     jac_phi_q_t_lambda_A_j[12] = -(A_i[4] * v_8_in_j_0 + A_ji_3 * t261 + A_ji_4 * t254 + A_ji_5 * t246);
     jac_phi_q_t_lambda_A_j[13] = -(A_i[7] * v_8_in_j_0 + A_ji_6 * t261 + A_ji_7 * t254 + A_ji_8 * t246);
-    jac_phi_q_t_lambda_A_j[16] = -t250;
-    jac_phi_q_t_lambda_A_j[20] = t250 * h_star_in_j_2 + t231 * lambda_0_1_2_in_j_2 - (t241 * h_star_in_j_1 + t237 *
-        lambda_0_1_2_in_j_1 + (t242 * h_star_in_j_0 + t225 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[16] = -t251;
+    jac_phi_q_t_lambda_A_j[20] = t251 * h_star_in_j_2 + t231 * lambda_0_1_2_in_j_2 - (t242 * h_star_in_j_0 + t225 *
+        lambda_0_1_2_in_j_0 + (t241 * h_star_in_j_1 + t237 * lambda_0_1_2_in_j_1));
     jac_phi_q_t_lambda_A_j[21] = v_4_in_j_0 * t229 + v_4_in_j_1 * t234 - v_4_in_j_2 * t228 - (v_6_in_j_0 * t240 +
         v_6_in_j_1 * t232 + v_6_in_j_2 * t249);
     const jg_real t262 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
@@ -1840,45 +1836,36 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t276 = h_star_in_j_1 * t265;
     const jg_real t277 = t272 - t273 - (t275 - t276);
     const jg_real t278 = lambda[0] * t270;
-    jac_phi_q_t_lambda_A_j[26] = t278;
     const jg_real t279 = lambda[1] * A_i[5] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[25] = t279;
-    jac_phi_q_t_lambda_A_j[59] = t279;
-    jac_phi_q_t_lambda_A_j[93] = t279;
     const jg_real t280 = s_j[1] * t279;
     const jg_real t281 = v_2_in_j_1 * t262;
     const jg_real t282 = v_6_in_j_1 * t266;
     const jg_real t283 = v_6_in_j_0 * t271 - t282 + (s_j[0] * t278 - t280 + (v_2_in_j_0 * t274 - t281) + (v_4_in_j_0
         * t269 - v_4_in_j_1 * t277));
-    jac_phi_q_t_lambda_A_j[30] = t283;
     const jg_real t284 = h_star_in_j_1 * t266;
     const jg_real t285 = t262 * g_star_in_j_1;
     const jg_real t286 = t274 * g_star_in_j_0 + t284 - (t285 + h_star_in_j_0 * t271);
-    const jg_real t287 = lambda[0] * t264;
-    jac_phi_q_t_lambda_A_j[91] = t287;
-    const jg_real t288 = s_j[2] * t279;
-    const jg_real t289 = v_2_in_j_2 * t262;
+    const jg_real t287 = v_2_in_j_2 * t262;
+    const jg_real t288 = lambda[0] * t264;
+    const jg_real t289 = s_j[2] * t279;
     const jg_real t290 = v_6_in_j_2 * t266;
-    const jg_real t291 = t290 + v_6_in_j_0 * t265 + (t288 + s_j[0] * t287 + (t289 + v_2_in_j_0 * t268) + (v_4_in_j_2
+    const jg_real t291 = t290 + v_6_in_j_0 * t265 + (t287 + v_2_in_j_0 * t268 + (t289 + s_j[0] * t288) + (v_4_in_j_2
         * t277 - v_4_in_j_0 * t286));
-    jac_phi_q_t_lambda_A_j[29] = t291;
     const jg_real t292 = v_2_in_j_2 * t274;
     const jg_real t293 = v_2_in_j_1 * t268;
     const jg_real t294 = s_j[2] * t278;
-    const jg_real t295 = s_j[1] * t287;
+    const jg_real t295 = s_j[1] * t288;
     const jg_real t296 = v_6_in_j_2 * t271;
     const jg_real t297 = v_6_in_j_1 * t265;
     const jg_real t298 = v_4_in_j_1 * t286 - v_4_in_j_2 * t269 - (t292 + t293 + (t294 + t295)) - (t296 + t297);
+    jac_phi_q_t_lambda_A_j[26] = t278;
+    jac_phi_q_t_lambda_A_j[25] = t279;
+    jac_phi_q_t_lambda_A_j[59] = t279;
+    jac_phi_q_t_lambda_A_j[93] = t279;
+    jac_phi_q_t_lambda_A_j[30] = t283;
+    jac_phi_q_t_lambda_A_j[91] = t288;
+    jac_phi_q_t_lambda_A_j[29] = t291;
     jac_phi_q_t_lambda_A_j[28] = t298;
-    jac_phi_q_t_lambda_A_j[22] = -(A_ji_2 * t283 - t264 * v_8_in_j_2 + (t270 * v_8_in_j_1 + A_ji_1 * t291 + A_ji_0 *
-        t298));
-    jac_phi_q_t_lambda_A_j[23] = -(A_i[5] * v_8_in_j_0 + A_ji_3 * t298 + A_ji_4 * t291 + A_ji_5 * t283);
-    jac_phi_q_t_lambda_A_j[24] = -(A_i[8] * v_8_in_j_0 + A_ji_6 * t298 + A_ji_7 * t291 + A_ji_8 * t283);
-    jac_phi_q_t_lambda_A_j[27] = -t287;
-    jac_phi_q_t_lambda_A_j[31] = t287 * h_star_in_j_2 + t268 * lambda_0_1_2_in_j_2 - (t278 * h_star_in_j_1 + t274 *
-        lambda_0_1_2_in_j_1 + (t279 * h_star_in_j_0 + t262 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[32] = v_4_in_j_0 * t266 + v_4_in_j_1 * t271 - v_4_in_j_2 * t265 - (v_6_in_j_0 * t277 +
-        v_6_in_j_1 * t269 + v_6_in_j_2 * t286);
     const jg_real t299 = A_i[3] * A_ji_6 - A_i[6] * A_ji_3;
     const jg_real t300 = C_i[6] * t299;
     const jg_real t301 = t300 * g_star_in_j_0;
@@ -1891,19 +1878,28 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t308 = v_6_in_j_0 * t192;
     const jg_real t309 = t308 + v_6_in_j_1 * t197 + (t306 + s_j[1] * t204 + (t307 + v_2_in_j_1 * t200) + (v_4_in_j_0
         * t304 - v_4_in_j_1 * t305));
-    jac_phi_q_t_lambda_A_j[41] = t309;
     const jg_real t310 = t188 * g_star_in_j_0;
     const jg_real t311 = h_star_in_j_0 * t192;
     const jg_real t312 = t310 - h_star_in_j_1 * t197 - (t311 - t200 * g_star_in_j_1);
     const jg_real t313 = lambda[0] * t299;
+    jac_phi_q_t_lambda_A_j[22] = -(A_ji_2 * t283 - t264 * v_8_in_j_2 + (t270 * v_8_in_j_1 + A_ji_1 * t291 + A_ji_0 *
+        t298));
+    jac_phi_q_t_lambda_A_j[23] = -(A_i[5] * v_8_in_j_0 + A_ji_3 * t298 + A_ji_4 * t291 + A_ji_5 * t283);
+    jac_phi_q_t_lambda_A_j[24] = -(A_i[8] * v_8_in_j_0 + A_ji_6 * t298 + A_ji_7 * t291 + A_ji_8 * t283);
+    jac_phi_q_t_lambda_A_j[27] = -t288;
+    jac_phi_q_t_lambda_A_j[31] = t288 * h_star_in_j_2 + t268 * lambda_0_1_2_in_j_2 - (t279 * h_star_in_j_0 + t262 *
+        lambda_0_1_2_in_j_0 + (t278 * h_star_in_j_1 + t274 * lambda_0_1_2_in_j_1));
+    jac_phi_q_t_lambda_A_j[32] = v_4_in_j_0 * t266 + v_4_in_j_1 * t271 - v_4_in_j_2 * t265 - (v_6_in_j_0 * t277 +
+        v_6_in_j_1 * t269 + v_6_in_j_2 * t286);
+    jac_phi_q_t_lambda_A_j[41] = t309;
     jac_phi_q_t_lambda_A_j[70] = t313;
-    const jg_real t314 = v_4_in_j_1 * t312 - v_4_in_j_2 * t304 - (t215 + v_2_in_j_1 * t300 + (t214 + s_j[1] * t313))
+    const jg_real t314 = v_4_in_j_1 * t312 - v_4_in_j_2 * t304 - (t213 + v_2_in_j_1 * t300 + (t215 + s_j[1] * t313))
         - (t216 + v_6_in_j_1 * t302);
-    jac_phi_q_t_lambda_A_j[39] = t314;
-    const jg_real t315 = s_j[0] * t313;
-    const jg_real t316 = v_2_in_j_0 * t300;
+    const jg_real t315 = v_2_in_j_0 * t300;
+    const jg_real t316 = s_j[0] * t313;
     const jg_real t317 = v_6_in_j_0 * t302;
-    const jg_real t318 = t317 - t222 + (t315 - t220 + (t316 - t218) + (v_4_in_j_2 * t305 - v_4_in_j_0 * t312));
+    const jg_real t318 = t317 - t222 + (t315 - t218 + (t316 - t220) + (v_4_in_j_2 * t305 - v_4_in_j_0 * t312));
+    jac_phi_q_t_lambda_A_j[39] = t314;
     jac_phi_q_t_lambda_A_j[40] = t318;
     jac_phi_q_t_lambda_A_j[33] = -(A_ji_2 * t309 - t299 * v_8_in_j_2 + (A_ji_0 * t314 - t196 * v_8_in_j_0 + A_ji_1 *
         t318));
@@ -1913,8 +1909,6 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_A_j[38] = -t313;
     jac_phi_q_t_lambda_A_j[42] = t313 * h_star_in_j_2 + t300 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t205 + t188 *
         lambda_0_1_2_in_j_1 - (t204 * h_star_in_j_0 + t200 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[43] = v_4_in_j_1 * t192 - v_4_in_j_0 * t197 - v_4_in_j_2 * t302 - (v_6_in_j_0 * t305 +
-        v_6_in_j_1 * t304 + v_6_in_j_2 * t312);
     const jg_real t319 = A_i[4] * A_ji_6 - A_i[7] * A_ji_3;
     const jg_real t320 = C_i[6] * t319;
     const jg_real t321 = t320 * g_star_in_j_0;
@@ -1927,30 +1921,26 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t328 = v_6_in_j_0 * t229;
     const jg_real t329 = t328 + v_6_in_j_1 * t234 + (t326 + s_j[1] * t241 + (t327 + v_2_in_j_1 * t237) + (v_4_in_j_0
         * t324 - v_4_in_j_1 * t325));
-    jac_phi_q_t_lambda_A_j[52] = t329;
     const jg_real t330 = t225 * g_star_in_j_0;
     const jg_real t331 = h_star_in_j_0 * t229;
     const jg_real t332 = t330 - h_star_in_j_1 * t234 - (t331 - t237 * g_star_in_j_1);
     const jg_real t333 = lambda[0] * t319;
-    jac_phi_q_t_lambda_A_j[81] = t333;
-    const jg_real t334 = v_4_in_j_1 * t332 - v_4_in_j_2 * t324 - (t252 + v_2_in_j_1 * t320 + (t251 + s_j[1] * t333))
+    const jg_real t334 = v_4_in_j_1 * t332 - v_4_in_j_2 * t324 - (t250 + v_2_in_j_1 * t320 + (t252 + s_j[1] * t333))
         - (t253 + v_6_in_j_1 * t322);
-    jac_phi_q_t_lambda_A_j[50] = t334;
-    const jg_real t335 = s_j[0] * t333;
-    const jg_real t336 = v_2_in_j_0 * t320;
+    const jg_real t335 = v_2_in_j_0 * t320;
+    const jg_real t336 = s_j[0] * t333;
     const jg_real t337 = v_6_in_j_0 * t322;
-    const jg_real t338 = t337 - t259 + (t335 - t257 + (t336 - t255) + (v_4_in_j_2 * t325 - v_4_in_j_0 * t332));
+    const jg_real t338 = t337 - t259 + (t335 - t255 + (t336 - t257) + (v_4_in_j_2 * t325 - v_4_in_j_0 * t332));
+    jac_phi_q_t_lambda_A_j[43] = v_4_in_j_1 * t192 - v_4_in_j_0 * t197 - v_4_in_j_2 * t302 - (v_6_in_j_0 * t305 +
+        v_6_in_j_1 * t304 + v_6_in_j_2 * t312);
+    jac_phi_q_t_lambda_A_j[52] = t329;
+    jac_phi_q_t_lambda_A_j[81] = t333;
+    jac_phi_q_t_lambda_A_j[50] = t334;
     jac_phi_q_t_lambda_A_j[51] = t338;
     jac_phi_q_t_lambda_A_j[44] = -(A_ji_2 * t329 - t319 * v_8_in_j_2 + (A_ji_0 * t334 - t233 * v_8_in_j_0 + A_ji_1 *
         t338));
     jac_phi_q_t_lambda_A_j[45] = -(A_i[4] * v_8_in_j_1 + A_ji_4 * t338 + A_ji_3 * t334 + A_ji_5 * t329);
     jac_phi_q_t_lambda_A_j[46] = -(A_i[7] * v_8_in_j_1 + A_ji_7 * t338 + A_ji_6 * t334 + A_ji_8 * t329);
-    jac_phi_q_t_lambda_A_j[47] = -t241;
-    jac_phi_q_t_lambda_A_j[49] = -t333;
-    jac_phi_q_t_lambda_A_j[53] = t333 * h_star_in_j_2 + t320 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t242 + t225 *
-        lambda_0_1_2_in_j_1 - (t241 * h_star_in_j_0 + t237 * lambda_0_1_2_in_j_0));
-    jac_phi_q_t_lambda_A_j[54] = v_4_in_j_1 * t229 - v_4_in_j_0 * t234 - v_4_in_j_2 * t322 - (v_6_in_j_0 * t325 +
-        v_6_in_j_1 * t324 + v_6_in_j_2 * t332);
     const jg_real t339 = A_i[5] * A_ji_6 - A_i[8] * A_ji_3;
     const jg_real t340 = C_i[6] * t339;
     const jg_real t341 = t340 * g_star_in_j_0;
@@ -1963,20 +1953,30 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t348 = v_6_in_j_0 * t266;
     const jg_real t349 = t348 + v_6_in_j_1 * t271 + (t346 + s_j[1] * t278 + (t347 + v_2_in_j_1 * t274) + (v_4_in_j_0
         * t344 - v_4_in_j_1 * t345));
-    jac_phi_q_t_lambda_A_j[63] = t349;
     const jg_real t350 = t262 * g_star_in_j_0;
     const jg_real t351 = h_star_in_j_0 * t266;
     const jg_real t352 = t350 - h_star_in_j_1 * t271 - (t351 - t274 * g_star_in_j_1);
     const jg_real t353 = lambda[0] * t339;
-    jac_phi_q_t_lambda_A_j[92] = t353;
-    const jg_real t354 = v_4_in_j_1 * t352 - v_4_in_j_2 * t344 - (t289 + v_2_in_j_1 * t340 + (t288 + s_j[1] * t353))
+    const jg_real t354 = v_4_in_j_1 * t352 - v_4_in_j_2 * t344 - (t287 + v_2_in_j_1 * t340 + (t289 + s_j[1] * t353))
         - (t290 + v_6_in_j_1 * t342);
-    jac_phi_q_t_lambda_A_j[61] = t354;
-    const jg_real t355 = s_j[0] * t353;
-    const jg_real t356 = v_2_in_j_0 * t340;
+    const jg_real t355 = v_2_in_j_0 * t340;
+    const jg_real t356 = s_j[0] * t353;
     const jg_real t357 = v_6_in_j_0 * t342;
-    const jg_real t358 = t357 - t296 + (t355 - t294 + (t356 - t292) + (v_4_in_j_2 * t345 - v_4_in_j_0 * t352));
+    const jg_real t358 = t357 - t296 + (t355 - t292 + (t356 - t294) + (v_4_in_j_2 * t345 - v_4_in_j_0 * t352));
+    jac_phi_q_t_lambda_A_j[47] = -t241;
+    jac_phi_q_t_lambda_A_j[49] = -t333;
+    jac_phi_q_t_lambda_A_j[53] = t333 * h_star_in_j_2 + t320 * lambda_0_1_2_in_j_2 - (h_star_in_j_1 * t242 + t225 *
+        lambda_0_1_2_in_j_1 - (t241 * h_star_in_j_0 + t237 * lambda_0_1_2_in_j_0));
+    jac_phi_q_t_lambda_A_j[54] = v_4_in_j_1 * t229 - v_4_in_j_0 * t234 - v_4_in_j_2 * t322 - (v_6_in_j_0 * t325 +
+        v_6_in_j_1 * t324 + v_6_in_j_2 * t332);
+    jac_phi_q_t_lambda_A_j[63] = t349;
+    jac_phi_q_t_lambda_A_j[92] = t353;
+    jac_phi_q_t_lambda_A_j[61] = t354;
     jac_phi_q_t_lambda_A_j[62] = t358;
+    const jg_real t359 = t301 + t202 - (t199 + t303);
+    const jg_real t360 = t311 + t194 * g_star_in_j_2 - (t310 + h_star_in_j_2 * t191);
+    const jg_real t361 = t208 - v_6_in_j_2 * t302 + (t207 - v_2_in_j_2 * t300 + (t206 - s_j[2] * t313) + (v_4_in_j_1
+        * t359 - v_4_in_j_2 * t360));
     jac_phi_q_t_lambda_A_j[55] = -(A_ji_2 * t349 - t339 * v_8_in_j_2 + (A_ji_0 * t354 - t270 * v_8_in_j_0 + A_ji_1 *
         t358));
     jac_phi_q_t_lambda_A_j[56] = -(A_i[5] * v_8_in_j_1 + A_ji_4 * t358 + A_ji_3 * t354 + A_ji_5 * t349);
@@ -1987,63 +1987,49 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
         lambda_0_1_2_in_j_1 - (t278 * h_star_in_j_0 + t274 * lambda_0_1_2_in_j_0));
     jac_phi_q_t_lambda_A_j[65] = v_4_in_j_1 * t266 - v_4_in_j_0 * t271 - v_4_in_j_2 * t342 - (v_6_in_j_0 * t345 +
         v_6_in_j_1 * t344 + v_6_in_j_2 * t352);
-    const jg_real t359 = t301 + t202 - (t199 + t303);
-    const jg_real t360 = t311 + t194 * g_star_in_j_2 - (t310 + h_star_in_j_2 * t191);
-    const jg_real t361 = t208 - v_6_in_j_2 * t302 + (t207 - v_2_in_j_2 * t300 + (t206 - s_j[2] * t313) + (v_4_in_j_1
-        * t359 - v_4_in_j_2 * t360));
     jac_phi_q_t_lambda_A_j[72] = t361;
     const jg_real t362 = t211 + h_star_in_j_2 * t302 - (t210 + t300 * g_star_in_j_2);
-    const jg_real t363 = v_6_in_j_2 * t191 - t308 + (s_j[2] * t213 - t306 + (v_2_in_j_2 * t194 - t307) + (v_4_in_j_2
+    const jg_real t363 = v_6_in_j_2 * t191 - t308 + (v_2_in_j_2 * t194 - t307 + (s_j[2] * t214 - t306) + (v_4_in_j_2
         * t362 - v_4_in_j_0 * t359));
+    const jg_real t364 = t317 - t223 + (t316 - t221 + (t315 - t219) + (v_4_in_j_0 * t360 - v_4_in_j_1 * t362));
+    const jg_real t365 = t321 + t239 - (t236 + t323);
+    const jg_real t366 = t331 + t231 * g_star_in_j_2 - (t330 + h_star_in_j_2 * t228);
+    const jg_real t367 = t245 - v_6_in_j_2 * t322 + (t244 - v_2_in_j_2 * t320 + (t243 - s_j[2] * t333) + (v_4_in_j_1
+        * t365 - v_4_in_j_2 * t366));
     jac_phi_q_t_lambda_A_j[73] = t363;
-    const jg_real t364 = t317 - t223 + (t315 - t221 + (t316 - t219) + (v_4_in_j_0 * t360 - v_4_in_j_1 * t362));
     jac_phi_q_t_lambda_A_j[74] = t364;
     jac_phi_q_t_lambda_A_j[66] = -(t190 * v_8_in_j_0 + A_ji_0 * t361 + (t299 * v_8_in_j_1 + A_ji_1 * t363) + A_ji_2
         * t364);
     jac_phi_q_t_lambda_A_j[67] = -(A_i[3] * v_8_in_j_2 + A_ji_5 * t364 + (A_ji_3 * t361 + A_ji_4 * t363));
     jac_phi_q_t_lambda_A_j[68] = -(A_i[6] * v_8_in_j_2 + A_ji_8 * t364 + (A_ji_6 * t361 + A_ji_7 * t363));
-    jac_phi_q_t_lambda_A_j[75] = -(t205 * h_star_in_j_2 + t188 * lambda_0_1_2_in_j_2 + (t313 * h_star_in_j_1 + t300
-        * lambda_0_1_2_in_j_1 + (t213 * h_star_in_j_0 + t194 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_j[75] = -(t205 * h_star_in_j_2 + t188 * lambda_0_1_2_in_j_2 + (t214 * h_star_in_j_0 + t194
+        * lambda_0_1_2_in_j_0 + (t313 * h_star_in_j_1 + t300 * lambda_0_1_2_in_j_1)));
     jac_phi_q_t_lambda_A_j[76] = v_4_in_j_0 * t191 + v_4_in_j_1 * t302 + v_4_in_j_2 * t192 - (v_6_in_j_0 * t362 +
         v_6_in_j_1 * t360 + v_6_in_j_2 * t359);
-    const jg_real t365 = t321 + t239 - (t236 + t323);
-    const jg_real t366 = t331 + t231 * g_star_in_j_2 - (t330 + h_star_in_j_2 * t228);
-    const jg_real t367 = t245 - v_6_in_j_2 * t322 + (t244 - v_2_in_j_2 * t320 + (t243 - s_j[2] * t333) + (v_4_in_j_1
-        * t365 - v_4_in_j_2 * t366));
     jac_phi_q_t_lambda_A_j[83] = t367;
     const jg_real t368 = t248 + h_star_in_j_2 * t322 - (t247 + t320 * g_star_in_j_2);
-    const jg_real t369 = v_6_in_j_2 * t228 - t328 + (s_j[2] * t250 - t326 + (v_2_in_j_2 * t231 - t327) + (v_4_in_j_2
+    const jg_real t369 = v_6_in_j_2 * t228 - t328 + (v_2_in_j_2 * t231 - t327 + (s_j[2] * t251 - t326) + (v_4_in_j_2
         * t368 - v_4_in_j_0 * t365));
+    const jg_real t370 = t337 - t260 + (t336 - t258 + (t335 - t256) + (v_4_in_j_0 * t366 - v_4_in_j_1 * t368));
+    const jg_real t371 = t341 + t276 - (t273 + t343);
+    const jg_real t372 = t351 + t268 * g_star_in_j_2 - (t350 + h_star_in_j_2 * t265);
+    const jg_real t373 = t282 - v_6_in_j_2 * t342 + (t281 - v_2_in_j_2 * t340 + (t280 - s_j[2] * t353) + (v_4_in_j_1
+        * t371 - v_4_in_j_2 * t372));
     jac_phi_q_t_lambda_A_j[84] = t369;
-    const jg_real t370 = t337 - t260 + (t335 - t258 + (t336 - t256) + (v_4_in_j_0 * t366 - v_4_in_j_1 * t368));
     jac_phi_q_t_lambda_A_j[85] = t370;
     jac_phi_q_t_lambda_A_j[77] = -(t227 * v_8_in_j_0 + A_ji_0 * t367 + (t319 * v_8_in_j_1 + A_ji_1 * t369) + A_ji_2
         * t370);
     jac_phi_q_t_lambda_A_j[78] = -(A_i[4] * v_8_in_j_2 + A_ji_5 * t370 + (A_ji_3 * t367 + A_ji_4 * t369));
     jac_phi_q_t_lambda_A_j[79] = -(A_i[7] * v_8_in_j_2 + A_ji_8 * t370 + (A_ji_6 * t367 + A_ji_7 * t369));
-    jac_phi_q_t_lambda_A_j[86] = -(t242 * h_star_in_j_2 + t225 * lambda_0_1_2_in_j_2 + (t333 * h_star_in_j_1 + t320
-        * lambda_0_1_2_in_j_1 + (t250 * h_star_in_j_0 + t231 * lambda_0_1_2_in_j_0)));
+    jac_phi_q_t_lambda_A_j[86] = -(t242 * h_star_in_j_2 + t225 * lambda_0_1_2_in_j_2 + (t251 * h_star_in_j_0 + t231
+        * lambda_0_1_2_in_j_0 + (t333 * h_star_in_j_1 + t320 * lambda_0_1_2_in_j_1)));
     jac_phi_q_t_lambda_A_j[87] = v_4_in_j_0 * t228 + v_4_in_j_1 * t322 + v_4_in_j_2 * t229 - (v_6_in_j_0 * t368 +
         v_6_in_j_1 * t366 + v_6_in_j_2 * t365);
-    const jg_real t371 = t341 + t276 - (t273 + t343);
-    const jg_real t372 = t351 + t268 * g_star_in_j_2 - (t350 + h_star_in_j_2 * t265);
-    const jg_real t373 = t282 - v_6_in_j_2 * t342 + (t281 - v_2_in_j_2 * t340 + (t280 - s_j[2] * t353) + (v_4_in_j_1
-        * t371 - v_4_in_j_2 * t372));
     jac_phi_q_t_lambda_A_j[94] = t373;
     const jg_real t374 = t285 + h_star_in_j_2 * t342 - (t284 + t340 * g_star_in_j_2);
-    const jg_real t375 = v_6_in_j_2 * t265 - t348 + (s_j[2] * t287 - t346 + (v_2_in_j_2 * t268 - t347) + (v_4_in_j_2
+    const jg_real t375 = v_6_in_j_2 * t265 - t348 + (v_2_in_j_2 * t268 - t347 + (s_j[2] * t288 - t346) + (v_4_in_j_2
         * t374 - v_4_in_j_0 * t371));
-    jac_phi_q_t_lambda_A_j[95] = t375;
-    const jg_real t376 = t357 - t297 + (t355 - t295 + (t356 - t293) + (v_4_in_j_0 * t372 - v_4_in_j_1 * t374));
-    jac_phi_q_t_lambda_A_j[96] = t376;
-    jac_phi_q_t_lambda_A_j[88] = -(t264 * v_8_in_j_0 + A_ji_0 * t373 + (t339 * v_8_in_j_1 + A_ji_1 * t375) + A_ji_2
-        * t376);
-    jac_phi_q_t_lambda_A_j[89] = -(A_i[5] * v_8_in_j_2 + A_ji_5 * t376 + (A_ji_3 * t373 + A_ji_4 * t375));
-    jac_phi_q_t_lambda_A_j[90] = -(A_i[8] * v_8_in_j_2 + A_ji_8 * t376 + (A_ji_6 * t373 + A_ji_7 * t375));
-    jac_phi_q_t_lambda_A_j[97] = -(t279 * h_star_in_j_2 + t262 * lambda_0_1_2_in_j_2 + (t353 * h_star_in_j_1 + t340
-        * lambda_0_1_2_in_j_1 + (t287 * h_star_in_j_0 + t268 * lambda_0_1_2_in_j_0)));
-    jac_phi_q_t_lambda_A_j[98] = v_4_in_j_0 * t265 + v_4_in_j_1 * t342 + v_4_in_j_2 * t266 - (v_6_in_j_0 * t374 +
-        v_6_in_j_1 * t372 + v_6_in_j_2 * t371);
+    const jg_real t376 = t357 - t297 + (t356 - t295 + (t355 - t293) + (v_4_in_j_0 * t372 - v_4_in_j_1 * t374));
     const jg_real t377 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t378 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t379 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -2053,113 +2039,123 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t383 = A_ji_2 * t377 + A_ji_5 * t378 + A_ji_8 * t379;
     const jg_real t384 = h_star_in_j_2 * t381 - h_star_in_j_0 * t383;
     const jg_real t385 = v_6_in_j_2 * t380 - v_6_in_j_1 * t383 + (v_4_in_j_1 * t382 - v_4_in_j_2 * t384);
+    jac_phi_q_t_lambda_A_j[95] = t375;
+    jac_phi_q_t_lambda_A_j[96] = t376;
+    jac_phi_q_t_lambda_A_j[88] = -(t264 * v_8_in_j_0 + A_ji_0 * t373 + (t339 * v_8_in_j_1 + A_ji_1 * t375) + A_ji_2
+        * t376);
+    jac_phi_q_t_lambda_A_j[89] = -(A_i[5] * v_8_in_j_2 + A_ji_5 * t376 + (A_ji_3 * t373 + A_ji_4 * t375));
+    jac_phi_q_t_lambda_A_j[90] = -(A_i[8] * v_8_in_j_2 + A_ji_8 * t376 + (A_ji_6 * t373 + A_ji_7 * t375));
+    jac_phi_q_t_lambda_A_j[97] = -(t279 * h_star_in_j_2 + t262 * lambda_0_1_2_in_j_2 + (t288 * h_star_in_j_0 + t268
+        * lambda_0_1_2_in_j_0 + (t353 * h_star_in_j_1 + t340 * lambda_0_1_2_in_j_1)));
+    jac_phi_q_t_lambda_A_j[98] = v_4_in_j_0 * t265 + v_4_in_j_1 * t342 + v_4_in_j_2 * t266 - (v_6_in_j_0 * t374 +
+        v_6_in_j_1 * t372 + v_6_in_j_2 * t371);
     jac_phi_q_t_lambda_alpha[3] = t385;
     const jg_real t386 = h_star_in_j_1 * t383 - h_star_in_j_2 * t380;
     const jg_real t387 = v_6_in_j_0 * t383 - v_6_in_j_2 * t381 + (v_4_in_j_2 * t386 - v_4_in_j_0 * t382);
-    jac_phi_q_t_lambda_alpha[4] = t387;
     const jg_real t388 = v_6_in_j_1 * t381 - v_6_in_j_0 * t380 + (v_4_in_j_0 * t384 - v_4_in_j_1 * t386);
-    jac_phi_q_t_lambda_alpha[5] = t388;
-    jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t385 + A_ji_1 * t387 + A_ji_2 * t388);
-    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t385 + A_ji_4 * t387 + A_ji_5 * t388);
-    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t385 + A_ji_7 * t387 + A_ji_8 * t388);
-    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t381 + v_4_in_j_1 * t380 + v_4_in_j_2 * t383 + (v_6_in_j_0 * t386 +
-        v_6_in_j_1 * t384 + v_6_in_j_2 * t382));
     const jg_real t389 = A_ji_1 * sine_0;
     const jg_real t390 = A_ji_0 * sine_0;
     const jg_real t391 = h_star_in_j_0 * t389 - h_star_in_j_1 * t390;
     const jg_real t392 = A_ji_2 * sine_0;
     const jg_real t393 = h_star_in_j_2 * t390 - h_star_in_j_0 * t392;
     const jg_real t394 = v_6_in_j_2 * t389 - v_6_in_j_1 * t392 + (v_4_in_j_1 * t391 - v_4_in_j_2 * t393);
-    jac_phi_q_t_lambda_geometry[3] = t394;
     const jg_real t395 = h_star_in_j_1 * t392 - h_star_in_j_2 * t389;
     const jg_real t396 = v_6_in_j_0 * t392 - v_6_in_j_2 * t390 + (v_4_in_j_2 * t395 - v_4_in_j_0 * t391);
+    jac_phi_q_t_lambda_alpha[4] = t387;
+    jac_phi_q_t_lambda_alpha[5] = t388;
+    jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t385 + A_ji_1 * t387 + A_ji_2 * t388);
+    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t385 + A_ji_4 * t387 + A_ji_5 * t388);
+    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t385 + A_ji_7 * t387 + A_ji_8 * t388);
+    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t381 + v_4_in_j_1 * t380 + v_4_in_j_2 * t383 + (v_6_in_j_0 * t386 +
+        v_6_in_j_1 * t384 + v_6_in_j_2 * t382));
+    jac_phi_q_t_lambda_geometry[3] = t394;
     jac_phi_q_t_lambda_geometry[4] = t396;
     const jg_real t397 = v_6_in_j_1 * t390 - v_6_in_j_0 * t389 + (v_4_in_j_0 * t393 - v_4_in_j_1 * t395);
-    jac_phi_q_t_lambda_geometry[5] = t397;
-    jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t394 + A_ji_1 * t396 + A_ji_2 * t397);
-    jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t394 + A_ji_4 * t396 + A_ji_5 * t397);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t394 + A_ji_7 * t396 + A_ji_8 * t397);
-    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t390 + v_4_in_j_1 * t389 + v_4_in_j_2 * t392 + (v_6_in_j_0 *
-        t395 + v_6_in_j_1 * t393 + v_6_in_j_2 * t391));
     const jg_real t398 = A_ji_4 * sine_0;
     const jg_real t399 = A_ji_3 * sine_0;
     const jg_real t400 = h_star_in_j_0 * t398 - h_star_in_j_1 * t399;
     const jg_real t401 = A_ji_5 * sine_0;
     const jg_real t402 = h_star_in_j_2 * t399 - h_star_in_j_0 * t401;
     const jg_real t403 = v_6_in_j_2 * t398 - v_6_in_j_1 * t401 + (v_4_in_j_1 * t400 - v_4_in_j_2 * t402);
-    jac_phi_q_t_lambda_geometry[10] = t403;
     const jg_real t404 = h_star_in_j_1 * t401 - h_star_in_j_2 * t398;
     const jg_real t405 = v_6_in_j_0 * t401 - v_6_in_j_2 * t399 + (v_4_in_j_2 * t404 - v_4_in_j_0 * t400);
-    jac_phi_q_t_lambda_geometry[11] = t405;
     const jg_real t406 = v_6_in_j_1 * t399 - v_6_in_j_0 * t398 + (v_4_in_j_0 * t402 - v_4_in_j_1 * t404);
+    jac_phi_q_t_lambda_geometry[5] = t397;
+    jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t394 + A_ji_1 * t396 + A_ji_2 * t397);
+    jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t394 + A_ji_4 * t396 + A_ji_5 * t397);
+    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t394 + A_ji_7 * t396 + A_ji_8 * t397);
+    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t390 + v_4_in_j_1 * t389 + v_4_in_j_2 * t392 + (v_6_in_j_0 *
+        t395 + v_6_in_j_1 * t393 + v_6_in_j_2 * t391));
+    jac_phi_q_t_lambda_geometry[10] = t403;
+    jac_phi_q_t_lambda_geometry[11] = t405;
     jac_phi_q_t_lambda_geometry[12] = t406;
-    jac_phi_q_t_lambda_geometry[7] = -(A_ji_0 * t403 + A_ji_1 * t405 + A_ji_2 * t406);
-    jac_phi_q_t_lambda_geometry[8] = -(A_ji_3 * t403 + A_ji_4 * t405 + A_ji_5 * t406);
-    jac_phi_q_t_lambda_geometry[9] = -(A_ji_6 * t403 + A_ji_7 * t405 + A_ji_8 * t406);
-    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t399 + v_4_in_j_1 * t398 + v_4_in_j_2 * t401 + (v_6_in_j_0 *
-        t404 + v_6_in_j_1 * t402 + v_6_in_j_2 * t400));
     const jg_real t407 = A_ji_7 * sine_0;
     const jg_real t408 = A_ji_6 * sine_0;
     const jg_real t409 = h_star_in_j_0 * t407 - h_star_in_j_1 * t408;
     const jg_real t410 = A_ji_8 * sine_0;
     const jg_real t411 = h_star_in_j_2 * t408 - h_star_in_j_0 * t410;
     const jg_real t412 = v_6_in_j_2 * t407 - v_6_in_j_1 * t410 + (v_4_in_j_1 * t409 - v_4_in_j_2 * t411);
-    jac_phi_q_t_lambda_geometry[17] = t412;
     const jg_real t413 = h_star_in_j_1 * t410 - h_star_in_j_2 * t407;
     const jg_real t414 = v_6_in_j_0 * t410 - v_6_in_j_2 * t408 + (v_4_in_j_2 * t413 - v_4_in_j_0 * t409);
-    jac_phi_q_t_lambda_geometry[18] = t414;
     const jg_real t415 = v_6_in_j_1 * t408 - v_6_in_j_0 * t407 + (v_4_in_j_0 * t411 - v_4_in_j_1 * t413);
+    jac_phi_q_t_lambda_geometry[7] = -(A_ji_0 * t403 + A_ji_1 * t405 + A_ji_2 * t406);
+    jac_phi_q_t_lambda_geometry[8] = -(A_ji_3 * t403 + A_ji_4 * t405 + A_ji_5 * t406);
+    jac_phi_q_t_lambda_geometry[9] = -(A_ji_6 * t403 + A_ji_7 * t405 + A_ji_8 * t406);
+    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t399 + v_4_in_j_1 * t398 + v_4_in_j_2 * t401 + (v_6_in_j_0 *
+        t404 + v_6_in_j_1 * t402 + v_6_in_j_2 * t400));
+    jac_phi_q_t_lambda_geometry[17] = t412;
+    jac_phi_q_t_lambda_geometry[18] = t414;
     jac_phi_q_t_lambda_geometry[19] = t415;
     jac_phi_q_t_lambda_geometry[14] = -(A_ji_0 * t412 + A_ji_1 * t414 + A_ji_2 * t415);
-    jac_phi_q_t_lambda_geometry[15] = -(A_ji_3 * t412 + A_ji_4 * t414 + A_ji_5 * t415);
-    jac_phi_q_t_lambda_geometry[16] = -(A_ji_6 * t412 + A_ji_7 * t414 + A_ji_8 * t415);
-    jac_phi_q_t_lambda_geometry[20] = -(v_4_in_j_0 * t408 + v_4_in_j_1 * t407 + v_4_in_j_2 * t410 + (v_6_in_j_0 *
-        t413 + v_6_in_j_1 * t411 + v_6_in_j_2 * t409));
     const jg_real t416 = A_ji_0 * cosine_0;
     const jg_real t417 = A_ji_1 * cosine_0;
     const jg_real t418 = h_star_in_j_1 * t416 - h_star_in_j_0 * t417;
     const jg_real t419 = A_ji_2 * cosine_0;
     const jg_real t420 = h_star_in_j_0 * t419 - h_star_in_j_2 * t416;
     const jg_real t421 = v_6_in_j_1 * t419 - v_6_in_j_2 * t417 + (v_4_in_j_1 * t418 - v_4_in_j_2 * t420);
-    jac_phi_q_t_lambda_geometry[24] = t421;
     const jg_real t422 = h_star_in_j_2 * t417 - h_star_in_j_1 * t419;
     const jg_real t423 = v_6_in_j_2 * t416 - v_6_in_j_0 * t419 + (v_4_in_j_2 * t422 - v_4_in_j_0 * t418);
-    jac_phi_q_t_lambda_geometry[25] = t423;
     const jg_real t424 = v_6_in_j_0 * t417 - v_6_in_j_1 * t416 + (v_4_in_j_0 * t420 - v_4_in_j_1 * t422);
+    jac_phi_q_t_lambda_geometry[15] = -(A_ji_3 * t412 + A_ji_4 * t414 + A_ji_5 * t415);
+    jac_phi_q_t_lambda_geometry[16] = -(A_ji_6 * t412 + A_ji_7 * t414 + A_ji_8 * t415);
+    jac_phi_q_t_lambda_geometry[20] = -(v_4_in_j_0 * t408 + v_4_in_j_1 * t407 + v_4_in_j_2 * t410 + (v_6_in_j_0 *
+        t413 + v_6_in_j_1 * t411 + v_6_in_j_2 * t409));
+    jac_phi_q_t_lambda_geometry[24] = t421;
+    jac_phi_q_t_lambda_geometry[25] = t423;
     jac_phi_q_t_lambda_geometry[26] = t424;
     jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t421 + A_ji_1 * t423 + A_ji_2 * t424);
     jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t421 + A_ji_4 * t423 + A_ji_5 * t424);
-    jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t421 + A_ji_7 * t423 + A_ji_8 * t424);
-    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t416 + v_4_in_j_1 * t417 + v_4_in_j_2 * t419 - (v_6_in_j_0 * t422
-        + v_6_in_j_1 * t420 + v_6_in_j_2 * t418);
     const jg_real t425 = A_ji_3 * cosine_0;
     const jg_real t426 = A_ji_4 * cosine_0;
     const jg_real t427 = h_star_in_j_1 * t425 - h_star_in_j_0 * t426;
     const jg_real t428 = A_ji_5 * cosine_0;
     const jg_real t429 = h_star_in_j_0 * t428 - h_star_in_j_2 * t425;
     const jg_real t430 = v_6_in_j_1 * t428 - v_6_in_j_2 * t426 + (v_4_in_j_1 * t427 - v_4_in_j_2 * t429);
-    jac_phi_q_t_lambda_geometry[31] = t430;
     const jg_real t431 = h_star_in_j_2 * t426 - h_star_in_j_1 * t428;
     const jg_real t432 = v_6_in_j_2 * t425 - v_6_in_j_0 * t428 + (v_4_in_j_2 * t431 - v_4_in_j_0 * t427);
-    jac_phi_q_t_lambda_geometry[32] = t432;
     const jg_real t433 = v_6_in_j_0 * t426 - v_6_in_j_1 * t425 + (v_4_in_j_0 * t429 - v_4_in_j_1 * t431);
+    jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t421 + A_ji_7 * t423 + A_ji_8 * t424);
+    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t416 + v_4_in_j_1 * t417 + v_4_in_j_2 * t419 - (v_6_in_j_0 * t422
+        + v_6_in_j_1 * t420 + v_6_in_j_2 * t418);
+    jac_phi_q_t_lambda_geometry[31] = t430;
+    jac_phi_q_t_lambda_geometry[32] = t432;
     jac_phi_q_t_lambda_geometry[33] = t433;
     jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t430 + A_ji_1 * t432 + A_ji_2 * t433);
     jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t430 + A_ji_4 * t432 + A_ji_5 * t433);
     jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t430 + A_ji_7 * t432 + A_ji_8 * t433);
-    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t425 + v_4_in_j_1 * t426 + v_4_in_j_2 * t428 - (v_6_in_j_0 * t431
-        + v_6_in_j_1 * t429 + v_6_in_j_2 * t427);
     const jg_real t434 = A_ji_6 * cosine_0;
     const jg_real t435 = A_ji_7 * cosine_0;
     const jg_real t436 = h_star_in_j_1 * t434 - h_star_in_j_0 * t435;
     const jg_real t437 = A_ji_8 * cosine_0;
     const jg_real t438 = h_star_in_j_0 * t437 - h_star_in_j_2 * t434;
     const jg_real t439 = v_6_in_j_1 * t437 - v_6_in_j_2 * t435 + (v_4_in_j_1 * t436 - v_4_in_j_2 * t438);
-    jac_phi_q_t_lambda_geometry[38] = t439;
     const jg_real t440 = h_star_in_j_2 * t435 - h_star_in_j_1 * t437;
     const jg_real t441 = v_6_in_j_2 * t434 - v_6_in_j_0 * t437 + (v_4_in_j_2 * t440 - v_4_in_j_0 * t436);
-    jac_phi_q_t_lambda_geometry[39] = t441;
     const jg_real t442 = v_6_in_j_0 * t435 - v_6_in_j_1 * t434 + (v_4_in_j_0 * t438 - v_4_in_j_1 * t440);
+    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t425 + v_4_in_j_1 * t426 + v_4_in_j_2 * t428 - (v_6_in_j_0 * t431
+        + v_6_in_j_1 * t429 + v_6_in_j_2 * t427);
+    jac_phi_q_t_lambda_geometry[38] = t439;
+    jac_phi_q_t_lambda_geometry[39] = t441;
     jac_phi_q_t_lambda_geometry[40] = t442;
     jac_phi_q_t_lambda_geometry[35] = -(A_ji_0 * t439 + A_ji_1 * t441 + A_ji_2 * t442);
     jac_phi_q_t_lambda_geometry[36] = -(A_ji_3 * t439 + A_ji_4 * t441 + A_ji_5 * t442);
@@ -2169,46 +2165,46 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t443 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
     const jg_real t444 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
     const jg_real t445 = v_2_in_j_1 * A_ji_2 - v_2_in_j_2 * A_ji_1 + (v_4_in_j_1 * t443 - v_4_in_j_2 * t444);
-    jac_phi_q_t_lambda_geometry[45] = t445;
     const jg_real t446 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
     const jg_real t447 = v_2_in_j_2 * A_ji_0 - v_2_in_j_0 * A_ji_2 + (v_4_in_j_2 * t446 - v_4_in_j_0 * t443);
-    jac_phi_q_t_lambda_geometry[46] = t447;
     const jg_real t448 = v_2_in_j_0 * A_ji_1 - v_2_in_j_1 * A_ji_0 + (v_4_in_j_0 * t444 - v_4_in_j_1 * t446);
+    jac_phi_q_t_lambda_geometry[45] = t445;
+    jac_phi_q_t_lambda_geometry[46] = t447;
     jac_phi_q_t_lambda_geometry[47] = t448;
     jac_phi_q_t_lambda_geometry[42] = -(A_ji_0 * t445 + A_ji_1 * t447 + A_ji_2 * t448);
     jac_phi_q_t_lambda_geometry[43] = -(A_ji_3 * t445 + A_ji_4 * t447 + A_ji_5 * t448);
     jac_phi_q_t_lambda_geometry[44] = -(A_ji_6 * t445 + A_ji_7 * t447 + A_ji_8 * t448);
-    jac_phi_q_t_lambda_geometry[48] = -(A_ji_1 * lambda_0_1_2_in_j_1 + A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_2 *
+    jac_phi_q_t_lambda_geometry[48] = -(A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_1 * lambda_0_1_2_in_j_1 + A_ji_2 *
         lambda_0_1_2_in_j_2);
     jac_phi_q_t_lambda_geometry[49] = -(v_6_in_j_0 * t446 + v_6_in_j_1 * t444 + v_6_in_j_2 * t443);
     const jg_real t449 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
     const jg_real t450 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
-    const jg_real t451 = v_2_in_j_1 * A_ji_5 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t449 - v_4_in_j_2 * t450);
-    jac_phi_q_t_lambda_geometry[53] = t451;
+    const jg_real t451 = A_ji_5 * v_2_in_j_1 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t449 - v_4_in_j_2 * t450);
     const jg_real t452 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
-    const jg_real t453 = v_2_in_j_2 * A_ji_3 - v_2_in_j_0 * A_ji_5 + (v_4_in_j_2 * t452 - v_4_in_j_0 * t449);
-    jac_phi_q_t_lambda_geometry[54] = t453;
+    const jg_real t453 = v_2_in_j_2 * A_ji_3 - A_ji_5 * v_2_in_j_0 + (v_4_in_j_2 * t452 - v_4_in_j_0 * t449);
     const jg_real t454 = v_2_in_j_0 * A_ji_4 - v_2_in_j_1 * A_ji_3 + (v_4_in_j_0 * t450 - v_4_in_j_1 * t452);
+    jac_phi_q_t_lambda_geometry[53] = t451;
+    jac_phi_q_t_lambda_geometry[54] = t453;
     jac_phi_q_t_lambda_geometry[55] = t454;
     jac_phi_q_t_lambda_geometry[50] = -(A_ji_0 * t451 + A_ji_1 * t453 + A_ji_2 * t454);
     jac_phi_q_t_lambda_geometry[51] = -(A_ji_3 * t451 + A_ji_4 * t453 + A_ji_5 * t454);
     jac_phi_q_t_lambda_geometry[52] = -(A_ji_6 * t451 + A_ji_7 * t453 + A_ji_8 * t454);
-    jac_phi_q_t_lambda_geometry[56] = -(A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_5 *
+    jac_phi_q_t_lambda_geometry[56] = -(A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_4 * lambda_0_1_2_in_j_1 + A_ji_5 *
         lambda_0_1_2_in_j_2);
     jac_phi_q_t_lambda_geometry[57] = -(v_6_in_j_0 * t452 + v_6_in_j_1 * t450 + v_6_in_j_2 * t449);
     const jg_real t455 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
     const jg_real t456 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
     const jg_real t457 = v_2_in_j_1 * A_ji_8 - v_2_in_j_2 * A_ji_7 + (v_4_in_j_1 * t455 - v_4_in_j_2 * t456);
-    jac_phi_q_t_lambda_geometry[61] = t457;
     const jg_real t458 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
-    const jg_real t459 = v_2_in_j_2 * A_ji_6 - v_2_in_j_0 * A_ji_8 + (v_4_in_j_2 * t458 - v_4_in_j_0 * t455);
-    jac_phi_q_t_lambda_geometry[62] = t459;
+    const jg_real t459 = A_ji_6 * v_2_in_j_2 - A_ji_8 * v_2_in_j_0 + (v_4_in_j_2 * t458 - v_4_in_j_0 * t455);
     const jg_real t460 = v_2_in_j_0 * A_ji_7 - v_2_in_j_1 * A_ji_6 + (v_4_in_j_0 * t456 - v_4_in_j_1 * t458);
+    jac_phi_q_t_lambda_geometry[61] = t457;
+    jac_phi_q_t_lambda_geometry[62] = t459;
     jac_phi_q_t_lambda_geometry[63] = t460;
     jac_phi_q_t_lambda_geometry[58] = -(A_ji_0 * t457 + A_ji_1 * t459 + A_ji_2 * t460);
     jac_phi_q_t_lambda_geometry[59] = -(A_ji_3 * t457 + A_ji_4 * t459 + A_ji_5 * t460);
     jac_phi_q_t_lambda_geometry[60] = -(A_ji_6 * t457 + A_ji_7 * t459 + A_ji_8 * t460);
-    jac_phi_q_t_lambda_geometry[64] = -(A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_8 *
+    jac_phi_q_t_lambda_geometry[64] = -(A_ji_6 * lambda_0_1_2_in_j_0 + A_ji_7 * lambda_0_1_2_in_j_1 + A_ji_8 *
         lambda_0_1_2_in_j_2);
     jac_phi_q_t_lambda_geometry[65] = -(v_6_in_j_0 * t458 + v_6_in_j_1 * t456 + v_6_in_j_2 * t455);
     jac_phi_q_t_lambda_geometry[66] = A_ji_1 * lambda_0_1_2_in_j_2 - A_ji_2 * lambda_0_1_2_in_j_1;
@@ -2219,59 +2215,59 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_geometry[72] = A_ji_5 * lambda_0_1_2_in_j_0 - A_ji_3 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[73] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[75] = -lambda_0_1_2_in_j_0;
+    const jg_real t461 = lambda[4] * h_star_in_j_2;
+    const jg_real t462 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[76] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[77] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[78] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[79] = -lambda_0_1_2_in_j_1;
-    const jg_real t461 = lambda[4] * h_star_in_j_2;
     jac_phi_q_t_lambda_geometry[89] = t461;
-    const jg_real t462 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[85] = t462;
     jac_phi_q_t_lambda_geometry[81] = A_ji_1 * t461 - A_ji_2 * t462;
     jac_phi_q_t_lambda_geometry[82] = A_ji_4 * t461 - A_ji_5 * t462;
+    const jg_real t463 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[83] = A_ji_7 * t461 - A_ji_8 * t462;
     jac_phi_q_t_lambda_geometry[84] = -t461;
-    const jg_real t463 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[95] = t463;
     jac_phi_q_t_lambda_geometry[86] = A_ji_2 * t463 - A_ji_0 * t461;
     jac_phi_q_t_lambda_geometry[87] = A_ji_5 * t463 - A_ji_3 * t461;
     jac_phi_q_t_lambda_geometry[88] = A_ji_8 * t463 - A_ji_6 * t461;
     jac_phi_q_t_lambda_geometry[90] = -t463;
     jac_phi_q_t_lambda_geometry[91] = A_ji_0 * t462 - A_ji_1 * t463;
+    const jg_real t464 = lambda[5] * f_star_in_j_2;
+    const jg_real t465 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[92] = A_ji_3 * t462 - A_ji_4 * t463;
     jac_phi_q_t_lambda_geometry[93] = A_ji_6 * t462 - A_ji_7 * t463;
     jac_phi_q_t_lambda_geometry[94] = -t462;
-    const jg_real t464 = lambda[5] * f_star_in_j_2;
     jac_phi_q_t_lambda_geometry[105] = t464;
-    const jg_real t465 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[100] = t465;
     jac_phi_q_t_lambda_geometry[96] = A_ji_1 * t464 - A_ji_2 * t465;
     jac_phi_q_t_lambda_geometry[97] = A_ji_4 * t464 - A_ji_5 * t465;
     jac_phi_q_t_lambda_geometry[98] = A_ji_7 * t464 - A_ji_8 * t465;
+    const jg_real t466 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[99] = -t464;
     jac_phi_q_t_lambda_geometry[101] = lambda[5] * g_star_in_j_0;
-    const jg_real t466 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[112] = t466;
     jac_phi_q_t_lambda_geometry[102] = A_ji_2 * t466 - A_ji_0 * t464;
     jac_phi_q_t_lambda_geometry[103] = A_ji_5 * t466 - A_ji_3 * t464;
     jac_phi_q_t_lambda_geometry[104] = A_ji_8 * t466 - A_ji_6 * t464;
     jac_phi_q_t_lambda_geometry[106] = -t466;
     jac_phi_q_t_lambda_geometry[107] = lambda[5] * g_star_in_j_1;
+    const jg_real t467 = lambda[3] * g_star_in_j_2;
+    const jg_real t468 = lambda[3] * g_star_in_j_1;
     jac_phi_q_t_lambda_geometry[108] = A_ji_0 * t465 - A_ji_1 * t466;
     jac_phi_q_t_lambda_geometry[109] = A_ji_3 * t465 - A_ji_4 * t466;
     jac_phi_q_t_lambda_geometry[110] = A_ji_6 * t465 - A_ji_7 * t466;
     jac_phi_q_t_lambda_geometry[111] = -t465;
     jac_phi_q_t_lambda_geometry[113] = lambda[5] * g_star_in_j_2;
-    const jg_real t467 = lambda[3] * g_star_in_j_2;
     jac_phi_q_t_lambda_geometry[123] = t467;
-    const jg_real t468 = lambda[3] * g_star_in_j_1;
     jac_phi_q_t_lambda_geometry[118] = t468;
     jac_phi_q_t_lambda_geometry[114] = A_ji_1 * t467 - A_ji_2 * t468;
+    const jg_real t469 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[115] = A_ji_4 * t467 - A_ji_5 * t468;
     jac_phi_q_t_lambda_geometry[116] = A_ji_7 * t467 - A_ji_8 * t468;
     jac_phi_q_t_lambda_geometry[117] = -t467;
     jac_phi_q_t_lambda_geometry[119] = -(lambda[3] * f_star_in_j_0);
-    const jg_real t469 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[130] = t469;
     jac_phi_q_t_lambda_geometry[120] = A_ji_2 * t469 - A_ji_0 * t467;
     jac_phi_q_t_lambda_geometry[121] = A_ji_5 * t469 - A_ji_3 * t467;
@@ -2287,63 +2283,63 @@ static void jg_cylindrical_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
     const jg_real t470 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    jac_phi_q_t_lambda_lambda[7] = t470;
     const jg_real t471 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_t_lambda_lambda[8] = t471;
     const jg_real t472 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_t_lambda_lambda[9] = t472;
-    jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t470 + A_ji_1 * t471 + A_ji_2 * t472);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t470 + A_ji_4 * t471 + A_ji_5 * t472 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real t475 = A_ji_5 * s_j[1] - s_j[2] * A_ji_4;
+    jac_phi_q_t_lambda_lambda[7] = t470;
+    jac_phi_q_t_lambda_lambda[8] = t471;
+    jac_phi_q_t_lambda_lambda[9] = t472;
+    jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t470 + A_ji_1 * t471 + A_ji_2 * t472);
+    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t470 + A_ji_4 * t471 + A_ji_5 * t472 + v_0_in_i_2);
     jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t470 + A_ji_7 * t471 + A_ji_8 * t472);
-    jac_phi_q_t_lambda_lambda[10] = -(A_ji_1 * h_star_in_j_1 + A_ji_0 * h_star_in_j_0 + A_ji_2 * h_star_in_j_2);
-    const jg_real t475 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_t_lambda_lambda[10] = -(A_ji_0 * h_star_in_j_0 + A_ji_1 * h_star_in_j_1 + A_ji_2 * h_star_in_j_2);
     jac_phi_q_t_lambda_lambda[18] = t475;
-    const jg_real t476 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_t_lambda_lambda[19] = t476;
+    const jg_real t476 = s_j[2] * A_ji_3 - A_ji_5 * s_j[0];
     const jg_real t477 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
+    const jg_real t479 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    const jg_real t480 = s_j[2] * A_ji_6 - A_ji_8 * s_j[0];
+    jac_phi_q_t_lambda_lambda[19] = t476;
     jac_phi_q_t_lambda_lambda[20] = t477;
     jac_phi_q_t_lambda_lambda[12] = v_0_in_i_2 - (A_ji_0 * t475 + A_ji_1 * t476 + A_ji_2 * t477);
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_3 * t475 + A_ji_4 * t476 + A_ji_5 * t477);
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     jac_phi_q_t_lambda_lambda[14] = -(A_ji_6 * t475 + A_ji_7 * t476 + A_ji_8 * t477 + v_0_in_i_0);
-    jac_phi_q_t_lambda_lambda[21] = -(A_ji_4 * h_star_in_j_1 + A_ji_3 * h_star_in_j_0 + A_ji_5 * h_star_in_j_2);
-    const jg_real t479 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_t_lambda_lambda[21] = -(A_ji_3 * h_star_in_j_0 + A_ji_4 * h_star_in_j_1 + A_ji_5 * h_star_in_j_2);
     jac_phi_q_t_lambda_lambda[29] = t479;
-    const jg_real t480 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_t_lambda_lambda[30] = t480;
     const jg_real t481 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    const jg_real t482 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
+    const jg_real t483 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
+    const jg_real t484 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[31] = t481;
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_0 * t479 + A_ji_1 * t480 + A_ji_2 * t481 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[24] = v_0_in_i_0 - (A_ji_3 * t479 + A_ji_4 * t480 + A_ji_5 * t481);
     jac_phi_q_t_lambda_lambda[25] = -(A_ji_6 * t479 + A_ji_7 * t480 + A_ji_8 * t481);
-    jac_phi_q_t_lambda_lambda[32] = -(A_ji_7 * h_star_in_j_1 + A_ji_6 * h_star_in_j_0 + A_ji_8 * h_star_in_j_2);
-    const jg_real t482 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
+    jac_phi_q_t_lambda_lambda[32] = -(A_ji_6 * h_star_in_j_0 + A_ji_7 * h_star_in_j_1 + A_ji_8 * h_star_in_j_2);
     jac_phi_q_t_lambda_lambda[36] = t482;
-    const jg_real t483 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
     jac_phi_q_t_lambda_lambda[37] = t483;
-    const jg_real t484 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[38] = t484;
+    const jg_real t485 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
+    const jg_real t486 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
+    const jg_real t487 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
     jac_phi_q_t_lambda_lambda[33] = -(A_ji_0 * t482 + A_ji_1 * t483 + A_ji_2 * t484);
     jac_phi_q_t_lambda_lambda[34] = -(A_ji_3 * t482 + A_ji_4 * t483 + A_ji_5 * t484);
     jac_phi_q_t_lambda_lambda[35] = -(A_ji_6 * t482 + A_ji_7 * t483 + A_ji_8 * t484);
     jac_phi_q_t_lambda_lambda[39] = -(C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2);
-    const jg_real t485 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
     jac_phi_q_t_lambda_lambda[43] = t485;
-    const jg_real t486 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
     jac_phi_q_t_lambda_lambda[44] = t486;
-    const jg_real t487 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
     jac_phi_q_t_lambda_lambda[45] = t487;
     jac_phi_q_t_lambda_lambda[40] = -(A_ji_0 * t485 + A_ji_1 * t486 + A_ji_2 * t487);
+    const jg_real t488 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
+    const jg_real t489 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
+    const jg_real t490 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
     jac_phi_q_t_lambda_lambda[41] = -(A_ji_3 * t485 + A_ji_4 * t486 + A_ji_5 * t487);
     jac_phi_q_t_lambda_lambda[42] = -(A_ji_6 * t485 + A_ji_7 * t486 + A_ji_8 * t487);
-    const jg_real t488 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_lambda[49] = t488;
-    const jg_real t489 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
     jac_phi_q_t_lambda_lambda[50] = t489;
-    const jg_real t490 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
     jac_phi_q_t_lambda_lambda[51] = t490;
     jac_phi_q_t_lambda_lambda[46] = -(A_ji_0 * t488 + A_ji_1 * t489 + A_ji_2 * t490);
     jac_phi_q_t_lambda_lambda[47] = -(A_ji_3 * t488 + A_ji_4 * t489 + A_ji_5 * t490);

@@ -31,16 +31,16 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    jac_phi_r_j[0] = t0;
-    jac_phi_r_i[0] = -t0;
     const jg_real t1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    jac_phi_r_j[1] = t1;
-    jac_phi_r_i[1] = -t1;
     const jg_real t2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_r_j[2] = t2;
-    jac_phi_r_i[2] = -t2;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
+    jac_phi_r_j[0] = t0;
+    jac_phi_r_i[0] = -t0;
+    jac_phi_r_j[1] = t1;
+    jac_phi_r_i[1] = -t1;
+    jac_phi_r_j[2] = t2;
+    jac_phi_r_i[2] = -t2;
     jac_phi_A_i[0] = C_i[0] * h_j_world_0;
     jac_phi_A_i[1] = C_i[3] * h_j_world_0;
     /* s_j_world = s_j, world axes */
@@ -49,20 +49,20 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    jac_phi_A_i[2] = C_i[6] * e_ij_world_0;
     const jg_real h_j_world_1 = C_j[6] * A_j[1] + C_j[7] * A_j[4] + C_j[8] * A_j[7];
-    jac_phi_A_i[3] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[4] = C_i[3] * h_j_world_1;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
-    jac_phi_A_i[5] = C_i[6] * e_ij_world_1;
     const jg_real h_j_world_2 = C_j[6] * A_j[2] + C_j[7] * A_j[5] + C_j[8] * A_j[8];
-    jac_phi_A_i[6] = C_i[0] * h_j_world_2;
-    jac_phi_A_i[7] = C_i[3] * h_j_world_2;
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    jac_phi_A_i[2] = C_i[6] * e_ij_world_0;
+    jac_phi_A_i[3] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[4] = C_i[3] * h_j_world_1;
+    jac_phi_A_i[5] = C_i[6] * e_ij_world_1;
+    jac_phi_A_i[6] = C_i[0] * h_j_world_2;
+    jac_phi_A_i[7] = C_i[3] * h_j_world_2;
     jac_phi_A_i[8] = C_i[6] * e_ij_world_2;
     jac_phi_A_i[9] = C_i[1] * h_j_world_0;
     jac_phi_A_i[10] = C_i[4] * h_j_world_0;
@@ -81,96 +81,96 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_A_i[23] = C_i[8] * e_ij_world_1;
     jac_phi_A_i[24] = C_i[2] * h_j_world_2;
     jac_phi_A_i[25] = C_i[5] * h_j_world_2;
-    jac_phi_A_i[26] = C_i[8] * e_ij_world_2;
     const jg_real t15 = C_j[6] * A_i[0];
     const jg_real t16 = C_j[6] * A_i[3];
     const jg_real t17 = C_j[6] * A_i[6];
-    jac_phi_A_j[0] = C_i[0] * t15 + C_i[1] * t16 + C_i[2] * t17;
-    jac_phi_A_j[1] = C_i[3] * t15 + C_i[4] * t16 + C_i[5] * t17;
-    jac_phi_A_j[2] = A_i[0] * s_j[0] * C_i[6] + A_i[3] * s_j[0] * C_i[7] + A_i[6] * s_j[0] * C_i[8];
     const jg_real t18 = C_j[6] * A_i[1];
     const jg_real t19 = C_j[6] * A_i[4];
     const jg_real t20 = C_j[6] * A_i[7];
-    jac_phi_A_j[3] = C_i[0] * t18 + C_i[1] * t19 + C_i[2] * t20;
-    jac_phi_A_j[4] = C_i[3] * t18 + C_i[4] * t19 + C_i[5] * t20;
-    jac_phi_A_j[5] = A_i[1] * s_j[0] * C_i[6] + A_i[4] * s_j[0] * C_i[7] + A_i[7] * s_j[0] * C_i[8];
     const jg_real t21 = C_j[6] * A_i[2];
     const jg_real t22 = C_j[6] * A_i[5];
     const jg_real t23 = C_j[6] * A_i[8];
+    jac_phi_A_i[26] = C_i[8] * e_ij_world_2;
+    jac_phi_A_j[0] = C_i[0] * t15 + C_i[1] * t16 + C_i[2] * t17;
+    jac_phi_A_j[1] = C_i[3] * t15 + C_i[4] * t16 + C_i[5] * t17;
+    jac_phi_A_j[2] = A_i[0] * s_j[0] * C_i[6] + A_i[3] * s_j[0] * C_i[7] + A_i[6] * s_j[0] * C_i[8];
+    jac_phi_A_j[3] = C_i[0] * t18 + C_i[1] * t19 + C_i[2] * t20;
+    jac_phi_A_j[4] = C_i[3] * t18 + C_i[4] * t19 + C_i[5] * t20;
+    jac_phi_A_j[5] = A_i[1] * s_j[0] * C_i[6] + A_i[4] * s_j[0] * C_i[7] + A_i[7] * s_j[0] * C_i[8];
     jac_phi_A_j[6] = C_i[0] * t21 + C_i[1] * t22 + C_i[2] * t23;
-    jac_phi_A_j[7] = C_i[3] * t21 + C_i[4] * t22 + C_i[5] * t23;
-    jac_phi_A_j[8] = A_i[2] * s_j[0] * C_i[6] + A_i[5] * s_j[0] * C_i[7] + A_i[8] * s_j[0] * C_i[8];
     const jg_real t24 = C_j[7] * A_i[0];
     const jg_real t25 = C_j[7] * A_i[3];
     const jg_real t26 = C_j[7] * A_i[6];
-    jac_phi_A_j[9] = C_i[0] * t24 + C_i[1] * t25 + C_i[2] * t26;
-    jac_phi_A_j[10] = C_i[3] * t24 + C_i[4] * t25 + C_i[5] * t26;
-    jac_phi_A_j[11] = A_i[0] * s_j[1] * C_i[6] + A_i[3] * s_j[1] * C_i[7] + A_i[6] * s_j[1] * C_i[8];
     const jg_real t27 = C_j[7] * A_i[1];
     const jg_real t28 = C_j[7] * A_i[4];
     const jg_real t29 = C_j[7] * A_i[7];
+    jac_phi_A_j[7] = C_i[3] * t21 + C_i[4] * t22 + C_i[5] * t23;
+    jac_phi_A_j[8] = A_i[2] * s_j[0] * C_i[6] + A_i[5] * s_j[0] * C_i[7] + A_i[8] * s_j[0] * C_i[8];
+    jac_phi_A_j[9] = C_i[0] * t24 + C_i[1] * t25 + C_i[2] * t26;
+    jac_phi_A_j[10] = C_i[3] * t24 + C_i[4] * t25 + C_i[5] * t26;
+    jac_phi_A_j[11] = A_i[0] * s_j[1] * C_i[6] + A_i[3] * s_j[1] * C_i[7] + A_i[6] * s_j[1] * C_i[8];
     jac_phi_A_j[12] = C_i[0] * t27 + C_i[1] * t28 + C_i[2] * t29;
     jac_phi_A_j[13] = C_i[3] * t27 + C_i[4] * t28 + C_i[5] * t29;
     jac_phi_A_j[14] = A_i[1] * s_j[1] * C_i[6] + A_i[4] * s_j[1] * C_i[7] + A_i[7] * s_j[1] * C_i[8];
     const jg_real t30 = C_j[7] * A_i[2];
     const jg_real t31 = C_j[7] * A_i[5];
     const jg_real t32 = C_j[7] * A_i[8];
-    jac_phi_A_j[15] = C_i[0] * t30 + C_i[1] * t31 + C_i[2] * t32;
-    jac_phi_A_j[16] = C_i[3] * t30 + C_i[4] * t31 + C_i[5] * t32;
-    jac_phi_A_j[17] = A_i[2] * s_j[1] * C_i[6] + A_i[5] * s_j[1] * C_i[7] + A_i[8] * s_j[1] * C_i[8];
     const jg_real t33 = C_j[8] * A_i[0];
     const jg_real t34 = C_j[8] * A_i[3];
     const jg_real t35 = C_j[8] * A_i[6];
-    jac_phi_A_j[18] = C_i[0] * t33 + C_i[1] * t34 + C_i[2] * t35;
-    jac_phi_A_j[19] = C_i[3] * t33 + C_i[4] * t34 + C_i[5] * t35;
-    jac_phi_A_j[20] = A_i[0] * s_j[2] * C_i[6] + A_i[3] * s_j[2] * C_i[7] + A_i[6] * s_j[2] * C_i[8];
     const jg_real t36 = C_j[8] * A_i[1];
     const jg_real t37 = C_j[8] * A_i[4];
     const jg_real t38 = C_j[8] * A_i[7];
+    jac_phi_A_j[15] = C_i[0] * t30 + C_i[1] * t31 + C_i[2] * t32;
+    jac_phi_A_j[16] = C_i[3] * t30 + C_i[4] * t31 + C_i[5] * t32;
+    jac_phi_A_j[17] = A_i[2] * s_j[1] * C_i[6] + A_i[5] * s_j[1] * C_i[7] + A_i[8] * s_j[1] * C_i[8];
+    jac_phi_A_j[18] = C_i[0] * t33 + C_i[1] * t34 + C_i[2] * t35;
+    jac_phi_A_j[19] = C_i[3] * t33 + C_i[4] * t34 + C_i[5] * t35;
+    jac_phi_A_j[20] = A_i[0] * s_j[2] * C_i[6] + A_i[3] * s_j[2] * C_i[7] + A_i[6] * s_j[2] * C_i[8];
     jac_phi_A_j[21] = C_i[0] * t36 + C_i[1] * t37 + C_i[2] * t38;
     jac_phi_A_j[22] = C_i[3] * t36 + C_i[4] * t37 + C_i[5] * t38;
-    jac_phi_A_j[23] = A_i[1] * s_j[2] * C_i[6] + A_i[4] * s_j[2] * C_i[7] + A_i[7] * s_j[2] * C_i[8];
     const jg_real t39 = C_j[8] * A_i[2];
     const jg_real t40 = C_j[8] * A_i[5];
     const jg_real t41 = C_j[8] * A_i[8];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    jac_phi_A_j[23] = A_i[1] * s_j[2] * C_i[6] + A_i[4] * s_j[2] * C_i[7] + A_i[7] * s_j[2] * C_i[8];
     jac_phi_A_j[24] = C_i[0] * t39 + C_i[1] * t40 + C_i[2] * t41;
     jac_phi_A_j[25] = C_i[3] * t39 + C_i[4] * t40 + C_i[5] * t41;
     jac_phi_A_j[26] = A_i[2] * s_j[2] * C_i[6] + A_i[5] * s_j[2] * C_i[7] + A_i[8] * s_j[2] * C_i[8];
     jac_phi_geometry[0] = -C_i[6];
     jac_phi_geometry[1] = -C_i[7];
     jac_phi_geometry[2] = -C_i[8];
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[3] = h_j_in_i_0;
     jac_phi_geometry[6] = h_j_in_i_0;
     const jg_real h_j_in_i_1 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
-    jac_phi_geometry[4] = h_j_in_i_1;
-    jac_phi_geometry[7] = h_j_in_i_1;
     const jg_real h_j_in_i_2 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
-    jac_phi_geometry[5] = h_j_in_i_2;
-    jac_phi_geometry[8] = h_j_in_i_2;
     /* e_ij_in_i = r_ij + s_j, axes of body i */
     const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
     /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
-    jac_phi_geometry[9] = d_ij_in_i_0;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
-    jac_phi_geometry[10] = d_ij_in_i_1;
     const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    jac_phi_geometry[11] = d_ij_in_i_2;
     const jg_real t51 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real t52 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real t53 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    jac_phi_geometry[4] = h_j_in_i_1;
+    jac_phi_geometry[7] = h_j_in_i_1;
+    jac_phi_geometry[5] = h_j_in_i_2;
+    jac_phi_geometry[8] = h_j_in_i_2;
+    jac_phi_geometry[9] = d_ij_in_i_0;
+    jac_phi_geometry[10] = d_ij_in_i_1;
+    jac_phi_geometry[11] = d_ij_in_i_2;
     jac_phi_geometry[12] = C_i[6] * t51 + C_i[7] * t52 + C_i[8] * t53;
     const jg_real t54 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real t55 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real t56 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[13] = C_i[6] * t54 + C_i[7] * t55 + C_i[8] * t56;
     const jg_real t57 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real t58 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real t59 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[13] = C_i[6] * t54 + C_i[7] * t55 + C_i[8] * t56;
     jac_phi_geometry[14] = C_i[6] * t57 + C_i[7] * t58 + C_i[8] * t59;
     jac_phi_geometry[15] = C_i[0] * t51 + C_i[1] * t52 + C_i[2] * t53;
     jac_phi_geometry[16] = C_i[3] * t51 + C_i[4] * t52 + C_i[5] * t53;
@@ -180,11 +180,10 @@ static void jg_planar_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_geometry[20] = C_i[3] * t57 + C_i[4] * t58 + C_i[5] * t59;
 }
 
-static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *jac_phi_q_v_r_i,
+    jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j, jg_real *jac_phi_q_v_geometry,
+    jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -197,10 +196,8 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real g_i_world_1 = C_i[3] * A_i[1] + C_i[4] * A_i[4] + C_i[5] * A_i[7];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_q_v_velocity[14] = h_i_world_2;
     const jg_real g_i_world_2 = C_i[3] * A_i[2] + C_i[4] * A_i[5] + C_i[5] * A_i[8];
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    jac_phi_q_v_velocity[13] = h_i_world_1;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = g_i_world_1 * h_i_world_2 - g_i_world_2 * h_i_world_1;
     /* omega_i_in_joint_i = omega_i, axes of joint i */
@@ -208,15 +205,11 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
     const jg_real omega_i_in_joint_i_0 = omega_i[0] * C_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     const jg_real t8 = g_i_world_0 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_world_0;
-    jac_phi_q_v_r_i[0] = t8;
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
-    jac_phi_q_v_velocity[12] = h_i_world_0;
     const jg_real f_i_world_1 = g_i_world_2 * h_i_world_0 - h_i_world_2 * g_i_world_0;
     const jg_real t11 = g_i_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_world_1;
-    jac_phi_q_v_r_i[1] = t11;
     const jg_real f_i_world_2 = h_i_world_1 * g_i_world_0 - g_i_world_1 * h_i_world_0;
     const jg_real t13 = g_i_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * f_i_world_2;
-    jac_phi_q_v_r_i[2] = t13;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_1 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     /* g_i_in_j = g_i, axes of body j */
@@ -253,13 +246,19 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
     const jg_real t41 = omega_j[0] * t25 + omega_j[1] * t24 + omega_j[2] * t26;
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    jac_phi_q_v_A_i[0] = omega_i_in_joint_i_2 * t27 - omega_i_in_joint_i_1 * t38 - (t27 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t36 - (omega_j_in_joint_i_1 * t38 + t41 * h_j_in_joint_i_2));
     const jg_real omega_j_in_joint_i_0 = omega_j[1] * f_i_in_j_1 + omega_j[0] * f_i_in_j_0 + omega_j[2] *
         f_i_in_j_2;
     const jg_real t44 = omega_j[1] * t30 + omega_j[0] * t33 + omega_j[2] * t31;
     const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
     const jg_real t46 = C_j[6] * t33 + C_j[7] * t30 + C_j[8] * t31;
+    jac_phi_q_v_velocity[14] = h_i_world_2;
+    jac_phi_q_v_velocity[13] = h_i_world_1;
+    jac_phi_q_v_r_i[0] = t8;
+    jac_phi_q_v_velocity[12] = h_i_world_0;
+    jac_phi_q_v_r_i[1] = t11;
+    jac_phi_q_v_r_i[2] = t13;
+    jac_phi_q_v_A_i[0] = omega_i_in_joint_i_2 * t27 - omega_i_in_joint_i_1 * t38 - (t27 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t36 - (omega_j_in_joint_i_1 * t38 + t41 * h_j_in_joint_i_2));
     jac_phi_q_v_A_i[1] = omega_i_in_joint_i_2 * t46 + omega_i_in_joint_i_0 * t38 - (omega_j_in_joint_i_0 * t38 - t44
         * h_j_in_joint_i_2 - (h_j_in_joint_i_0 * t36 - t46 * omega_j_in_joint_i_2));
     const jg_real t47 = s_j[0] * t25 + s_j[1] * t24 + s_j[2] * t26;
@@ -272,10 +271,6 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    jac_phi_q_v_A_i[2] = t47 * omega_j_in_joint_i_0 - s_j_dot_g_i * t44 - (t41 * s_j_dot_f_i - omega_j_in_joint_i_1
-        * t50) - (C_i[3] * r_ij_world_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 * (r_ij_world_1 * t28 +
-        r_ij_world_2 * t29) + (omega_i_in_joint_i_0 * t47 + omega_i_in_joint_i_1 * t50) + C_i[6] * v_i[0] - C_i[6] *
-        v_j[0]);
     const jg_real t54 = C_i[3] * A_j[4];
     const jg_real t55 = C_i[3] * A_j[1];
     const jg_real t56 = C_i[3] * A_j[7];
@@ -290,18 +285,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t65 = omega_j[0] * t61 + omega_j[1] * t63 + omega_j[2] * t64;
     const jg_real t66 = C_j[6] * t61 + C_j[7] * t63 + C_j[8] * t64;
     const jg_real t67 = omega_j[0] * t55 + omega_j[1] * t54 + omega_j[2] * t56;
-    jac_phi_q_v_A_i[3] = omega_i_in_joint_i_2 * t57 - omega_i_in_joint_i_1 * t66 - (t57 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t65 - (omega_j_in_joint_i_1 * t66 + t67 * h_j_in_joint_i_2));
     const jg_real t68 = omega_j[1] * t59 + omega_j[0] * t62 + omega_j[2] * t60;
     const jg_real t69 = C_j[6] * t62 + C_j[7] * t59 + C_j[8] * t60;
-    jac_phi_q_v_A_i[4] = -(omega_j_in_joint_i_0 * t66 + t68 * h_j_in_joint_i_2 - (t69 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t65) + (omega_i_in_joint_i_2 * t69 - omega_i_in_joint_i_0 * t66));
-    const jg_real t70 = s_j[0] * t55 + s_j[1] * t54 + s_j[2] * t56;
+    const jg_real t70 = t55 * s_j[0] + t54 * s_j[1] + t56 * s_j[2];
     const jg_real t71 = s_j[0] * t62 + s_j[1] * t59 + s_j[2] * t60;
-    jac_phi_q_v_A_i[5] = s_j_dot_g_i * t68 + t70 * omega_j_in_joint_i_0 - (t67 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t71) - (C_i[3] * r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (r_ij_world_0 * t28 -
-        r_ij_world_2 * t58) + (omega_i_in_joint_i_0 * t70 - omega_i_in_joint_i_1 * t71) + C_i[6] * v_i[1] - C_i[6] *
-        v_j[1]);
     const jg_real t72 = C_i[3] * A_j[5];
     const jg_real t73 = C_i[3] * A_j[2];
     const jg_real t74 = C_i[3] * A_j[8];
@@ -315,18 +302,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t82 = omega_j[0] * t78 + omega_j[1] * t80 + omega_j[2] * t81;
     const jg_real t83 = C_j[6] * t78 + C_j[7] * t80 + C_j[8] * t81;
     const jg_real t84 = omega_j[0] * t73 + omega_j[1] * t72 + omega_j[2] * t74;
-    jac_phi_q_v_A_i[6] = omega_i_in_joint_i_2 * t75 - omega_i_in_joint_i_1 * t83 - (t75 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t82 - (omega_j_in_joint_i_1 * t83 + t84 * h_j_in_joint_i_2));
     const jg_real t85 = omega_j[1] * t76 + omega_j[0] * t79 + omega_j[2] * t77;
     const jg_real t86 = C_j[6] * t79 + C_j[7] * t76 + C_j[8] * t77;
-    jac_phi_q_v_A_i[7] = -(omega_j_in_joint_i_0 * t83 + t85 * h_j_in_joint_i_2 - (t86 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t82) + (omega_i_in_joint_i_2 * t86 - omega_i_in_joint_i_0 * t83));
-    const jg_real t87 = s_j[0] * t73 + s_j[1] * t72 + s_j[2] * t74;
+    const jg_real t87 = t73 * s_j[0] + t72 * s_j[1] + t74 * s_j[2];
     const jg_real t88 = s_j[0] * t79 + s_j[1] * t76 + s_j[2] * t77;
-    jac_phi_q_v_A_i[8] = s_j_dot_g_i * t85 + t87 * omega_j_in_joint_i_0 - (t84 * s_j_dot_f_i + omega_j_in_joint_i_1
-        * t88) - (C_i[3] * r_ij_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (r_ij_world_0 * t29 +
-        r_ij_world_1 * t58) + (omega_i_in_joint_i_0 * t87 - omega_i_in_joint_i_1 * t88) + C_i[6] * v_i[2] - C_i[6] *
-        v_j[2]);
     const jg_real t89 = C_i[4] * A_j[3];
     const jg_real t90 = C_i[4] * A_j[0];
     const jg_real t91 = C_i[4] * A_j[6];
@@ -342,18 +321,32 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t101 = omega_j[0] * t97 + omega_j[1] * t99 + omega_j[2] * t100;
     const jg_real t102 = C_j[6] * t97 + C_j[7] * t99 + C_j[8] * t100;
     const jg_real t103 = omega_j[0] * t90 + omega_j[1] * t89 + omega_j[2] * t91;
+    jac_phi_q_v_A_i[2] = t47 * omega_j_in_joint_i_0 - s_j_dot_g_i * t44 - (t41 * s_j_dot_f_i - omega_j_in_joint_i_1
+        * t50) - (C_i[3] * r_ij_world_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 * (t28 * r_ij_world_1 + t29 *
+        r_ij_world_2) + (omega_i_in_joint_i_0 * t47 + omega_i_in_joint_i_1 * t50) + C_i[6] * v_i[0] - C_i[6] *
+        v_j[0]);
+    jac_phi_q_v_A_i[3] = omega_i_in_joint_i_2 * t57 - omega_i_in_joint_i_1 * t66 - (t57 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t65 - (omega_j_in_joint_i_1 * t66 + t67 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_i[4] = -(omega_j_in_joint_i_0 * t66 + t68 * h_j_in_joint_i_2 - (t69 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t65) + (omega_i_in_joint_i_2 * t69 - omega_i_in_joint_i_0 * t66));
+    jac_phi_q_v_A_i[5] = s_j_dot_g_i * t68 + t70 * omega_j_in_joint_i_0 - (t67 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t71) - (C_i[3] * r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (r_ij_world_0 * t28 -
+        r_ij_world_2 * t58) + (omega_i_in_joint_i_0 * t70 - omega_i_in_joint_i_1 * t71) + C_i[6] * v_i[1] - C_i[6] *
+        v_j[1]);
+    jac_phi_q_v_A_i[6] = omega_i_in_joint_i_2 * t75 - omega_i_in_joint_i_1 * t83 - (t75 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t82 - (omega_j_in_joint_i_1 * t83 + t84 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_i[7] = -(omega_j_in_joint_i_0 * t83 + t85 * h_j_in_joint_i_2 - (t86 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t82) + (omega_i_in_joint_i_2 * t86 - omega_i_in_joint_i_0 * t83));
+    jac_phi_q_v_A_i[8] = s_j_dot_g_i * t85 + t87 * omega_j_in_joint_i_0 - (t84 * s_j_dot_f_i + omega_j_in_joint_i_1
+        * t88) - (C_i[3] * r_ij_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 * (r_ij_world_0 * t29 +
+        r_ij_world_1 * t58) + (omega_i_in_joint_i_0 * t87 - omega_i_in_joint_i_1 * t88) + C_i[6] * v_i[2] - C_i[6] *
+        v_j[2]);
     jac_phi_q_v_A_i[9] = omega_i_in_joint_i_2 * t92 - omega_i_in_joint_i_1 * t102 - (t92 * omega_j_in_joint_i_2 +
         h_j_in_joint_i_1 * t101 - (omega_j_in_joint_i_1 * t102 + t103 * h_j_in_joint_i_2));
     const jg_real t104 = omega_j[1] * t95 + omega_j[0] * t98 + omega_j[2] * t96;
     const jg_real t105 = C_j[6] * t98 + C_j[7] * t95 + C_j[8] * t96;
-    jac_phi_q_v_A_i[10] = omega_i_in_joint_i_2 * t105 + omega_i_in_joint_i_0 * t102 - (omega_j_in_joint_i_0 * t102 -
-        t104 * h_j_in_joint_i_2 - (h_j_in_joint_i_0 * t101 - t105 * omega_j_in_joint_i_2));
     const jg_real t106 = s_j[0] * t90 + s_j[1] * t89 + s_j[2] * t91;
     const jg_real t107 = s_j[0] * t98 + s_j[1] * t95 + s_j[2] * t96;
-    jac_phi_q_v_A_i[11] = t106 * omega_j_in_joint_i_0 - s_j_dot_g_i * t104 - (t103 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t107) - (C_i[4] * r_ij_world_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 *
-        (r_ij_world_1 * t93 + r_ij_world_2 * t94) + (omega_i_in_joint_i_0 * t106 + omega_i_in_joint_i_1 * t107) +
-        C_i[7] * v_i[0] - C_i[7] * v_j[0]);
     const jg_real t108 = C_i[4] * A_j[4];
     const jg_real t109 = C_i[4] * A_j[1];
     const jg_real t110 = C_i[4] * A_j[7];
@@ -368,18 +361,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t119 = omega_j[0] * t115 + omega_j[1] * t117 + omega_j[2] * t118;
     const jg_real t120 = C_j[6] * t115 + C_j[7] * t117 + C_j[8] * t118;
     const jg_real t121 = omega_j[0] * t109 + omega_j[1] * t108 + omega_j[2] * t110;
-    jac_phi_q_v_A_i[12] = omega_i_in_joint_i_2 * t111 - omega_i_in_joint_i_1 * t120 - (t111 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t119 - (omega_j_in_joint_i_1 * t120 + t121 * h_j_in_joint_i_2));
     const jg_real t122 = omega_j[1] * t113 + omega_j[0] * t116 + omega_j[2] * t114;
     const jg_real t123 = C_j[6] * t116 + C_j[7] * t113 + C_j[8] * t114;
-    jac_phi_q_v_A_i[13] = -(omega_j_in_joint_i_0 * t120 + t122 * h_j_in_joint_i_2 - (t123 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t119) + (omega_i_in_joint_i_2 * t123 - omega_i_in_joint_i_0 * t120));
-    const jg_real t124 = s_j[0] * t109 + s_j[1] * t108 + s_j[2] * t110;
+    const jg_real t124 = t109 * s_j[0] + t108 * s_j[1] + t110 * s_j[2];
     const jg_real t125 = s_j[0] * t116 + s_j[1] * t113 + s_j[2] * t114;
-    jac_phi_q_v_A_i[14] = s_j_dot_g_i * t122 + t124 * omega_j_in_joint_i_0 - (t121 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t125) - (C_i[4] * r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
-        (r_ij_world_0 * t93 - r_ij_world_2 * t112) + (omega_i_in_joint_i_0 * t124 - omega_i_in_joint_i_1 * t125) +
-        C_i[7] * v_i[1] - C_i[7] * v_j[1]);
     const jg_real t126 = C_i[4] * A_j[5];
     const jg_real t127 = C_i[4] * A_j[2];
     const jg_real t128 = C_i[4] * A_j[8];
@@ -393,14 +378,28 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t136 = omega_j[0] * t132 + omega_j[1] * t134 + omega_j[2] * t135;
     const jg_real t137 = C_j[6] * t132 + C_j[7] * t134 + C_j[8] * t135;
     const jg_real t138 = omega_j[0] * t127 + omega_j[1] * t126 + omega_j[2] * t128;
-    jac_phi_q_v_A_i[15] = omega_i_in_joint_i_2 * t129 - omega_i_in_joint_i_1 * t137 - (t129 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t136 - (omega_j_in_joint_i_1 * t137 + t138 * h_j_in_joint_i_2));
     const jg_real t139 = omega_j[1] * t130 + omega_j[0] * t133 + omega_j[2] * t131;
     const jg_real t140 = C_j[6] * t133 + C_j[7] * t130 + C_j[8] * t131;
+    const jg_real t141 = t127 * s_j[0] + t126 * s_j[1] + t128 * s_j[2];
+    const jg_real t142 = s_j[0] * t133 + s_j[1] * t130 + s_j[2] * t131;
+    jac_phi_q_v_A_i[10] = omega_i_in_joint_i_2 * t105 + omega_i_in_joint_i_0 * t102 - (omega_j_in_joint_i_0 * t102 -
+        t104 * h_j_in_joint_i_2 - (h_j_in_joint_i_0 * t101 - t105 * omega_j_in_joint_i_2));
+    jac_phi_q_v_A_i[11] = t106 * omega_j_in_joint_i_0 - s_j_dot_g_i * t104 - (t103 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t107) - (C_i[4] * r_ij_world_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 * (t93 *
+        r_ij_world_1 + t94 * r_ij_world_2) + (omega_i_in_joint_i_0 * t106 + omega_i_in_joint_i_1 * t107) + C_i[7] *
+        v_i[0] - C_i[7] * v_j[0]);
+    jac_phi_q_v_A_i[12] = omega_i_in_joint_i_2 * t111 - omega_i_in_joint_i_1 * t120 - (t111 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t119 - (omega_j_in_joint_i_1 * t120 + t121 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_i[13] = -(omega_j_in_joint_i_0 * t120 + t122 * h_j_in_joint_i_2 - (t123 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t119) + (omega_i_in_joint_i_2 * t123 - omega_i_in_joint_i_0 * t120));
+    jac_phi_q_v_A_i[14] = s_j_dot_g_i * t122 + t124 * omega_j_in_joint_i_0 - (t121 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t125) - (C_i[4] * r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
+        (r_ij_world_0 * t93 - r_ij_world_2 * t112) + (omega_i_in_joint_i_0 * t124 - omega_i_in_joint_i_1 * t125) +
+        C_i[7] * v_i[1] - C_i[7] * v_j[1]);
+    jac_phi_q_v_A_i[15] = omega_i_in_joint_i_2 * t129 - omega_i_in_joint_i_1 * t137 - (t129 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t136 - (omega_j_in_joint_i_1 * t137 + t138 * h_j_in_joint_i_2));
     jac_phi_q_v_A_i[16] = -(omega_j_in_joint_i_0 * t137 + t139 * h_j_in_joint_i_2 - (t140 * omega_j_in_joint_i_2 +
         h_j_in_joint_i_0 * t136) + (omega_i_in_joint_i_2 * t140 - omega_i_in_joint_i_0 * t137));
-    const jg_real t141 = s_j[0] * t127 + s_j[1] * t126 + s_j[2] * t128;
-    const jg_real t142 = s_j[0] * t133 + s_j[1] * t130 + s_j[2] * t131;
     jac_phi_q_v_A_i[17] = s_j_dot_g_i * t139 + t141 * omega_j_in_joint_i_0 - (t138 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t142) - (C_i[4] * r_ij_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
         (r_ij_world_0 * t94 + r_ij_world_1 * t112) + (omega_i_in_joint_i_0 * t141 - omega_i_in_joint_i_1 * t142) +
@@ -420,18 +419,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t155 = omega_j[0] * t151 + omega_j[1] * t153 + omega_j[2] * t154;
     const jg_real t156 = C_j[6] * t151 + C_j[7] * t153 + C_j[8] * t154;
     const jg_real t157 = omega_j[0] * t144 + omega_j[1] * t143 + omega_j[2] * t145;
-    jac_phi_q_v_A_i[18] = omega_i_in_joint_i_2 * t146 - omega_i_in_joint_i_1 * t156 - (t146 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t155 - (omega_j_in_joint_i_1 * t156 + t157 * h_j_in_joint_i_2));
     const jg_real t158 = omega_j[1] * t149 + omega_j[0] * t152 + omega_j[2] * t150;
     const jg_real t159 = C_j[6] * t152 + C_j[7] * t149 + C_j[8] * t150;
-    jac_phi_q_v_A_i[19] = omega_i_in_joint_i_2 * t159 + omega_i_in_joint_i_0 * t156 - (omega_j_in_joint_i_0 * t156 -
-        t158 * h_j_in_joint_i_2 - (h_j_in_joint_i_0 * t155 - t159 * omega_j_in_joint_i_2));
     const jg_real t160 = s_j[0] * t144 + s_j[1] * t143 + s_j[2] * t145;
     const jg_real t161 = s_j[0] * t152 + s_j[1] * t149 + s_j[2] * t150;
-    jac_phi_q_v_A_i[20] = t160 * omega_j_in_joint_i_0 - s_j_dot_g_i * t158 - (t157 * s_j_dot_f_i -
-        omega_j_in_joint_i_1 * t161) - (C_i[5] * r_ij_world_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 *
-        (r_ij_world_1 * t147 + r_ij_world_2 * t148) + (omega_i_in_joint_i_0 * t160 + omega_i_in_joint_i_1 * t161) +
-        C_i[8] * v_i[0] - C_i[8] * v_j[0]);
     const jg_real t162 = C_i[5] * A_j[4];
     const jg_real t163 = C_i[5] * A_j[1];
     const jg_real t164 = C_i[5] * A_j[7];
@@ -446,18 +437,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t173 = omega_j[0] * t169 + omega_j[1] * t171 + omega_j[2] * t172;
     const jg_real t174 = C_j[6] * t169 + C_j[7] * t171 + C_j[8] * t172;
     const jg_real t175 = omega_j[0] * t163 + omega_j[1] * t162 + omega_j[2] * t164;
-    jac_phi_q_v_A_i[21] = omega_i_in_joint_i_2 * t165 - omega_i_in_joint_i_1 * t174 - (t165 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t173 - (omega_j_in_joint_i_1 * t174 + t175 * h_j_in_joint_i_2));
     const jg_real t176 = omega_j[1] * t167 + omega_j[0] * t170 + omega_j[2] * t168;
     const jg_real t177 = C_j[6] * t170 + C_j[7] * t167 + C_j[8] * t168;
-    jac_phi_q_v_A_i[22] = -(omega_j_in_joint_i_0 * t174 + t176 * h_j_in_joint_i_2 - (t177 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t173) + (omega_i_in_joint_i_2 * t177 - omega_i_in_joint_i_0 * t174));
-    const jg_real t178 = s_j[0] * t163 + s_j[1] * t162 + s_j[2] * t164;
+    const jg_real t178 = t163 * s_j[0] + t162 * s_j[1] + t164 * s_j[2];
     const jg_real t179 = s_j[0] * t170 + s_j[1] * t167 + s_j[2] * t168;
-    jac_phi_q_v_A_i[23] = s_j_dot_g_i * t176 + t178 * omega_j_in_joint_i_0 - (t175 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t179) - (C_i[5] * r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
-        (r_ij_world_0 * t147 - r_ij_world_2 * t166) + (omega_i_in_joint_i_0 * t178 - omega_i_in_joint_i_1 * t179) +
-        C_i[8] * v_i[1] - C_i[8] * v_j[1]);
     const jg_real t180 = C_i[5] * A_j[5];
     const jg_real t181 = C_i[5] * A_j[2];
     const jg_real t182 = C_i[5] * A_j[8];
@@ -471,14 +454,46 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t190 = omega_j[0] * t186 + omega_j[1] * t188 + omega_j[2] * t189;
     const jg_real t191 = C_j[6] * t186 + C_j[7] * t188 + C_j[8] * t189;
     const jg_real t192 = omega_j[0] * t181 + omega_j[1] * t180 + omega_j[2] * t182;
-    jac_phi_q_v_A_i[24] = omega_i_in_joint_i_2 * t183 - omega_i_in_joint_i_1 * t191 - (t183 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t190 - (omega_j_in_joint_i_1 * t191 + t192 * h_j_in_joint_i_2));
     const jg_real t193 = omega_j[1] * t184 + omega_j[0] * t187 + omega_j[2] * t185;
     const jg_real t194 = C_j[6] * t187 + C_j[7] * t184 + C_j[8] * t185;
+    jac_phi_q_v_A_i[18] = omega_i_in_joint_i_2 * t146 - omega_i_in_joint_i_1 * t156 - (t146 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t155 - (omega_j_in_joint_i_1 * t156 + t157 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_i[19] = omega_i_in_joint_i_2 * t159 + omega_i_in_joint_i_0 * t156 - (omega_j_in_joint_i_0 * t156 -
+        t158 * h_j_in_joint_i_2 - (h_j_in_joint_i_0 * t155 - t159 * omega_j_in_joint_i_2));
+    jac_phi_q_v_A_i[20] = t160 * omega_j_in_joint_i_0 - s_j_dot_g_i * t158 - (t157 * s_j_dot_f_i -
+        omega_j_in_joint_i_1 * t161) - (C_i[5] * r_ij_world_0 * omega_i_in_joint_i_0 + omega_i_in_joint_i_1 * (t147
+        * r_ij_world_1 + t148 * r_ij_world_2) + (omega_i_in_joint_i_0 * t160 + omega_i_in_joint_i_1 * t161) + C_i[8]
+        * v_i[0] - C_i[8] * v_j[0]);
+    jac_phi_q_v_A_i[21] = omega_i_in_joint_i_2 * t165 - omega_i_in_joint_i_1 * t174 - (t165 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t173 - (omega_j_in_joint_i_1 * t174 + t175 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_i[22] = -(omega_j_in_joint_i_0 * t174 + t176 * h_j_in_joint_i_2 - (t177 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t173) + (omega_i_in_joint_i_2 * t177 - omega_i_in_joint_i_0 * t174));
+    jac_phi_q_v_A_i[23] = s_j_dot_g_i * t176 + t178 * omega_j_in_joint_i_0 - (t175 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t179) - (C_i[5] * r_ij_world_1 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
+        (r_ij_world_0 * t147 - r_ij_world_2 * t166) + (omega_i_in_joint_i_0 * t178 - omega_i_in_joint_i_1 * t179) +
+        C_i[8] * v_i[1] - C_i[8] * v_j[1]);
+    jac_phi_q_v_A_i[24] = omega_i_in_joint_i_2 * t183 - omega_i_in_joint_i_1 * t191 - (t183 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t190 - (omega_j_in_joint_i_1 * t191 + t192 * h_j_in_joint_i_2));
     jac_phi_q_v_A_i[25] = -(omega_j_in_joint_i_0 * t191 + t193 * h_j_in_joint_i_2 - (t194 * omega_j_in_joint_i_2 +
         h_j_in_joint_i_0 * t190) + (omega_i_in_joint_i_2 * t194 - omega_i_in_joint_i_0 * t191));
-    const jg_real t195 = s_j[0] * t181 + s_j[1] * t180 + s_j[2] * t182;
+    const jg_real t195 = t181 * s_j[0] + t180 * s_j[1] + t182 * s_j[2];
     const jg_real t196 = s_j[0] * t187 + s_j[1] * t184 + s_j[2] * t185;
+    const jg_real t197 = C_j[6] * g_i_world_0;
+    const jg_real t198 = f_i_world_0 * g_i_in_j_2 - g_i_world_0 * f_i_in_j_2;
+    const jg_real t199 = g_i_world_0 * f_i_in_j_1 - f_i_world_0 * g_i_in_j_1;
+    const jg_real t200 = omega_j[1] * t198 + omega_j[2] * t199;
+    const jg_real t201 = omega_j[0] * g_i_world_0;
+    const jg_real t202 = C_j[7] * t198 + C_j[8] * t199;
+    const jg_real t203 = omega_j[0] * f_i_world_0;
+    const jg_real t204 = C_j[6] * f_i_world_0;
+    const jg_real t205 = g_i_world_0 * s_j[0];
+    const jg_real t206 = s_j[0] * f_i_world_0;
+    const jg_real t207 = C_j[6] * g_i_world_1;
+    const jg_real t208 = f_i_world_1 * g_i_in_j_2 - g_i_world_1 * f_i_in_j_2;
+    const jg_real t209 = g_i_world_1 * f_i_in_j_1 - f_i_world_1 * g_i_in_j_1;
+    const jg_real t210 = omega_j[1] * t208 + omega_j[2] * t209;
+    const jg_real t211 = omega_j[0] * g_i_world_1;
+    const jg_real t212 = C_j[7] * t208 + C_j[8] * t209;
     jac_phi_q_v_A_i[26] = s_j_dot_g_i * t193 + t195 * omega_j_in_joint_i_0 - (t192 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t196) - (C_i[5] * r_ij_world_2 * omega_i_in_joint_i_0 - omega_i_in_joint_i_1 *
         (r_ij_world_0 * t148 + r_ij_world_1 * t166) + (omega_i_in_joint_i_0 * t195 - omega_i_in_joint_i_1 * t196) +
@@ -486,67 +501,51 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_q_v_r_j[0] = -t8;
     jac_phi_q_v_r_j[1] = -t11;
     jac_phi_q_v_r_j[2] = -t13;
-    const jg_real t197 = C_j[6] * g_i_world_0;
-    const jg_real t198 = f_i_world_0 * g_i_in_j_2 - g_i_world_0 * f_i_in_j_2;
-    const jg_real t199 = g_i_world_0 * f_i_in_j_1 - f_i_world_0 * g_i_in_j_1;
-    const jg_real t200 = omega_j[1] * t198 + omega_j[2] * t199;
-    const jg_real t201 = omega_j[0] * g_i_world_0;
-    const jg_real t202 = C_j[7] * t198 + C_j[8] * t199;
     jac_phi_q_v_A_j[0] = omega_i_in_joint_i_2 * t197 + omega_i_in_joint_i_1 * t202 - (t197 * omega_j_in_joint_i_2 -
         h_j_in_joint_i_1 * t200 - (t201 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t202));
-    const jg_real t203 = omega_j[0] * f_i_world_0;
-    const jg_real t204 = C_j[6] * f_i_world_0;
     jac_phi_q_v_A_j[1] = -(t203 * h_j_in_joint_i_2 - omega_j_in_joint_i_0 * t202 - (t204 * omega_j_in_joint_i_2 -
         h_j_in_joint_i_0 * t200) + (omega_i_in_joint_i_2 * t204 + omega_i_in_joint_i_0 * t202));
-    const jg_real t205 = s_j[0] * g_i_world_0;
-    const jg_real t206 = s_j[0] * f_i_world_0;
     jac_phi_q_v_A_j[2] = t203 * s_j_dot_g_i + t205 * omega_j_in_joint_i_0 - (t201 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t206) - (omega_i_in_joint_i_0 * t205 - omega_i_in_joint_i_1 * t206);
-    const jg_real t207 = C_j[6] * g_i_world_1;
-    const jg_real t208 = f_i_world_1 * g_i_in_j_2 - g_i_world_1 * f_i_in_j_2;
-    const jg_real t209 = g_i_world_1 * f_i_in_j_1 - f_i_world_1 * g_i_in_j_1;
-    const jg_real t210 = omega_j[1] * t208 + omega_j[2] * t209;
-    const jg_real t211 = omega_j[0] * g_i_world_1;
-    const jg_real t212 = C_j[7] * t208 + C_j[8] * t209;
     jac_phi_q_v_A_j[3] = omega_i_in_joint_i_2 * t207 + omega_i_in_joint_i_1 * t212 - (t207 * omega_j_in_joint_i_2 -
         h_j_in_joint_i_1 * t210 - (t211 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t212));
     const jg_real t213 = omega_j[0] * f_i_world_1;
     const jg_real t214 = C_j[6] * f_i_world_1;
-    jac_phi_q_v_A_j[4] = -(t213 * h_j_in_joint_i_2 - omega_j_in_joint_i_0 * t212 - (t214 * omega_j_in_joint_i_2 -
-        h_j_in_joint_i_0 * t210) + (omega_i_in_joint_i_2 * t214 + omega_i_in_joint_i_0 * t212));
     const jg_real t215 = g_i_world_1 * s_j[0];
     const jg_real t216 = s_j[0] * f_i_world_1;
-    jac_phi_q_v_A_j[5] = t213 * s_j_dot_g_i + t215 * omega_j_in_joint_i_0 - (t211 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t216) - (omega_i_in_joint_i_0 * t215 - omega_i_in_joint_i_1 * t216);
     const jg_real t217 = C_j[6] * g_i_world_2;
     const jg_real t218 = f_i_world_2 * g_i_in_j_2 - g_i_world_2 * f_i_in_j_2;
     const jg_real t219 = g_i_world_2 * f_i_in_j_1 - f_i_world_2 * g_i_in_j_1;
     const jg_real t220 = omega_j[1] * t218 + omega_j[2] * t219;
     const jg_real t221 = omega_j[0] * g_i_world_2;
     const jg_real t222 = C_j[7] * t218 + C_j[8] * t219;
-    jac_phi_q_v_A_j[6] = omega_i_in_joint_i_2 * t217 + omega_i_in_joint_i_1 * t222 - (t217 * omega_j_in_joint_i_2 -
-        h_j_in_joint_i_1 * t220 - (t221 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t222));
     const jg_real t223 = omega_j[0] * f_i_world_2;
     const jg_real t224 = C_j[6] * f_i_world_2;
-    jac_phi_q_v_A_j[7] = -(t223 * h_j_in_joint_i_2 - omega_j_in_joint_i_0 * t222 - (t224 * omega_j_in_joint_i_2 -
-        h_j_in_joint_i_0 * t220) + (omega_i_in_joint_i_2 * t224 + omega_i_in_joint_i_0 * t222));
-    const jg_real t225 = s_j[0] * g_i_world_2;
+    const jg_real t225 = g_i_world_2 * s_j[0];
     const jg_real t226 = s_j[0] * f_i_world_2;
-    jac_phi_q_v_A_j[8] = t223 * s_j_dot_g_i + t225 * omega_j_in_joint_i_0 - (t221 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t226) - (omega_i_in_joint_i_0 * t225 - omega_i_in_joint_i_1 * t226);
     const jg_real t227 = C_j[7] * g_i_world_0;
     const jg_real t228 = f_i_world_0 * g_i_in_j_0 - g_i_world_0 * f_i_in_j_0;
     const jg_real t229 = omega_j[0] * t198 - omega_j[2] * t228;
     const jg_real t230 = omega_j[1] * g_i_world_0;
     const jg_real t231 = C_j[6] * t198 - C_j[8] * t228;
-    jac_phi_q_v_A_j[9] = omega_i_in_joint_i_2 * t227 - omega_i_in_joint_i_1 * t231 - (t227 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t229 - (omega_j_in_joint_i_1 * t231 + t230 * h_j_in_joint_i_2));
     const jg_real t232 = omega_j[1] * f_i_world_0;
     const jg_real t233 = C_j[7] * f_i_world_0;
+    const jg_real t234 = g_i_world_0 * s_j[1];
+    const jg_real t235 = s_j[1] * f_i_world_0;
+    jac_phi_q_v_A_j[4] = -(t213 * h_j_in_joint_i_2 - omega_j_in_joint_i_0 * t212 - (t214 * omega_j_in_joint_i_2 -
+        h_j_in_joint_i_0 * t210) + (omega_i_in_joint_i_2 * t214 + omega_i_in_joint_i_0 * t212));
+    jac_phi_q_v_A_j[5] = t213 * s_j_dot_g_i + t215 * omega_j_in_joint_i_0 - (t211 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t216) - (omega_i_in_joint_i_0 * t215 - omega_i_in_joint_i_1 * t216);
+    jac_phi_q_v_A_j[6] = omega_i_in_joint_i_2 * t217 + omega_i_in_joint_i_1 * t222 - (t217 * omega_j_in_joint_i_2 -
+        h_j_in_joint_i_1 * t220 - (t221 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t222));
+    jac_phi_q_v_A_j[7] = -(t223 * h_j_in_joint_i_2 - omega_j_in_joint_i_0 * t222 - (t224 * omega_j_in_joint_i_2 -
+        h_j_in_joint_i_0 * t220) + (omega_i_in_joint_i_2 * t224 + omega_i_in_joint_i_0 * t222));
+    jac_phi_q_v_A_j[8] = t223 * s_j_dot_g_i + t225 * omega_j_in_joint_i_0 - (t221 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t226) - (omega_i_in_joint_i_0 * t225 - omega_i_in_joint_i_1 * t226);
+    jac_phi_q_v_A_j[9] = omega_i_in_joint_i_2 * t227 - omega_i_in_joint_i_1 * t231 - (t227 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t229 - (omega_j_in_joint_i_1 * t231 + t230 * h_j_in_joint_i_2));
     jac_phi_q_v_A_j[10] = -(omega_j_in_joint_i_0 * t231 + t232 * h_j_in_joint_i_2 - (t233 * omega_j_in_joint_i_2 +
         h_j_in_joint_i_0 * t229) + (omega_i_in_joint_i_2 * t233 - omega_i_in_joint_i_0 * t231));
-    const jg_real t234 = s_j[1] * g_i_world_0;
-    const jg_real t235 = s_j[1] * f_i_world_0;
     jac_phi_q_v_A_j[11] = t232 * s_j_dot_g_i + t234 * omega_j_in_joint_i_0 - (t230 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t235) - (omega_i_in_joint_i_0 * t234 - omega_i_in_joint_i_1 * t235);
     const jg_real t236 = C_j[7] * g_i_world_1;
@@ -554,85 +553,80 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t238 = omega_j[0] * t208 - omega_j[2] * t237;
     const jg_real t239 = omega_j[1] * g_i_world_1;
     const jg_real t240 = C_j[6] * t208 - C_j[8] * t237;
-    jac_phi_q_v_A_j[12] = omega_i_in_joint_i_2 * t236 - omega_i_in_joint_i_1 * t240 - (t236 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t238 - (omega_j_in_joint_i_1 * t240 + t239 * h_j_in_joint_i_2));
     const jg_real t241 = omega_j[1] * f_i_world_1;
     const jg_real t242 = C_j[7] * f_i_world_1;
-    jac_phi_q_v_A_j[13] = -(omega_j_in_joint_i_0 * t240 + t241 * h_j_in_joint_i_2 - (t242 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t238) + (omega_i_in_joint_i_2 * t242 - omega_i_in_joint_i_0 * t240));
     const jg_real t243 = g_i_world_1 * s_j[1];
     const jg_real t244 = s_j[1] * f_i_world_1;
-    jac_phi_q_v_A_j[14] = t241 * s_j_dot_g_i + t243 * omega_j_in_joint_i_0 - (t239 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t244) - (omega_i_in_joint_i_0 * t243 - omega_i_in_joint_i_1 * t244);
     const jg_real t245 = C_j[7] * g_i_world_2;
     const jg_real t246 = f_i_world_2 * g_i_in_j_0 - g_i_world_2 * f_i_in_j_0;
     const jg_real t247 = omega_j[0] * t218 - omega_j[2] * t246;
     const jg_real t248 = omega_j[1] * g_i_world_2;
     const jg_real t249 = C_j[6] * t218 - C_j[8] * t246;
-    jac_phi_q_v_A_j[15] = omega_i_in_joint_i_2 * t245 - omega_i_in_joint_i_1 * t249 - (t245 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t247 - (omega_j_in_joint_i_1 * t249 + t248 * h_j_in_joint_i_2));
     const jg_real t250 = omega_j[1] * f_i_world_2;
     const jg_real t251 = C_j[7] * f_i_world_2;
-    jac_phi_q_v_A_j[16] = -(omega_j_in_joint_i_0 * t249 + t250 * h_j_in_joint_i_2 - (t251 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t247) + (omega_i_in_joint_i_2 * t251 - omega_i_in_joint_i_0 * t249));
-    const jg_real t252 = s_j[1] * g_i_world_2;
+    const jg_real t252 = g_i_world_2 * s_j[1];
     const jg_real t253 = s_j[1] * f_i_world_2;
-    jac_phi_q_v_A_j[17] = t250 * s_j_dot_g_i + t252 * omega_j_in_joint_i_0 - (t248 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t253) - (omega_i_in_joint_i_0 * t252 - omega_i_in_joint_i_1 * t253);
     const jg_real t254 = C_j[8] * g_i_world_0;
     const jg_real t255 = omega_j[0] * t199 + omega_j[1] * t228;
     const jg_real t256 = omega_j[2] * g_i_world_0;
     const jg_real t257 = C_j[6] * t199 + C_j[7] * t228;
-    jac_phi_q_v_A_j[18] = omega_i_in_joint_i_2 * t254 - omega_i_in_joint_i_1 * t257 - (t254 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t255 - (omega_j_in_joint_i_1 * t257 + t256 * h_j_in_joint_i_2));
     const jg_real t258 = omega_j[2] * f_i_world_0;
     const jg_real t259 = C_j[8] * f_i_world_0;
+    jac_phi_q_v_A_j[12] = omega_i_in_joint_i_2 * t236 - omega_i_in_joint_i_1 * t240 - (t236 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t238 - (omega_j_in_joint_i_1 * t240 + t239 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_j[13] = -(omega_j_in_joint_i_0 * t240 + t241 * h_j_in_joint_i_2 - (t242 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t238) + (omega_i_in_joint_i_2 * t242 - omega_i_in_joint_i_0 * t240));
+    jac_phi_q_v_A_j[14] = t241 * s_j_dot_g_i + t243 * omega_j_in_joint_i_0 - (t239 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t244) - (omega_i_in_joint_i_0 * t243 - omega_i_in_joint_i_1 * t244);
+    jac_phi_q_v_A_j[15] = omega_i_in_joint_i_2 * t245 - omega_i_in_joint_i_1 * t249 - (t245 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t247 - (omega_j_in_joint_i_1 * t249 + t248 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_j[16] = -(omega_j_in_joint_i_0 * t249 + t250 * h_j_in_joint_i_2 - (t251 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t247) + (omega_i_in_joint_i_2 * t251 - omega_i_in_joint_i_0 * t249));
+    jac_phi_q_v_A_j[17] = t250 * s_j_dot_g_i + t252 * omega_j_in_joint_i_0 - (t248 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t253) - (omega_i_in_joint_i_0 * t252 - omega_i_in_joint_i_1 * t253);
+    jac_phi_q_v_A_j[18] = omega_i_in_joint_i_2 * t254 - omega_i_in_joint_i_1 * t257 - (t254 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t255 - (omega_j_in_joint_i_1 * t257 + t256 * h_j_in_joint_i_2));
     jac_phi_q_v_A_j[19] = -(omega_j_in_joint_i_0 * t257 + t258 * h_j_in_joint_i_2 - (t259 * omega_j_in_joint_i_2 +
         h_j_in_joint_i_0 * t255) + (omega_i_in_joint_i_2 * t259 - omega_i_in_joint_i_0 * t257));
-    const jg_real t260 = s_j[2] * g_i_world_0;
+    const jg_real t260 = g_i_world_0 * s_j[2];
     const jg_real t261 = s_j[2] * f_i_world_0;
-    jac_phi_q_v_A_j[20] = t258 * s_j_dot_g_i + t260 * omega_j_in_joint_i_0 - (t256 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t261) - (omega_i_in_joint_i_0 * t260 - omega_i_in_joint_i_1 * t261);
     const jg_real t262 = C_j[8] * g_i_world_1;
     const jg_real t263 = omega_j[0] * t209 + omega_j[1] * t237;
     const jg_real t264 = omega_j[2] * g_i_world_1;
     const jg_real t265 = C_j[6] * t209 + C_j[7] * t237;
-    jac_phi_q_v_A_j[21] = omega_i_in_joint_i_2 * t262 - omega_i_in_joint_i_1 * t265 - (t262 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t263 - (omega_j_in_joint_i_1 * t265 + t264 * h_j_in_joint_i_2));
     const jg_real t266 = omega_j[2] * f_i_world_1;
     const jg_real t267 = C_j[8] * f_i_world_1;
-    jac_phi_q_v_A_j[22] = -(omega_j_in_joint_i_0 * t265 + t266 * h_j_in_joint_i_2 - (t267 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_0 * t263) + (omega_i_in_joint_i_2 * t267 - omega_i_in_joint_i_0 * t265));
     const jg_real t268 = g_i_world_1 * s_j[2];
     const jg_real t269 = s_j[2] * f_i_world_1;
-    jac_phi_q_v_A_j[23] = t266 * s_j_dot_g_i + t268 * omega_j_in_joint_i_0 - (t264 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t269) - (omega_i_in_joint_i_0 * t268 - omega_i_in_joint_i_1 * t269);
     const jg_real t270 = C_j[8] * g_i_world_2;
     const jg_real t271 = omega_j[0] * t219 + omega_j[1] * t246;
     const jg_real t272 = omega_j[2] * g_i_world_2;
     const jg_real t273 = C_j[6] * t219 + C_j[7] * t246;
-    jac_phi_q_v_A_j[24] = omega_i_in_joint_i_2 * t270 - omega_i_in_joint_i_1 * t273 - (t270 * omega_j_in_joint_i_2 +
-        h_j_in_joint_i_1 * t271 - (omega_j_in_joint_i_1 * t273 + t272 * h_j_in_joint_i_2));
     const jg_real t274 = omega_j[2] * f_i_world_2;
     const jg_real t275 = C_j[8] * f_i_world_2;
+    const jg_real t276 = g_i_world_2 * s_j[2];
+    const jg_real t277 = s_j[2] * f_i_world_2;
+    const jg_real t278 = omega_i[0] * h_j_in_joint_i_2;
+    jac_phi_q_v_A_j[20] = t258 * s_j_dot_g_i + t260 * omega_j_in_joint_i_0 - (t256 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t261) - (omega_i_in_joint_i_0 * t260 - omega_i_in_joint_i_1 * t261);
+    jac_phi_q_v_A_j[21] = omega_i_in_joint_i_2 * t262 - omega_i_in_joint_i_1 * t265 - (t262 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t263 - (omega_j_in_joint_i_1 * t265 + t264 * h_j_in_joint_i_2));
+    jac_phi_q_v_A_j[22] = -(omega_j_in_joint_i_0 * t265 + t266 * h_j_in_joint_i_2 - (t267 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_0 * t263) + (omega_i_in_joint_i_2 * t267 - omega_i_in_joint_i_0 * t265));
+    jac_phi_q_v_A_j[23] = t266 * s_j_dot_g_i + t268 * omega_j_in_joint_i_0 - (t264 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t269) - (omega_i_in_joint_i_0 * t268 - omega_i_in_joint_i_1 * t269);
+    jac_phi_q_v_A_j[24] = omega_i_in_joint_i_2 * t270 - omega_i_in_joint_i_1 * t273 - (t270 * omega_j_in_joint_i_2 +
+        h_j_in_joint_i_1 * t271 - (omega_j_in_joint_i_1 * t273 + t272 * h_j_in_joint_i_2));
     jac_phi_q_v_A_j[25] = -(omega_j_in_joint_i_0 * t273 + t274 * h_j_in_joint_i_2 - (t275 * omega_j_in_joint_i_2 +
         h_j_in_joint_i_0 * t271) + (omega_i_in_joint_i_2 * t275 - omega_i_in_joint_i_0 * t273));
-    const jg_real t276 = s_j[2] * g_i_world_2;
-    const jg_real t277 = s_j[2] * f_i_world_2;
     jac_phi_q_v_A_j[26] = t274 * s_j_dot_g_i + t276 * omega_j_in_joint_i_0 - (t272 * s_j_dot_f_i +
         omega_j_in_joint_i_1 * t277) - (omega_i_in_joint_i_0 * t276 - omega_i_in_joint_i_1 * t277);
-    const jg_real t278 = omega_i[0] * h_j_in_joint_i_2;
     jac_phi_q_v_geometry[0] = t278;
     /* r_ij_dot_g_i = r_ij . g_i */
-    const jg_real r_ij_dot_g_i = g_i_world_1 * r_ij_world_1 + r_ij_world_0 * g_i_world_0 + r_ij_world_2 *
-        g_i_world_2;
-    jac_phi_q_v_geometry[1] = -(omega_i[0] * r_ij_dot_g_i + omega_i[0] * s_j_dot_g_i);
+    const jg_real r_ij_dot_g_i = g_i_world_0 * r_ij_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     const jg_real t280 = omega_i[1] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[2] = t280;
-    jac_phi_q_v_geometry[3] = -(omega_i[1] * r_ij_dot_g_i + omega_i[1] * s_j_dot_g_i);
     const jg_real t281 = omega_i[2] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[4] = t281;
-    jac_phi_q_v_geometry[5] = -(omega_i[2] * r_ij_dot_g_i + omega_i[2] * s_j_dot_g_i);
     const jg_real t282 = A_i[1] * A_j[4] + A_j[3] * A_i[0] + A_i[2] * A_j[5];
     const jg_real t283 = A_i[1] * A_j[1] + A_i[0] * A_j[0] + A_i[2] * A_j[2];
     const jg_real t284 = A_i[1] * A_j[7] + A_i[0] * A_j[6] + A_i[2] * A_j[8];
@@ -649,19 +643,24 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t295 = omega_j[0] * t291 + omega_j[1] * t293 + omega_j[2] * t294;
     const jg_real t296 = C_j[6] * t291 + C_j[7] * t293 + C_j[8] * t294;
     const jg_real t297 = omega_j[0] * t283 + omega_j[1] * t282 + omega_j[2] * t284;
-    jac_phi_q_v_geometry[6] = omega_i_in_joint_i_2 * t285 - (omega_i_in_joint_i_1 * t296 + t278) - (t285 *
-        omega_j_in_joint_i_2 + h_j_in_joint_i_1 * t295 - (omega_j_in_joint_i_1 * t296 + t297 * h_j_in_joint_i_2));
     const jg_real t298 = omega_j[1] * t289 + omega_j[0] * t292 + omega_j[2] * t290;
     const jg_real t299 = C_j[6] * t292 + C_j[7] * t289 + C_j[8] * t290;
-    jac_phi_q_v_geometry[7] = -(omega_j_in_joint_i_0 * t296 + t298 * h_j_in_joint_i_2 - (t299 * omega_j_in_joint_i_2
-        + h_j_in_joint_i_0 * t295) + (omega_i_in_joint_i_2 * t299 - omega_i_in_joint_i_0 * t296));
     const jg_real t300 = s_j[0] * t283 + s_j[1] * t282 + s_j[2] * t284;
     const jg_real t301 = s_j[0] * t292 + s_j[1] * t289 + s_j[2] * t290;
     /* r_ij_dot_f_i = r_ij . f_i */
     const jg_real r_ij_dot_f_i = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
         f_i_world_2;
+    jac_phi_q_v_geometry[1] = -(omega_i[0] * r_ij_dot_g_i + omega_i[0] * s_j_dot_g_i);
+    jac_phi_q_v_geometry[2] = t280;
+    jac_phi_q_v_geometry[3] = -(omega_i[1] * r_ij_dot_g_i + omega_i[1] * s_j_dot_g_i);
+    jac_phi_q_v_geometry[4] = t281;
+    jac_phi_q_v_geometry[5] = -(omega_i[2] * r_ij_dot_g_i + omega_i[2] * s_j_dot_g_i);
+    jac_phi_q_v_geometry[6] = omega_i_in_joint_i_2 * t285 - (omega_i_in_joint_i_1 * t296 + t278) - (t285 *
+        omega_j_in_joint_i_2 + h_j_in_joint_i_1 * t295 - (omega_j_in_joint_i_1 * t296 + t297 * h_j_in_joint_i_2));
+    jac_phi_q_v_geometry[7] = -(omega_j_in_joint_i_0 * t296 + t298 * h_j_in_joint_i_2 - (t299 * omega_j_in_joint_i_2
+        + h_j_in_joint_i_0 * t295) + (omega_i_in_joint_i_2 * t299 - omega_i_in_joint_i_0 * t296));
     jac_phi_q_v_geometry[8] = s_j_dot_g_i * t298 + t300 * omega_j_in_joint_i_0 - (t297 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t301) - (omega_i_in_joint_i_0 * (A_i[1] * r_ij_world_1 + A_i[0] * r_ij_world_0 +
+        omega_j_in_joint_i_1 * t301) - (omega_i_in_joint_i_0 * (A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 +
         A_i[2] * r_ij_world_2) - (omega_i[0] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (r_ij_world_0 * t286 +
         r_ij_world_1 * t287 + r_ij_world_2 * t288)) + (omega_i_in_joint_i_0 * t300 - (omega_i[0] * s_j_dot_f_i +
         omega_i_in_joint_i_1 * t301)));
@@ -681,20 +680,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t316 = omega_j[0] * t312 + omega_j[1] * t314 + omega_j[2] * t315;
     const jg_real t317 = C_j[6] * t312 + C_j[7] * t314 + C_j[8] * t315;
     const jg_real t318 = omega_j[0] * t304 + omega_j[1] * t303 + omega_j[2] * t305;
-    jac_phi_q_v_geometry[9] = omega_i_in_joint_i_2 * t306 - (omega_i_in_joint_i_1 * t317 + t280) - (t306 *
-        omega_j_in_joint_i_2 + h_j_in_joint_i_1 * t316 - (omega_j_in_joint_i_1 * t317 + t318 * h_j_in_joint_i_2));
     const jg_real t319 = omega_j[1] * t310 + omega_j[0] * t313 + omega_j[2] * t311;
     const jg_real t320 = C_j[6] * t313 + C_j[7] * t310 + C_j[8] * t311;
-    jac_phi_q_v_geometry[10] = -(omega_j_in_joint_i_0 * t317 + t319 * h_j_in_joint_i_2 - (t320 *
-        omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t316) + (omega_i_in_joint_i_2 * t320 - omega_i_in_joint_i_0 *
-        t317));
     const jg_real t321 = s_j[0] * t304 + s_j[1] * t303 + s_j[2] * t305;
     const jg_real t322 = s_j[0] * t313 + s_j[1] * t310 + s_j[2] * t311;
-    jac_phi_q_v_geometry[11] = s_j_dot_g_i * t319 + t321 * omega_j_in_joint_i_0 - (t318 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t322) - (omega_i_in_joint_i_0 * (A_i[4] * r_ij_world_1 + A_i[3] * r_ij_world_0 +
-        A_i[5] * r_ij_world_2) - (omega_i[1] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (r_ij_world_0 * t307 +
-        r_ij_world_1 * t308 + r_ij_world_2 * t309)) + (omega_i_in_joint_i_0 * t321 - (omega_i[1] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t322)));
     const jg_real t323 = A_i[7] * A_j[4] + A_j[3] * A_i[6] + A_i[8] * A_j[5];
     const jg_real t324 = A_i[7] * A_j[1] + A_i[6] * A_j[0] + A_i[8] * A_j[2];
     const jg_real t325 = A_i[7] * A_j[7] + A_i[6] * A_j[6] + A_i[8] * A_j[8];
@@ -711,20 +700,10 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t336 = omega_j[0] * t332 + omega_j[1] * t334 + omega_j[2] * t335;
     const jg_real t337 = C_j[6] * t332 + C_j[7] * t334 + C_j[8] * t335;
     const jg_real t338 = omega_j[0] * t324 + omega_j[1] * t323 + omega_j[2] * t325;
-    jac_phi_q_v_geometry[12] = omega_i_in_joint_i_2 * t326 - (omega_i_in_joint_i_1 * t337 + t281) - (t326 *
-        omega_j_in_joint_i_2 + h_j_in_joint_i_1 * t336 - (omega_j_in_joint_i_1 * t337 + t338 * h_j_in_joint_i_2));
     const jg_real t339 = omega_j[1] * t330 + omega_j[0] * t333 + omega_j[2] * t331;
     const jg_real t340 = C_j[6] * t333 + C_j[7] * t330 + C_j[8] * t331;
-    jac_phi_q_v_geometry[13] = -(omega_j_in_joint_i_0 * t337 + t339 * h_j_in_joint_i_2 - (t340 *
-        omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t336) + (omega_i_in_joint_i_2 * t340 - omega_i_in_joint_i_0 *
-        t337));
     const jg_real t341 = s_j[0] * t324 + s_j[1] * t323 + s_j[2] * t325;
     const jg_real t342 = s_j[0] * t333 + s_j[1] * t330 + s_j[2] * t331;
-    jac_phi_q_v_geometry[14] = s_j_dot_g_i * t339 + t341 * omega_j_in_joint_i_0 - (t338 * s_j_dot_f_i +
-        omega_j_in_joint_i_1 * t342) - (omega_i_in_joint_i_0 * (A_i[7] * r_ij_world_1 + A_i[6] * r_ij_world_0 +
-        A_i[8] * r_ij_world_2) - (omega_i[2] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (r_ij_world_0 * t327 +
-        r_ij_world_1 * t328 + r_ij_world_2 * t329)) + (omega_i_in_joint_i_0 * t341 - (omega_i[2] * s_j_dot_f_i +
-        omega_i_in_joint_i_1 * t342)));
     const jg_real t343 = A_i[2] * g_i_world_1 - A_i[1] * g_i_world_2;
     const jg_real t344 = A_i[0] * g_i_world_2 - A_i[2] * g_i_world_0;
     const jg_real t345 = A_i[1] * g_i_world_0 - A_i[0] * g_i_world_1;
@@ -736,17 +715,34 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t351 = g_i_in_j_1 * t349 - g_i_in_j_0 * t346;
     const jg_real t352 = omega_j[0] * t348 + omega_j[1] * t350 + omega_j[2] * t351;
     const jg_real t353 = C_j[6] * t348 + C_j[7] * t350 + C_j[8] * t351;
-    jac_phi_q_v_geometry[15] = omega_i[0] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t353 - (h_j_in_joint_i_1 *
-        t352 - omega_j_in_joint_i_1 * t353);
     const jg_real t354 = omega_j[1] * t346 + omega_j[0] * t349 + omega_j[2] * t347;
     const jg_real t355 = C_j[6] * t349 + C_j[7] * t346 + C_j[8] * t347;
+    jac_phi_q_v_geometry[9] = omega_i_in_joint_i_2 * t306 - (omega_i_in_joint_i_1 * t317 + t280) - (t306 *
+        omega_j_in_joint_i_2 + h_j_in_joint_i_1 * t316 - (omega_j_in_joint_i_1 * t317 + t318 * h_j_in_joint_i_2));
+    jac_phi_q_v_geometry[10] = -(omega_j_in_joint_i_0 * t317 + t319 * h_j_in_joint_i_2 - (t320 *
+        omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t316) + (omega_i_in_joint_i_2 * t320 - omega_i_in_joint_i_0 *
+        t317));
+    jac_phi_q_v_geometry[11] = s_j_dot_g_i * t319 + t321 * omega_j_in_joint_i_0 - (t318 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t322) - (omega_i_in_joint_i_0 * (A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 +
+        A_i[5] * r_ij_world_2) - (omega_i[1] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (r_ij_world_0 * t307 +
+        r_ij_world_1 * t308 + r_ij_world_2 * t309)) + (omega_i_in_joint_i_0 * t321 - (omega_i[1] * s_j_dot_f_i +
+        omega_i_in_joint_i_1 * t322)));
+    jac_phi_q_v_geometry[12] = omega_i_in_joint_i_2 * t326 - (omega_i_in_joint_i_1 * t337 + t281) - (t326 *
+        omega_j_in_joint_i_2 + h_j_in_joint_i_1 * t336 - (omega_j_in_joint_i_1 * t337 + t338 * h_j_in_joint_i_2));
+    jac_phi_q_v_geometry[13] = -(omega_j_in_joint_i_0 * t337 + t339 * h_j_in_joint_i_2 - (t340 *
+        omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t336) + (omega_i_in_joint_i_2 * t340 - omega_i_in_joint_i_0 *
+        t337));
+    jac_phi_q_v_geometry[14] = s_j_dot_g_i * t339 + t341 * omega_j_in_joint_i_0 - (t338 * s_j_dot_f_i +
+        omega_j_in_joint_i_1 * t342) - (omega_i_in_joint_i_0 * (A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 +
+        A_i[8] * r_ij_world_2) - (omega_i[2] * r_ij_dot_f_i + omega_i_in_joint_i_1 * (r_ij_world_0 * t327 +
+        r_ij_world_1 * t328 + r_ij_world_2 * t329)) + (omega_i_in_joint_i_0 * t341 - (omega_i[2] * s_j_dot_f_i +
+        omega_i_in_joint_i_1 * t342)));
+    jac_phi_q_v_geometry[15] = omega_i[0] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t353 - (h_j_in_joint_i_1 *
+        t352 - omega_j_in_joint_i_1 * t353);
     jac_phi_q_v_geometry[16] = -(omega_j_in_joint_i_0 * t353 + t354 * h_j_in_joint_i_2 - (t355 *
         omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t352) + (omega_i_in_joint_i_2 * t355 + omega_i[0] *
         h_j_in_joint_i_0 - omega_i_in_joint_i_0 * t353));
     const jg_real t356 = s_j[0] * t349 + s_j[1] * t346 + s_j[2] * t347;
-    jac_phi_q_v_geometry[17] = s_j_dot_g_i * t354 - omega_j_in_joint_i_1 * t356 - (A_i[0] * v_i[0] + A_i[1] * v_i[1]
-        + A_i[2] * v_i[2] - (omega_i_in_joint_i_1 * (r_ij_world_0 * t343 + r_ij_world_1 * t344 + r_ij_world_2 *
-        t345) + omega_i_in_joint_i_1 * t356) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
     const jg_real t357 = A_i[5] * g_i_world_1 - A_i[4] * g_i_world_2;
     const jg_real t358 = A_i[3] * g_i_world_2 - A_i[5] * g_i_world_0;
     const jg_real t359 = A_i[4] * g_i_world_0 - A_i[3] * g_i_world_1;
@@ -758,17 +754,9 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t365 = g_i_in_j_1 * t363 - g_i_in_j_0 * t360;
     const jg_real t366 = omega_j[0] * t362 + omega_j[1] * t364 + omega_j[2] * t365;
     const jg_real t367 = C_j[6] * t362 + C_j[7] * t364 + C_j[8] * t365;
-    jac_phi_q_v_geometry[18] = omega_i[1] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t367 - (h_j_in_joint_i_1 *
-        t366 - omega_j_in_joint_i_1 * t367);
     const jg_real t368 = omega_j[1] * t360 + omega_j[0] * t363 + omega_j[2] * t361;
     const jg_real t369 = C_j[6] * t363 + C_j[7] * t360 + C_j[8] * t361;
-    jac_phi_q_v_geometry[19] = -(omega_j_in_joint_i_0 * t367 + t368 * h_j_in_joint_i_2 - (t369 *
-        omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t366) + (omega_i_in_joint_i_2 * t369 + omega_i[1] *
-        h_j_in_joint_i_0 - omega_i_in_joint_i_0 * t367));
     const jg_real t370 = s_j[0] * t363 + s_j[1] * t360 + s_j[2] * t361;
-    jac_phi_q_v_geometry[20] = s_j_dot_g_i * t368 - omega_j_in_joint_i_1 * t370 - (A_i[3] * v_i[0] + A_i[4] * v_i[1]
-        + A_i[5] * v_i[2] - (omega_i_in_joint_i_1 * (r_ij_world_0 * t357 + r_ij_world_1 * t358 + r_ij_world_2 *
-        t359) + omega_i_in_joint_i_1 * t370) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
     const jg_real t371 = A_i[8] * g_i_world_1 - A_i[7] * g_i_world_2;
     const jg_real t372 = A_i[6] * g_i_world_2 - A_i[8] * g_i_world_0;
     const jg_real t373 = A_i[7] * g_i_world_0 - A_i[6] * g_i_world_1;
@@ -780,14 +768,25 @@ static void jg_planar_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t379 = g_i_in_j_1 * t377 - g_i_in_j_0 * t374;
     const jg_real t380 = omega_j[0] * t376 + omega_j[1] * t378 + omega_j[2] * t379;
     const jg_real t381 = C_j[6] * t376 + C_j[7] * t378 + C_j[8] * t379;
-    jac_phi_q_v_geometry[21] = omega_i[2] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t381 - (h_j_in_joint_i_1 *
-        t380 - omega_j_in_joint_i_1 * t381);
     const jg_real t382 = omega_j[1] * t374 + omega_j[0] * t377 + omega_j[2] * t375;
     const jg_real t383 = C_j[6] * t377 + C_j[7] * t374 + C_j[8] * t375;
+    const jg_real t384 = s_j[0] * t377 + s_j[1] * t374 + s_j[2] * t375;
+    jac_phi_q_v_geometry[17] = s_j_dot_g_i * t354 - omega_j_in_joint_i_1 * t356 - (A_i[0] * v_i[0] + A_i[1] * v_i[1]
+        + A_i[2] * v_i[2] - (omega_i_in_joint_i_1 * (r_ij_world_0 * t343 + r_ij_world_1 * t344 + r_ij_world_2 *
+        t345) + omega_i_in_joint_i_1 * t356) - (A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2]));
+    jac_phi_q_v_geometry[18] = omega_i[1] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t367 - (h_j_in_joint_i_1 *
+        t366 - omega_j_in_joint_i_1 * t367);
+    jac_phi_q_v_geometry[19] = -(omega_j_in_joint_i_0 * t367 + t368 * h_j_in_joint_i_2 - (t369 *
+        omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t366) + (omega_i_in_joint_i_2 * t369 + omega_i[1] *
+        h_j_in_joint_i_0 - omega_i_in_joint_i_0 * t367));
+    jac_phi_q_v_geometry[20] = s_j_dot_g_i * t368 - omega_j_in_joint_i_1 * t370 - (A_i[3] * v_i[0] + A_i[4] * v_i[1]
+        + A_i[5] * v_i[2] - (omega_i_in_joint_i_1 * (r_ij_world_0 * t357 + r_ij_world_1 * t358 + r_ij_world_2 *
+        t359) + omega_i_in_joint_i_1 * t370) - (A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2]));
+    jac_phi_q_v_geometry[21] = omega_i[2] * h_j_in_joint_i_1 - omega_i_in_joint_i_1 * t381 - (h_j_in_joint_i_1 *
+        t380 - omega_j_in_joint_i_1 * t381);
     jac_phi_q_v_geometry[22] = -(omega_j_in_joint_i_0 * t381 + t382 * h_j_in_joint_i_2 - (t383 *
         omega_j_in_joint_i_2 + h_j_in_joint_i_0 * t380) + (omega_i_in_joint_i_2 * t383 + omega_i[2] *
         h_j_in_joint_i_0 - omega_i_in_joint_i_0 * t381));
-    const jg_real t384 = s_j[0] * t377 + s_j[1] * t374 + s_j[2] * t375;
     jac_phi_q_v_geometry[23] = s_j_dot_g_i * t382 - omega_j_in_joint_i_1 * t384 - (A_i[6] * v_i[0] + A_i[7] * v_i[1]
         + A_i[8] * v_i[2] - (omega_i_in_joint_i_1 * (r_ij_world_0 * t371 + r_ij_world_1 * t372 + r_ij_world_2 *
         t373) + omega_i_in_joint_i_1 * t384) - (A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2]));
@@ -847,50 +846,47 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real *const C_j = geometry + 15;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_2 = C_i[6] * A_i[2] + C_i[7] * A_i[5] + C_i[8] * A_i[8];
-    jac_phi_q_t_lambda_lambda[20] = h_i_world_2;
     /* v_0_world = lambda_2 h_i, world axes */
     const jg_real v_0_world_2 = lambda[2] * h_i_world_2;
     const jg_real h_i_world_1 = C_i[6] * A_i[1] + C_i[7] * A_i[4] + C_i[8] * A_i[7];
-    jac_phi_q_t_lambda_lambda[19] = h_i_world_1;
     const jg_real v_0_world_1 = lambda[2] * h_i_world_1;
     const jg_real t4 = A_i[1] * v_0_world_2 - A_i[2] * v_0_world_1;
+    const jg_real t5 = A_i[4] * v_0_world_2 - A_i[5] * v_0_world_1;
+    const jg_real t6 = A_i[7] * v_0_world_2 - A_i[8] * v_0_world_1;
+    jac_phi_q_t_lambda_lambda[20] = h_i_world_2;
+    jac_phi_q_t_lambda_lambda[19] = h_i_world_1;
     jac_phi_q_t_lambda_r_j[0] = t4;
     jac_phi_q_t_lambda_r_i[0] = -t4;
-    const jg_real t5 = A_i[4] * v_0_world_2 - A_i[5] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[1] = t5;
     jac_phi_q_t_lambda_r_i[1] = -t5;
-    const jg_real t6 = A_i[7] * v_0_world_2 - A_i[8] * v_0_world_1;
     jac_phi_q_t_lambda_r_j[2] = t6;
     jac_phi_q_t_lambda_r_i[2] = -t6;
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
-    jac_phi_q_t_lambda_lambda[18] = h_i_world_0;
     const jg_real v_0_world_0 = lambda[2] * h_i_world_0;
     const jg_real t9 = A_i[2] * v_0_world_0 - A_i[0] * v_0_world_2;
+    const jg_real t10 = A_i[5] * v_0_world_0 - A_i[3] * v_0_world_2;
+    const jg_real t11 = A_i[8] * v_0_world_0 - A_i[6] * v_0_world_2;
+    const jg_real t12 = A_i[0] * v_0_world_1 - A_i[1] * v_0_world_0;
+    jac_phi_q_t_lambda_lambda[18] = h_i_world_0;
     jac_phi_q_t_lambda_r_j[3] = t9;
     jac_phi_q_t_lambda_r_i[3] = -t9;
-    const jg_real t10 = A_i[5] * v_0_world_0 - A_i[3] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[4] = t10;
     jac_phi_q_t_lambda_r_i[4] = -t10;
-    const jg_real t11 = A_i[8] * v_0_world_0 - A_i[6] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[5] = t11;
     jac_phi_q_t_lambda_r_i[5] = -t11;
-    const jg_real t12 = A_i[0] * v_0_world_1 - A_i[1] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[6] = t12;
-    jac_phi_q_t_lambda_r_i[6] = -t12;
     const jg_real t13 = A_i[3] * v_0_world_1 - A_i[4] * v_0_world_0;
+    const jg_real t14 = A_i[6] * v_0_world_1 - A_i[7] * v_0_world_0;
+    const jg_real t15 = C_i[6] * lambda[2];
+    jac_phi_q_t_lambda_r_i[6] = -t12;
     jac_phi_q_t_lambda_r_j[7] = t13;
     jac_phi_q_t_lambda_r_i[7] = -t13;
-    const jg_real t14 = A_i[6] * v_0_world_1 - A_i[7] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[8] = t14;
     jac_phi_q_t_lambda_r_i[8] = -t14;
-    const jg_real t15 = C_i[6] * lambda[2];
     jac_phi_q_t_lambda_A_i[4] = t15;
     jac_phi_q_t_lambda_A_i[12] = t15;
     jac_phi_q_t_lambda_A_i[20] = t15;
     const jg_real t16 = -t15;
-    jac_phi_q_t_lambda_A_i[0] = t16;
-    jac_phi_q_t_lambda_A_i[8] = t16;
-    jac_phi_q_t_lambda_A_i[16] = t16;
     /* v_1_in_i = lambda_0 f_i + lambda_1 g_i, axes of body i */
     const jg_real v_1_in_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[3];
     const jg_real v_1_in_i_1 = lambda[0] * C_i[1] + lambda[1] * C_i[4];
@@ -918,21 +914,23 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     /* r_ij_cross_h_i_world = r_ij x h_i, world axes */
-    const jg_real r_ij_cross_h_i_world_0 = r_ij_world_1 * h_i_world_2 - r_ij_world_2 * h_i_world_1;
+    const jg_real r_ij_cross_h_i_world_0 = h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2;
     /* v_6_world = lambda_2 r_ij x h_i, world axes */
     const jg_real v_6_world_0 = lambda[2] * r_ij_cross_h_i_world_0;
     /* v_7_world = lambda_0 f_i x h_j + lambda_1 g_i x h_j - lambda_2 r_ij x h_i - lambda_2 s_j x h_i, world axes */
     const jg_real v_7_world_0 = v_5_world_0 - v_6_world_0;
     const jg_real t37 = v_1_in_i_0 * h_j_world_2 + C_i[6] * v_3_world_2;
     const jg_real t38 = C_i[6] * r_ij_world_2 * lambda[2] + t37;
-    const jg_real t39 = C_i[6] * v_3_world_1 + v_1_in_i_0 * h_j_world_1;
+    const jg_real t39 = v_1_in_i_0 * h_j_world_1 + C_i[6] * v_3_world_1;
     const jg_real t40 = C_i[6] * r_ij_world_1 * lambda[2] + t39;
+    jac_phi_q_t_lambda_A_i[0] = t16;
+    jac_phi_q_t_lambda_A_i[8] = t16;
+    jac_phi_q_t_lambda_A_i[16] = t16;
     jac_phi_q_t_lambda_A_i[1] = v_7_world_0 - A_i[1] * t38 + A_i[2] * t40;
     jac_phi_q_t_lambda_A_i[2] = A_i[5] * t40 - A_i[4] * t38;
     jac_phi_q_t_lambda_A_i[3] = A_i[8] * t40 - A_i[7] * t38;
     jac_phi_q_t_lambda_A_i[5] = A_j[1] * t37 - A_j[2] * t39;
     jac_phi_q_t_lambda_A_i[6] = A_j[4] * t37 - A_j[5] * t39;
-    jac_phi_q_t_lambda_A_i[7] = A_j[7] * t37 - A_j[8] * t39;
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real v_1_world_0 = A_i[0] * v_1_in_i_0 + A_i[3] * v_1_in_i_1 + A_i[6] * v_1_in_i_2;
     const jg_real v_2_world_1 = v_1_world_2 * h_j_world_0 - h_j_world_2 * v_1_world_0;
@@ -940,107 +938,110 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real v_4_world_1 = h_i_world_0 * v_3_world_2 - h_i_world_2 * v_3_world_0;
     const jg_real v_5_world_1 = v_2_world_1 - v_4_world_1;
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
-    const jg_real r_ij_cross_h_i_world_1 = r_ij_world_2 * h_i_world_0 - h_i_world_2 * r_ij_world_0;
+    const jg_real r_ij_cross_h_i_world_1 = h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0;
     const jg_real v_6_world_1 = lambda[2] * r_ij_cross_h_i_world_1;
     const jg_real v_7_world_1 = v_5_world_1 - v_6_world_1;
     const jg_real t51 = v_1_in_i_0 * h_j_world_0 + C_i[6] * v_3_world_0;
     const jg_real t52 = C_i[6] * r_ij_world_0 * lambda[2] + t51;
-    jac_phi_q_t_lambda_A_i[9] = v_7_world_1 + A_i[0] * t38 - A_i[2] * t52;
+    const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - v_1_world_1 * h_j_world_0;
+    const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
+    const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
+    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1;
+    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
+    const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
+    jac_phi_q_t_lambda_A_i[7] = A_j[7] * t37 - A_j[8] * t39;
+    jac_phi_q_t_lambda_A_i[9] = A_i[0] * t38 + v_7_world_1 - A_i[2] * t52;
     jac_phi_q_t_lambda_A_i[10] = A_i[3] * t38 - A_i[5] * t52;
     jac_phi_q_t_lambda_A_i[11] = A_i[6] * t38 - A_i[8] * t52;
     jac_phi_q_t_lambda_A_i[13] = A_j[2] * t51 - A_j[0] * t37;
     jac_phi_q_t_lambda_A_i[14] = A_j[5] * t51 - A_j[3] * t37;
     jac_phi_q_t_lambda_A_i[15] = A_j[8] * t51 - A_j[6] * t37;
-    const jg_real v_2_world_2 = h_j_world_1 * v_1_world_0 - v_1_world_1 * h_j_world_0;
-    const jg_real v_4_world_2 = h_i_world_1 * v_3_world_0 - h_i_world_0 * v_3_world_1;
-    const jg_real v_5_world_2 = v_2_world_2 - v_4_world_2;
-    const jg_real r_ij_cross_h_i_world_2 = h_i_world_1 * r_ij_world_0 - r_ij_world_1 * h_i_world_0;
-    const jg_real v_6_world_2 = lambda[2] * r_ij_cross_h_i_world_2;
-    const jg_real v_7_world_2 = v_5_world_2 - v_6_world_2;
     jac_phi_q_t_lambda_A_i[17] = A_i[1] * t52 - A_i[0] * t40 + v_7_world_2;
+    const jg_real t59 = C_i[7] * lambda[2];
     jac_phi_q_t_lambda_A_i[18] = A_i[4] * t52 - A_i[3] * t40;
     jac_phi_q_t_lambda_A_i[19] = A_i[7] * t52 - A_i[6] * t40;
     jac_phi_q_t_lambda_A_i[21] = A_j[0] * t39 - A_j[1] * t51;
     jac_phi_q_t_lambda_A_i[22] = A_j[3] * t39 - A_j[4] * t51;
     jac_phi_q_t_lambda_A_i[23] = A_j[6] * t39 - A_j[7] * t51;
-    const jg_real t59 = C_i[7] * lambda[2];
     jac_phi_q_t_lambda_A_i[28] = t59;
     jac_phi_q_t_lambda_A_i[36] = t59;
     jac_phi_q_t_lambda_A_i[44] = t59;
     const jg_real t60 = -t59;
-    jac_phi_q_t_lambda_A_i[24] = t60;
-    jac_phi_q_t_lambda_A_i[32] = t60;
-    jac_phi_q_t_lambda_A_i[40] = t60;
-    const jg_real t61 = C_i[7] * v_3_world_1 + v_1_in_i_1 * h_j_world_1;
+    const jg_real t61 = v_1_in_i_1 * h_j_world_1 + C_i[7] * v_3_world_1;
     const jg_real t62 = C_i[7] * r_ij_world_1 * lambda[2] + t61;
     const jg_real t63 = v_1_in_i_1 * h_j_world_2 + C_i[7] * v_3_world_2;
     const jg_real t64 = C_i[7] * r_ij_world_2 * lambda[2] + t63;
+    jac_phi_q_t_lambda_A_i[24] = t60;
+    jac_phi_q_t_lambda_A_i[32] = t60;
+    jac_phi_q_t_lambda_A_i[40] = t60;
     jac_phi_q_t_lambda_A_i[25] = A_i[2] * t62 - A_i[1] * t64;
     jac_phi_q_t_lambda_A_i[26] = v_7_world_0 - A_i[4] * t64 + A_i[5] * t62;
     jac_phi_q_t_lambda_A_i[27] = A_i[8] * t62 - A_i[7] * t64;
     jac_phi_q_t_lambda_A_i[29] = A_j[1] * t63 - A_j[2] * t61;
     jac_phi_q_t_lambda_A_i[30] = A_j[4] * t63 - A_j[5] * t61;
-    jac_phi_q_t_lambda_A_i[31] = A_j[7] * t63 - A_j[8] * t61;
     const jg_real t65 = v_1_in_i_1 * h_j_world_0 + C_i[7] * v_3_world_0;
     const jg_real t66 = C_i[7] * r_ij_world_0 * lambda[2] + t65;
+    jac_phi_q_t_lambda_A_i[31] = A_j[7] * t63 - A_j[8] * t61;
     jac_phi_q_t_lambda_A_i[33] = A_i[0] * t64 - A_i[2] * t66;
-    jac_phi_q_t_lambda_A_i[34] = v_7_world_1 + A_i[3] * t64 - A_i[5] * t66;
+    jac_phi_q_t_lambda_A_i[34] = A_i[3] * t64 + v_7_world_1 - A_i[5] * t66;
     jac_phi_q_t_lambda_A_i[35] = A_i[6] * t64 - A_i[8] * t66;
     jac_phi_q_t_lambda_A_i[37] = A_j[2] * t65 - A_j[0] * t63;
     jac_phi_q_t_lambda_A_i[38] = A_j[5] * t65 - A_j[3] * t63;
     jac_phi_q_t_lambda_A_i[39] = A_j[8] * t65 - A_j[6] * t63;
     jac_phi_q_t_lambda_A_i[41] = A_i[1] * t66 - A_i[0] * t62;
+    const jg_real t67 = C_i[8] * lambda[2];
     jac_phi_q_t_lambda_A_i[42] = A_i[4] * t66 - A_i[3] * t62 + v_7_world_2;
     jac_phi_q_t_lambda_A_i[43] = A_i[7] * t66 - A_i[6] * t62;
     jac_phi_q_t_lambda_A_i[45] = A_j[0] * t61 - A_j[1] * t65;
     jac_phi_q_t_lambda_A_i[46] = A_j[3] * t61 - A_j[4] * t65;
     jac_phi_q_t_lambda_A_i[47] = A_j[6] * t61 - A_j[7] * t65;
-    const jg_real t67 = C_i[8] * lambda[2];
     jac_phi_q_t_lambda_A_i[52] = t67;
     jac_phi_q_t_lambda_A_i[60] = t67;
     jac_phi_q_t_lambda_A_i[68] = t67;
     const jg_real t68 = -t67;
-    jac_phi_q_t_lambda_A_i[48] = t68;
-    jac_phi_q_t_lambda_A_i[56] = t68;
-    jac_phi_q_t_lambda_A_i[64] = t68;
-    const jg_real t69 = C_i[8] * v_3_world_1 + v_1_in_i_2 * h_j_world_1;
+    const jg_real t69 = v_1_in_i_2 * h_j_world_1 + C_i[8] * v_3_world_1;
     const jg_real t70 = C_i[8] * r_ij_world_1 * lambda[2] + t69;
     const jg_real t71 = v_1_in_i_2 * h_j_world_2 + C_i[8] * v_3_world_2;
     const jg_real t72 = C_i[8] * r_ij_world_2 * lambda[2] + t71;
+    jac_phi_q_t_lambda_A_i[48] = t68;
+    jac_phi_q_t_lambda_A_i[56] = t68;
+    jac_phi_q_t_lambda_A_i[64] = t68;
     jac_phi_q_t_lambda_A_i[49] = A_i[2] * t70 - A_i[1] * t72;
     jac_phi_q_t_lambda_A_i[50] = A_i[5] * t70 - A_i[4] * t72;
     jac_phi_q_t_lambda_A_i[51] = v_7_world_0 - A_i[7] * t72 + A_i[8] * t70;
     jac_phi_q_t_lambda_A_i[53] = A_j[1] * t71 - A_j[2] * t69;
     jac_phi_q_t_lambda_A_i[54] = A_j[4] * t71 - A_j[5] * t69;
-    jac_phi_q_t_lambda_A_i[55] = A_j[7] * t71 - A_j[8] * t69;
     const jg_real t73 = v_1_in_i_2 * h_j_world_0 + C_i[8] * v_3_world_0;
     const jg_real t74 = C_i[8] * r_ij_world_0 * lambda[2] + t73;
+    jac_phi_q_t_lambda_A_i[55] = A_j[7] * t71 - A_j[8] * t69;
     jac_phi_q_t_lambda_A_i[57] = A_i[0] * t72 - A_i[2] * t74;
     jac_phi_q_t_lambda_A_i[58] = A_i[3] * t72 - A_i[5] * t74;
-    jac_phi_q_t_lambda_A_i[59] = v_7_world_1 + A_i[6] * t72 - A_i[8] * t74;
+    jac_phi_q_t_lambda_A_i[59] = A_i[6] * t72 + v_7_world_1 - A_i[8] * t74;
     jac_phi_q_t_lambda_A_i[61] = A_j[2] * t73 - A_j[0] * t71;
     jac_phi_q_t_lambda_A_i[62] = A_j[5] * t73 - A_j[3] * t71;
     jac_phi_q_t_lambda_A_i[63] = A_j[8] * t73 - A_j[6] * t71;
     jac_phi_q_t_lambda_A_i[65] = A_i[1] * t74 - A_i[0] * t70;
+    const jg_real t75 = C_j[6] * v_1_world_2 + v_3_in_j_0 * h_i_world_2;
+    const jg_real t76 = C_j[6] * v_1_world_1 + h_i_world_1 * v_3_in_j_0;
     jac_phi_q_t_lambda_A_i[66] = A_i[4] * t74 - A_i[3] * t70;
     jac_phi_q_t_lambda_A_i[67] = A_i[7] * t74 - A_i[6] * t70 + v_7_world_2;
     jac_phi_q_t_lambda_A_i[69] = A_j[0] * t69 - A_j[1] * t73;
     jac_phi_q_t_lambda_A_i[70] = A_j[3] * t69 - A_j[4] * t73;
     jac_phi_q_t_lambda_A_i[71] = A_j[6] * t69 - A_j[7] * t73;
-    const jg_real t75 = v_3_in_j_0 * h_i_world_2 + C_j[6] * v_1_world_2;
-    const jg_real t76 = C_j[6] * v_1_world_1 + v_3_in_j_0 * h_i_world_1;
     jac_phi_q_t_lambda_A_j[0] = A_i[1] * t75 - A_i[2] * t76;
     jac_phi_q_t_lambda_A_j[1] = A_i[4] * t75 - A_i[5] * t76;
     jac_phi_q_t_lambda_A_j[2] = A_i[7] * t75 - A_i[8] * t76;
+    const jg_real t77 = h_i_world_0 * v_3_in_j_0 + C_j[6] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[3] = A_j[2] * t76 - (v_5_world_0 + A_j[1] * t75);
     jac_phi_q_t_lambda_A_j[4] = A_j[5] * t76 - A_j[4] * t75;
     jac_phi_q_t_lambda_A_j[5] = A_j[8] * t76 - A_j[7] * t75;
-    const jg_real t77 = v_3_in_j_0 * h_i_world_0 + C_j[6] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[6] = A_i[2] * t77 - A_i[0] * t75;
     jac_phi_q_t_lambda_A_j[7] = A_i[5] * t77 - A_i[3] * t75;
     jac_phi_q_t_lambda_A_j[8] = A_i[8] * t77 - A_i[6] * t75;
     jac_phi_q_t_lambda_A_j[9] = -(v_5_world_1 - A_j[0] * t75 + A_j[2] * t77);
     jac_phi_q_t_lambda_A_j[10] = A_j[3] * t75 - A_j[5] * t77;
+    const jg_real t78 = C_j[7] * v_1_world_2 + h_i_world_2 * v_3_in_j_1;
+    const jg_real t79 = C_j[7] * v_1_world_1 + h_i_world_1 * v_3_in_j_1;
     jac_phi_q_t_lambda_A_j[11] = A_j[6] * t75 - A_j[8] * t77;
     jac_phi_q_t_lambda_A_j[12] = A_i[0] * t76 - A_i[1] * t77;
     jac_phi_q_t_lambda_A_j[13] = A_i[3] * t76 - A_i[4] * t77;
@@ -1048,15 +1049,13 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_j[15] = -(A_j[0] * t76 - A_j[1] * t77 + v_5_world_2);
     jac_phi_q_t_lambda_A_j[16] = A_j[4] * t77 - A_j[3] * t76;
     jac_phi_q_t_lambda_A_j[17] = A_j[7] * t77 - A_j[6] * t76;
-    const jg_real t78 = v_3_in_j_1 * h_i_world_2 + C_j[7] * v_1_world_2;
-    const jg_real t79 = C_j[7] * v_1_world_1 + v_3_in_j_1 * h_i_world_1;
     jac_phi_q_t_lambda_A_j[18] = A_i[1] * t78 - A_i[2] * t79;
+    const jg_real t80 = h_i_world_0 * v_3_in_j_1 + C_j[7] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[19] = A_i[4] * t78 - A_i[5] * t79;
     jac_phi_q_t_lambda_A_j[20] = A_i[7] * t78 - A_i[8] * t79;
     jac_phi_q_t_lambda_A_j[21] = A_j[2] * t79 - A_j[1] * t78;
     jac_phi_q_t_lambda_A_j[22] = A_j[5] * t79 - (v_5_world_0 + A_j[4] * t78);
     jac_phi_q_t_lambda_A_j[23] = A_j[8] * t79 - A_j[7] * t78;
-    const jg_real t80 = v_3_in_j_1 * h_i_world_0 + C_j[7] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[24] = A_i[2] * t80 - A_i[0] * t78;
     jac_phi_q_t_lambda_A_j[25] = A_i[5] * t80 - A_i[3] * t78;
     jac_phi_q_t_lambda_A_j[26] = A_i[8] * t80 - A_i[6] * t78;
@@ -1068,16 +1067,16 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_j[32] = A_i[6] * t79 - A_i[7] * t80;
     jac_phi_q_t_lambda_A_j[33] = A_j[1] * t80 - A_j[0] * t79;
     jac_phi_q_t_lambda_A_j[34] = -(A_j[3] * t79 - A_j[4] * t80 + v_5_world_2);
+    const jg_real t81 = C_j[8] * v_1_world_2 + h_i_world_2 * v_3_in_j_2;
+    const jg_real t82 = C_j[8] * v_1_world_1 + h_i_world_1 * v_3_in_j_2;
+    const jg_real t83 = h_i_world_0 * v_3_in_j_2 + C_j[8] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[35] = A_j[7] * t80 - A_j[6] * t79;
-    const jg_real t81 = v_3_in_j_2 * h_i_world_2 + C_j[8] * v_1_world_2;
-    const jg_real t82 = C_j[8] * v_1_world_1 + v_3_in_j_2 * h_i_world_1;
     jac_phi_q_t_lambda_A_j[36] = A_i[1] * t81 - A_i[2] * t82;
     jac_phi_q_t_lambda_A_j[37] = A_i[4] * t81 - A_i[5] * t82;
     jac_phi_q_t_lambda_A_j[38] = A_i[7] * t81 - A_i[8] * t82;
     jac_phi_q_t_lambda_A_j[39] = A_j[2] * t82 - A_j[1] * t81;
     jac_phi_q_t_lambda_A_j[40] = A_j[5] * t82 - A_j[4] * t81;
     jac_phi_q_t_lambda_A_j[41] = A_j[8] * t82 - (v_5_world_0 + A_j[7] * t81);
-    const jg_real t83 = v_3_in_j_2 * h_i_world_0 + C_j[8] * v_1_world_0;
     jac_phi_q_t_lambda_A_j[42] = A_i[2] * t83 - A_i[0] * t81;
     jac_phi_q_t_lambda_A_j[43] = A_i[5] * t83 - A_i[3] * t81;
     jac_phi_q_t_lambda_A_j[44] = A_i[8] * t83 - A_i[6] * t81;
@@ -1087,234 +1086,228 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_j[48] = A_i[0] * t82 - A_i[1] * t83;
     jac_phi_q_t_lambda_A_j[49] = A_i[3] * t82 - A_i[4] * t83;
     jac_phi_q_t_lambda_A_j[50] = A_i[6] * t82 - A_i[7] * t83;
-    jac_phi_q_t_lambda_A_j[51] = A_j[1] * t83 - A_j[0] * t82;
-    jac_phi_q_t_lambda_A_j[52] = A_j[4] * t83 - A_j[3] * t82;
-    jac_phi_q_t_lambda_A_j[53] = -(A_j[6] * t82 - A_j[7] * t83 + v_5_world_2);
     const jg_real t84 = A_i[1] * lambda[0];
     const jg_real t85 = A_i[2] * lambda[0];
     const jg_real t86 = t84 * h_j_world_2 - t85 * h_j_world_1;
     const jg_real t87 = A_i[0] * lambda[0];
     const jg_real t88 = t85 * h_j_world_0 - h_j_world_2 * t87;
     const jg_real t89 = h_j_world_1 * t87 - t84 * h_j_world_0;
+    jac_phi_q_t_lambda_A_j[51] = A_j[1] * t83 - A_j[0] * t82;
+    jac_phi_q_t_lambda_A_j[52] = A_j[4] * t83 - A_j[3] * t82;
+    jac_phi_q_t_lambda_A_j[53] = -(A_j[6] * t82 - A_j[7] * t83 + v_5_world_2);
     jac_phi_q_t_lambda_geometry[0] = A_i[0] * t86 + A_i[1] * t88 + A_i[2] * t89;
     jac_phi_q_t_lambda_geometry[1] = A_i[3] * t86 + A_i[4] * t88 + A_i[5] * t89;
     jac_phi_q_t_lambda_geometry[2] = A_i[6] * t86 + A_i[7] * t88 + A_i[8] * t89;
     jac_phi_q_t_lambda_geometry[3] = -(A_j[0] * t86 + A_j[1] * t88 + A_j[2] * t89);
     jac_phi_q_t_lambda_geometry[4] = -(A_j[3] * t86 + A_j[4] * t88 + A_j[5] * t89);
-    jac_phi_q_t_lambda_geometry[5] = -(A_j[6] * t86 + A_j[7] * t88 + A_j[8] * t89);
     const jg_real t90 = A_i[4] * lambda[0];
     const jg_real t91 = A_i[5] * lambda[0];
     const jg_real t92 = t90 * h_j_world_2 - t91 * h_j_world_1;
     const jg_real t93 = A_i[3] * lambda[0];
     const jg_real t94 = t91 * h_j_world_0 - h_j_world_2 * t93;
     const jg_real t95 = h_j_world_1 * t93 - t90 * h_j_world_0;
-    jac_phi_q_t_lambda_geometry[6] = A_i[0] * t92 + A_i[1] * t94 + A_i[2] * t95;
-    jac_phi_q_t_lambda_geometry[7] = A_i[3] * t92 + A_i[4] * t94 + A_i[5] * t95;
-    jac_phi_q_t_lambda_geometry[8] = A_i[6] * t92 + A_i[7] * t94 + A_i[8] * t95;
-    jac_phi_q_t_lambda_geometry[9] = -(A_j[0] * t92 + A_j[1] * t94 + A_j[2] * t95);
-    jac_phi_q_t_lambda_geometry[10] = -(A_j[3] * t92 + A_j[4] * t94 + A_j[5] * t95);
-    jac_phi_q_t_lambda_geometry[11] = -(A_j[6] * t92 + A_j[7] * t94 + A_j[8] * t95);
     const jg_real t96 = A_i[7] * lambda[0];
     const jg_real t97 = A_i[8] * lambda[0];
     const jg_real t98 = t96 * h_j_world_2 - t97 * h_j_world_1;
     const jg_real t99 = A_i[6] * lambda[0];
     const jg_real t100 = t97 * h_j_world_0 - h_j_world_2 * t99;
     const jg_real t101 = h_j_world_1 * t99 - t96 * h_j_world_0;
+    jac_phi_q_t_lambda_geometry[5] = -(A_j[6] * t86 + A_j[7] * t88 + A_j[8] * t89);
+    jac_phi_q_t_lambda_geometry[6] = A_i[0] * t92 + A_i[1] * t94 + A_i[2] * t95;
+    jac_phi_q_t_lambda_geometry[7] = A_i[3] * t92 + A_i[4] * t94 + A_i[5] * t95;
+    jac_phi_q_t_lambda_geometry[8] = A_i[6] * t92 + A_i[7] * t94 + A_i[8] * t95;
+    jac_phi_q_t_lambda_geometry[9] = -(A_j[0] * t92 + A_j[1] * t94 + A_j[2] * t95);
+    jac_phi_q_t_lambda_geometry[10] = -(A_j[3] * t92 + A_j[4] * t94 + A_j[5] * t95);
+    jac_phi_q_t_lambda_geometry[11] = -(A_j[6] * t92 + A_j[7] * t94 + A_j[8] * t95);
     jac_phi_q_t_lambda_geometry[12] = A_i[0] * t98 + A_i[1] * t100 + A_i[2] * t101;
-    jac_phi_q_t_lambda_geometry[13] = A_i[3] * t98 + A_i[4] * t100 + A_i[5] * t101;
-    jac_phi_q_t_lambda_geometry[14] = A_i[6] * t98 + A_i[7] * t100 + A_i[8] * t101;
-    jac_phi_q_t_lambda_geometry[15] = -(A_j[0] * t98 + A_j[1] * t100 + A_j[2] * t101);
-    jac_phi_q_t_lambda_geometry[16] = -(A_j[3] * t98 + A_j[4] * t100 + A_j[5] * t101);
-    jac_phi_q_t_lambda_geometry[17] = -(A_j[6] * t98 + A_j[7] * t100 + A_j[8] * t101);
     const jg_real t102 = A_i[1] * lambda[1];
     const jg_real t103 = A_i[2] * lambda[1];
     const jg_real t104 = t102 * h_j_world_2 - t103 * h_j_world_1;
     const jg_real t105 = A_i[0] * lambda[1];
     const jg_real t106 = t103 * h_j_world_0 - h_j_world_2 * t105;
     const jg_real t107 = h_j_world_1 * t105 - t102 * h_j_world_0;
+    jac_phi_q_t_lambda_geometry[13] = A_i[3] * t98 + A_i[4] * t100 + A_i[5] * t101;
+    jac_phi_q_t_lambda_geometry[14] = A_i[6] * t98 + A_i[7] * t100 + A_i[8] * t101;
+    jac_phi_q_t_lambda_geometry[15] = -(A_j[0] * t98 + A_j[1] * t100 + A_j[2] * t101);
+    jac_phi_q_t_lambda_geometry[16] = -(A_j[3] * t98 + A_j[4] * t100 + A_j[5] * t101);
+    jac_phi_q_t_lambda_geometry[17] = -(A_j[6] * t98 + A_j[7] * t100 + A_j[8] * t101);
     jac_phi_q_t_lambda_geometry[18] = A_i[0] * t104 + A_i[1] * t106 + A_i[2] * t107;
     jac_phi_q_t_lambda_geometry[19] = A_i[3] * t104 + A_i[4] * t106 + A_i[5] * t107;
     jac_phi_q_t_lambda_geometry[20] = A_i[6] * t104 + A_i[7] * t106 + A_i[8] * t107;
-    jac_phi_q_t_lambda_geometry[21] = -(A_j[0] * t104 + A_j[1] * t106 + A_j[2] * t107);
-    jac_phi_q_t_lambda_geometry[22] = -(A_j[3] * t104 + A_j[4] * t106 + A_j[5] * t107);
-    jac_phi_q_t_lambda_geometry[23] = -(A_j[6] * t104 + A_j[7] * t106 + A_j[8] * t107);
     const jg_real t108 = A_i[4] * lambda[1];
     const jg_real t109 = A_i[5] * lambda[1];
     const jg_real t110 = t108 * h_j_world_2 - t109 * h_j_world_1;
     const jg_real t111 = A_i[3] * lambda[1];
     const jg_real t112 = t109 * h_j_world_0 - h_j_world_2 * t111;
     const jg_real t113 = h_j_world_1 * t111 - t108 * h_j_world_0;
+    jac_phi_q_t_lambda_geometry[21] = -(A_j[0] * t104 + A_j[1] * t106 + A_j[2] * t107);
+    jac_phi_q_t_lambda_geometry[22] = -(A_j[3] * t104 + A_j[4] * t106 + A_j[5] * t107);
+    jac_phi_q_t_lambda_geometry[23] = -(A_j[6] * t104 + A_j[7] * t106 + A_j[8] * t107);
     jac_phi_q_t_lambda_geometry[24] = A_i[0] * t110 + A_i[1] * t112 + A_i[2] * t113;
     jac_phi_q_t_lambda_geometry[25] = A_i[3] * t110 + A_i[4] * t112 + A_i[5] * t113;
     jac_phi_q_t_lambda_geometry[26] = A_i[6] * t110 + A_i[7] * t112 + A_i[8] * t113;
     jac_phi_q_t_lambda_geometry[27] = -(A_j[0] * t110 + A_j[1] * t112 + A_j[2] * t113);
     jac_phi_q_t_lambda_geometry[28] = -(A_j[3] * t110 + A_j[4] * t112 + A_j[5] * t113);
-    jac_phi_q_t_lambda_geometry[29] = -(A_j[6] * t110 + A_j[7] * t112 + A_j[8] * t113);
     const jg_real t114 = A_i[7] * lambda[1];
     const jg_real t115 = A_i[8] * lambda[1];
     const jg_real t116 = t114 * h_j_world_2 - t115 * h_j_world_1;
     const jg_real t117 = A_i[6] * lambda[1];
     const jg_real t118 = t115 * h_j_world_0 - h_j_world_2 * t117;
     const jg_real t119 = h_j_world_1 * t117 - t114 * h_j_world_0;
+    const jg_real t120 = A_i[0] * lambda[2];
+    jac_phi_q_t_lambda_geometry[29] = -(A_j[6] * t110 + A_j[7] * t112 + A_j[8] * t113);
     jac_phi_q_t_lambda_geometry[30] = A_i[0] * t116 + A_i[1] * t118 + A_i[2] * t119;
     jac_phi_q_t_lambda_geometry[31] = A_i[3] * t116 + A_i[4] * t118 + A_i[5] * t119;
     jac_phi_q_t_lambda_geometry[32] = A_i[6] * t116 + A_i[7] * t118 + A_i[8] * t119;
     jac_phi_q_t_lambda_geometry[33] = -(A_j[0] * t116 + A_j[1] * t118 + A_j[2] * t119);
     jac_phi_q_t_lambda_geometry[34] = -(A_j[3] * t116 + A_j[4] * t118 + A_j[5] * t119);
     jac_phi_q_t_lambda_geometry[35] = -(A_j[6] * t116 + A_j[7] * t118 + A_j[8] * t119);
-    const jg_real t120 = A_i[0] * lambda[2];
     jac_phi_q_t_lambda_geometry[42] = t120;
-    jac_phi_q_t_lambda_geometry[36] = -t120;
     const jg_real t121 = lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_geometry[43] = t121;
-    jac_phi_q_t_lambda_geometry[37] = -t121;
     const jg_real t122 = lambda[2] * A_i[2];
-    jac_phi_q_t_lambda_geometry[44] = t122;
-    jac_phi_q_t_lambda_geometry[38] = -t122;
     const jg_real t123 = A_i[2] * v_3_world_1 - A_i[1] * v_3_world_2;
     const jg_real t124 = lambda[2] * (A_i[2] * r_ij_world_1 - A_i[1] * r_ij_world_2) + t123;
     const jg_real t125 = A_i[0] * v_3_world_2 - A_i[2] * v_3_world_0;
     const jg_real t126 = lambda[2] * (A_i[0] * r_ij_world_2 - A_i[2] * r_ij_world_0) + t125;
     const jg_real t127 = A_i[1] * v_3_world_0 - A_i[0] * v_3_world_1;
     const jg_real t128 = lambda[2] * (A_i[1] * r_ij_world_0 - A_i[0] * r_ij_world_1) + t127;
+    jac_phi_q_t_lambda_geometry[36] = -t120;
+    jac_phi_q_t_lambda_geometry[43] = t121;
+    jac_phi_q_t_lambda_geometry[37] = -t121;
+    jac_phi_q_t_lambda_geometry[44] = t122;
+    jac_phi_q_t_lambda_geometry[38] = -t122;
     jac_phi_q_t_lambda_geometry[39] = -(A_i[0] * t124 + A_i[1] * t126 + A_i[2] * t128);
     jac_phi_q_t_lambda_geometry[40] = -(A_i[3] * t124 + A_i[4] * t126 + A_i[5] * t128);
     jac_phi_q_t_lambda_geometry[41] = -(A_i[6] * t124 + A_i[7] * t126 + A_i[8] * t128);
+    const jg_real t129 = A_i[3] * lambda[2];
+    const jg_real t130 = lambda[2] * A_i[4];
+    const jg_real t131 = lambda[2] * A_i[5];
     jac_phi_q_t_lambda_geometry[45] = A_j[0] * t123 + A_j[1] * t125 + A_j[2] * t127;
     jac_phi_q_t_lambda_geometry[46] = A_j[3] * t123 + A_j[4] * t125 + A_j[5] * t127;
     jac_phi_q_t_lambda_geometry[47] = A_j[6] * t123 + A_j[7] * t125 + A_j[8] * t127;
-    const jg_real t129 = A_i[3] * lambda[2];
     jac_phi_q_t_lambda_geometry[54] = t129;
     jac_phi_q_t_lambda_geometry[48] = -t129;
-    const jg_real t130 = lambda[2] * A_i[4];
     jac_phi_q_t_lambda_geometry[55] = t130;
     jac_phi_q_t_lambda_geometry[49] = -t130;
-    const jg_real t131 = lambda[2] * A_i[5];
     jac_phi_q_t_lambda_geometry[56] = t131;
-    jac_phi_q_t_lambda_geometry[50] = -t131;
     const jg_real t132 = A_i[5] * v_3_world_1 - A_i[4] * v_3_world_2;
     const jg_real t133 = lambda[2] * (A_i[5] * r_ij_world_1 - A_i[4] * r_ij_world_2) + t132;
     const jg_real t134 = A_i[3] * v_3_world_2 - A_i[5] * v_3_world_0;
     const jg_real t135 = lambda[2] * (A_i[3] * r_ij_world_2 - A_i[5] * r_ij_world_0) + t134;
     const jg_real t136 = A_i[4] * v_3_world_0 - A_i[3] * v_3_world_1;
     const jg_real t137 = lambda[2] * (A_i[4] * r_ij_world_0 - A_i[3] * r_ij_world_1) + t136;
+    const jg_real t138 = A_i[6] * lambda[2];
+    jac_phi_q_t_lambda_geometry[50] = -t131;
     jac_phi_q_t_lambda_geometry[51] = -(A_i[0] * t133 + A_i[1] * t135 + A_i[2] * t137);
     jac_phi_q_t_lambda_geometry[52] = -(A_i[3] * t133 + A_i[4] * t135 + A_i[5] * t137);
     jac_phi_q_t_lambda_geometry[53] = -(A_i[6] * t133 + A_i[7] * t135 + A_i[8] * t137);
     jac_phi_q_t_lambda_geometry[57] = A_j[0] * t132 + A_j[1] * t134 + A_j[2] * t136;
     jac_phi_q_t_lambda_geometry[58] = A_j[3] * t132 + A_j[4] * t134 + A_j[5] * t136;
     jac_phi_q_t_lambda_geometry[59] = A_j[6] * t132 + A_j[7] * t134 + A_j[8] * t136;
-    const jg_real t138 = A_i[6] * lambda[2];
     jac_phi_q_t_lambda_geometry[66] = t138;
-    jac_phi_q_t_lambda_geometry[60] = -t138;
     const jg_real t139 = lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_geometry[67] = t139;
-    jac_phi_q_t_lambda_geometry[61] = -t139;
     const jg_real t140 = lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_geometry[68] = t140;
-    jac_phi_q_t_lambda_geometry[62] = -t140;
     const jg_real t141 = A_i[8] * v_3_world_1 - A_i[7] * v_3_world_2;
     const jg_real t142 = lambda[2] * (A_i[8] * r_ij_world_1 - A_i[7] * r_ij_world_2) + t141;
     const jg_real t143 = A_i[6] * v_3_world_2 - A_i[8] * v_3_world_0;
     const jg_real t144 = lambda[2] * (A_i[6] * r_ij_world_2 - A_i[8] * r_ij_world_0) + t143;
     const jg_real t145 = A_i[7] * v_3_world_0 - A_i[6] * v_3_world_1;
     const jg_real t146 = lambda[2] * (A_i[7] * r_ij_world_0 - A_i[6] * r_ij_world_1) + t145;
+    jac_phi_q_t_lambda_geometry[60] = -t138;
+    jac_phi_q_t_lambda_geometry[67] = t139;
+    jac_phi_q_t_lambda_geometry[61] = -t139;
+    jac_phi_q_t_lambda_geometry[68] = t140;
+    jac_phi_q_t_lambda_geometry[62] = -t140;
     jac_phi_q_t_lambda_geometry[63] = -(A_i[0] * t142 + A_i[1] * t144 + A_i[2] * t146);
     jac_phi_q_t_lambda_geometry[64] = -(A_i[3] * t142 + A_i[4] * t144 + A_i[5] * t146);
     jac_phi_q_t_lambda_geometry[65] = -(A_i[6] * t142 + A_i[7] * t144 + A_i[8] * t146);
-    jac_phi_q_t_lambda_geometry[69] = A_j[0] * t141 + A_j[1] * t143 + A_j[2] * t145;
-    jac_phi_q_t_lambda_geometry[70] = A_j[3] * t141 + A_j[4] * t143 + A_j[5] * t145;
-    jac_phi_q_t_lambda_geometry[71] = A_j[6] * t141 + A_j[7] * t143 + A_j[8] * t145;
     const jg_real t147 = lambda[2] * A_j[1];
     const jg_real t148 = lambda[2] * A_j[2];
     const jg_real t149 = h_i_world_2 * t147 - h_i_world_1 * t148;
     const jg_real t150 = lambda[2] * A_j[0];
     const jg_real t151 = h_i_world_0 * t148 - h_i_world_2 * t150;
     const jg_real t152 = h_i_world_1 * t150 - h_i_world_0 * t147;
+    jac_phi_q_t_lambda_geometry[69] = A_j[0] * t141 + A_j[1] * t143 + A_j[2] * t145;
+    jac_phi_q_t_lambda_geometry[70] = A_j[3] * t141 + A_j[4] * t143 + A_j[5] * t145;
+    jac_phi_q_t_lambda_geometry[71] = A_j[6] * t141 + A_j[7] * t143 + A_j[8] * t145;
     jac_phi_q_t_lambda_geometry[72] = -(A_i[0] * t149 + A_i[1] * t151 + A_i[2] * t152);
     jac_phi_q_t_lambda_geometry[73] = -(A_i[3] * t149 + A_i[4] * t151 + A_i[5] * t152);
     jac_phi_q_t_lambda_geometry[74] = -(A_i[6] * t149 + A_i[7] * t151 + A_i[8] * t152);
     jac_phi_q_t_lambda_geometry[75] = A_j[0] * t149 + A_j[1] * t151 + A_j[2] * t152;
     jac_phi_q_t_lambda_geometry[76] = A_j[3] * t149 + A_j[4] * t151 + A_j[5] * t152;
-    jac_phi_q_t_lambda_geometry[77] = A_j[6] * t149 + A_j[7] * t151 + A_j[8] * t152;
     const jg_real t153 = lambda[2] * A_j[4];
     const jg_real t154 = lambda[2] * A_j[5];
     const jg_real t155 = h_i_world_2 * t153 - h_i_world_1 * t154;
     const jg_real t156 = lambda[2] * A_j[3];
     const jg_real t157 = h_i_world_0 * t154 - h_i_world_2 * t156;
     const jg_real t158 = h_i_world_1 * t156 - h_i_world_0 * t153;
-    jac_phi_q_t_lambda_geometry[78] = -(A_i[0] * t155 + A_i[1] * t157 + A_i[2] * t158);
-    jac_phi_q_t_lambda_geometry[79] = -(A_i[3] * t155 + A_i[4] * t157 + A_i[5] * t158);
-    jac_phi_q_t_lambda_geometry[80] = -(A_i[6] * t155 + A_i[7] * t157 + A_i[8] * t158);
-    jac_phi_q_t_lambda_geometry[81] = A_j[0] * t155 + A_j[1] * t157 + A_j[2] * t158;
-    jac_phi_q_t_lambda_geometry[82] = A_j[3] * t155 + A_j[4] * t157 + A_j[5] * t158;
-    jac_phi_q_t_lambda_geometry[83] = A_j[6] * t155 + A_j[7] * t157 + A_j[8] * t158;
     const jg_real t159 = lambda[2] * A_j[7];
     const jg_real t160 = lambda[2] * A_j[8];
     const jg_real t161 = h_i_world_2 * t159 - h_i_world_1 * t160;
     const jg_real t162 = lambda[2] * A_j[6];
     const jg_real t163 = h_i_world_0 * t160 - h_i_world_2 * t162;
     const jg_real t164 = h_i_world_1 * t162 - h_i_world_0 * t159;
+    jac_phi_q_t_lambda_geometry[77] = A_j[6] * t149 + A_j[7] * t151 + A_j[8] * t152;
+    jac_phi_q_t_lambda_geometry[78] = -(A_i[0] * t155 + A_i[1] * t157 + A_i[2] * t158);
+    jac_phi_q_t_lambda_geometry[79] = -(A_i[3] * t155 + A_i[4] * t157 + A_i[5] * t158);
+    jac_phi_q_t_lambda_geometry[80] = -(A_i[6] * t155 + A_i[7] * t157 + A_i[8] * t158);
+    jac_phi_q_t_lambda_geometry[81] = A_j[0] * t155 + A_j[1] * t157 + A_j[2] * t158;
+    jac_phi_q_t_lambda_geometry[82] = A_j[3] * t155 + A_j[4] * t157 + A_j[5] * t158;
+    jac_phi_q_t_lambda_geometry[83] = A_j[6] * t155 + A_j[7] * t157 + A_j[8] * t158;
     jac_phi_q_t_lambda_geometry[84] = -(A_i[0] * t161 + A_i[1] * t163 + A_i[2] * t164);
+    const jg_real t165 = A_j[2] * v_1_world_1 - A_j[1] * v_1_world_2;
+    const jg_real t166 = A_j[0] * v_1_world_2 - A_j[2] * v_1_world_0;
+    const jg_real t167 = A_j[1] * v_1_world_0 - v_1_world_1 * A_j[0];
     jac_phi_q_t_lambda_geometry[85] = -(A_i[3] * t161 + A_i[4] * t163 + A_i[5] * t164);
     jac_phi_q_t_lambda_geometry[86] = -(A_i[6] * t161 + A_i[7] * t163 + A_i[8] * t164);
     jac_phi_q_t_lambda_geometry[87] = A_j[0] * t161 + A_j[1] * t163 + A_j[2] * t164;
     jac_phi_q_t_lambda_geometry[88] = A_j[3] * t161 + A_j[4] * t163 + A_j[5] * t164;
     jac_phi_q_t_lambda_geometry[89] = A_j[6] * t161 + A_j[7] * t163 + A_j[8] * t164;
-    const jg_real t165 = A_j[2] * v_1_world_1 - A_j[1] * v_1_world_2;
-    const jg_real t166 = A_j[0] * v_1_world_2 - A_j[2] * v_1_world_0;
-    const jg_real t167 = A_j[1] * v_1_world_0 - A_j[0] * v_1_world_1;
     jac_phi_q_t_lambda_geometry[90] = A_i[0] * t165 + A_i[1] * t166 + A_i[2] * t167;
     jac_phi_q_t_lambda_geometry[91] = A_i[3] * t165 + A_i[4] * t166 + A_i[5] * t167;
     jac_phi_q_t_lambda_geometry[92] = A_i[6] * t165 + A_i[7] * t166 + A_i[8] * t167;
+    const jg_real t168 = A_j[5] * v_1_world_1 - A_j[4] * v_1_world_2;
+    const jg_real t169 = v_1_world_2 * A_j[3] - A_j[5] * v_1_world_0;
+    const jg_real t170 = A_j[4] * v_1_world_0 - v_1_world_1 * A_j[3];
     jac_phi_q_t_lambda_geometry[93] = -(A_j[0] * t165 + A_j[1] * t166 + A_j[2] * t167);
     jac_phi_q_t_lambda_geometry[94] = -(A_j[3] * t165 + A_j[4] * t166 + A_j[5] * t167);
     jac_phi_q_t_lambda_geometry[95] = -(A_j[6] * t165 + A_j[7] * t166 + A_j[8] * t167);
-    const jg_real t168 = A_j[5] * v_1_world_1 - A_j[4] * v_1_world_2;
-    const jg_real t169 = A_j[3] * v_1_world_2 - A_j[5] * v_1_world_0;
-    const jg_real t170 = A_j[4] * v_1_world_0 - A_j[3] * v_1_world_1;
     jac_phi_q_t_lambda_geometry[96] = A_i[0] * t168 + A_i[1] * t169 + A_i[2] * t170;
     jac_phi_q_t_lambda_geometry[97] = A_i[3] * t168 + A_i[4] * t169 + A_i[5] * t170;
     jac_phi_q_t_lambda_geometry[98] = A_i[6] * t168 + A_i[7] * t169 + A_i[8] * t170;
     jac_phi_q_t_lambda_geometry[99] = -(A_j[0] * t168 + A_j[1] * t169 + A_j[2] * t170);
     jac_phi_q_t_lambda_geometry[100] = -(A_j[3] * t168 + A_j[4] * t169 + A_j[5] * t170);
-    jac_phi_q_t_lambda_geometry[101] = -(A_j[6] * t168 + A_j[7] * t169 + A_j[8] * t170);
     const jg_real t171 = A_j[8] * v_1_world_1 - A_j[7] * v_1_world_2;
-    const jg_real t172 = A_j[6] * v_1_world_2 - A_j[8] * v_1_world_0;
-    const jg_real t173 = A_j[7] * v_1_world_0 - A_j[6] * v_1_world_1;
-    jac_phi_q_t_lambda_geometry[102] = A_i[0] * t171 + A_i[1] * t172 + A_i[2] * t173;
-    jac_phi_q_t_lambda_geometry[103] = A_i[3] * t171 + A_i[4] * t172 + A_i[5] * t173;
-    jac_phi_q_t_lambda_geometry[104] = A_i[6] * t171 + A_i[7] * t172 + A_i[8] * t173;
-    jac_phi_q_t_lambda_geometry[105] = -(A_j[0] * t171 + A_j[1] * t172 + A_j[2] * t173);
-    jac_phi_q_t_lambda_geometry[106] = -(A_j[3] * t171 + A_j[4] * t172 + A_j[5] * t173);
-    jac_phi_q_t_lambda_geometry[107] = -(A_j[6] * t171 + A_j[7] * t172 + A_j[8] * t173);
+    const jg_real t172 = v_1_world_2 * A_j[6] - A_j[8] * v_1_world_0;
+    const jg_real t173 = A_j[7] * v_1_world_0 - v_1_world_1 * A_j[6];
     const jg_real t174 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real t175 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real t176 = h_j_world_2 * t174 - h_j_world_1 * t175;
     const jg_real t177 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real t178 = t175 * h_j_world_0 - h_j_world_2 * t177;
     const jg_real t179 = h_j_world_1 * t177 - t174 * h_j_world_0;
+    jac_phi_q_t_lambda_geometry[101] = -(A_j[6] * t168 + A_j[7] * t169 + A_j[8] * t170);
+    jac_phi_q_t_lambda_geometry[102] = A_i[0] * t171 + A_i[1] * t172 + A_i[2] * t173;
+    jac_phi_q_t_lambda_geometry[103] = A_i[3] * t171 + A_i[4] * t172 + A_i[5] * t173;
+    jac_phi_q_t_lambda_geometry[104] = A_i[6] * t171 + A_i[7] * t172 + A_i[8] * t173;
+    jac_phi_q_t_lambda_geometry[105] = -(A_j[0] * t171 + A_j[1] * t172 + A_j[2] * t173);
+    jac_phi_q_t_lambda_geometry[106] = -(A_j[3] * t171 + A_j[4] * t172 + A_j[5] * t173);
+    jac_phi_q_t_lambda_geometry[107] = -(A_j[6] * t171 + A_j[7] * t172 + A_j[8] * t173);
     jac_phi_q_t_lambda_lambda[0] = A_i[0] * t176 + A_i[1] * t178 + A_i[2] * t179;
-    jac_phi_q_t_lambda_lambda[1] = A_i[3] * t176 + A_i[4] * t178 + A_i[5] * t179;
-    jac_phi_q_t_lambda_lambda[2] = A_i[6] * t176 + A_i[7] * t178 + A_i[8] * t179;
-    jac_phi_q_t_lambda_lambda[3] = -(A_j[0] * t176 + A_j[1] * t178 + A_j[2] * t179);
-    jac_phi_q_t_lambda_lambda[4] = -(A_j[3] * t176 + A_j[4] * t178 + A_j[5] * t179);
-    jac_phi_q_t_lambda_lambda[5] = -(A_j[6] * t176 + A_j[7] * t178 + A_j[8] * t179);
     const jg_real t180 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t181 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t182 = h_j_world_2 * t180 - h_j_world_1 * t181;
     const jg_real t183 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t184 = t181 * h_j_world_0 - h_j_world_2 * t183;
     const jg_real t185 = h_j_world_1 * t183 - t180 * h_j_world_0;
+    jac_phi_q_t_lambda_lambda[1] = A_i[3] * t176 + A_i[4] * t178 + A_i[5] * t179;
+    jac_phi_q_t_lambda_lambda[2] = A_i[6] * t176 + A_i[7] * t178 + A_i[8] * t179;
+    jac_phi_q_t_lambda_lambda[3] = -(A_j[0] * t176 + A_j[1] * t178 + A_j[2] * t179);
+    jac_phi_q_t_lambda_lambda[4] = -(A_j[3] * t176 + A_j[4] * t178 + A_j[5] * t179);
+    jac_phi_q_t_lambda_lambda[5] = -(A_j[6] * t176 + A_j[7] * t178 + A_j[8] * t179);
     jac_phi_q_t_lambda_lambda[6] = A_i[0] * t182 + A_i[1] * t184 + A_i[2] * t185;
     jac_phi_q_t_lambda_lambda[7] = A_i[3] * t182 + A_i[4] * t184 + A_i[5] * t185;
     jac_phi_q_t_lambda_lambda[8] = A_i[6] * t182 + A_i[7] * t184 + A_i[8] * t185;
-    jac_phi_q_t_lambda_lambda[9] = -(A_j[0] * t182 + A_j[1] * t184 + A_j[2] * t185);
-    jac_phi_q_t_lambda_lambda[10] = -(A_j[3] * t182 + A_j[4] * t184 + A_j[5] * t185);
-    jac_phi_q_t_lambda_lambda[11] = -(A_j[6] * t182 + A_j[7] * t184 + A_j[8] * t185);
-    jac_phi_q_t_lambda_lambda[12] = -h_i_world_0;
-    jac_phi_q_t_lambda_lambda[13] = -h_i_world_1;
-    jac_phi_q_t_lambda_lambda[14] = -h_i_world_2;
     const jg_real t186 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real t187 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
     const jg_real t188 = h_i_world_2 * t186 - h_i_world_1 * t187;
@@ -1324,6 +1317,12 @@ static void jg_planar_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t192 = r_ij_cross_h_i_world_1 + t191;
     const jg_real t193 = h_i_world_1 * t190 - h_i_world_0 * t186;
     const jg_real t194 = r_ij_cross_h_i_world_2 + t193;
+    jac_phi_q_t_lambda_lambda[9] = -(A_j[0] * t182 + A_j[1] * t184 + A_j[2] * t185);
+    jac_phi_q_t_lambda_lambda[10] = -(A_j[3] * t182 + A_j[4] * t184 + A_j[5] * t185);
+    jac_phi_q_t_lambda_lambda[11] = -(A_j[6] * t182 + A_j[7] * t184 + A_j[8] * t185);
+    jac_phi_q_t_lambda_lambda[12] = -h_i_world_0;
+    jac_phi_q_t_lambda_lambda[13] = -h_i_world_1;
+    jac_phi_q_t_lambda_lambda[14] = -h_i_world_2;
     jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t189 + A_i[1] * t192 + A_i[2] * t194);
     jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t189 + A_i[4] * t192 + A_i[5] * t194);
     jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t189 + A_i[7] * t192 + A_i[8] * t194);

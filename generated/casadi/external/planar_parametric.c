@@ -21,11 +21,9 @@
 #define JG_EXPORT
 #endif
 
-static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
-    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_alpha,
-    jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_planar_parametric_phi_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *jac_phi_r_i, jg_real *jac_phi_A_i,
+    jg_real *jac_phi_r_j, jg_real *jac_phi_A_j, jg_real *jac_phi_alpha, jg_real *jac_phi_geometry)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -46,17 +44,12 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_1_world = r_j - r_i, world axes */
     const jg_real v_1_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_1_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
@@ -69,7 +62,6 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[23] = f_j_in_i_2;
     const jg_real t11 = f_j_world_0 * g_j_in_i_2 - g_j_world_0 * f_j_in_i_2;
     jg_real sine_0;
     jg_real cosine_0;
@@ -77,91 +69,97 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[22] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real t17 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_geometry[23] = f_j_in_i_2;
+    jac_phi_geometry[22] = f_j_in_i_1;
     jac_phi_A_i[1] = -(t11 * g_star_in_i_1 + t17 * g_star_in_i_2);
-    jac_phi_A_i[2] = f_j_world_0 * C_i[6];
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_1_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_1_world_1 + s_j_world_1;
+    const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
+    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
+    jac_phi_A_i[2] = f_j_world_0 * C_i[6];
+    jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
-    const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(t23 * g_star_in_i_1 + t24 * g_star_in_i_2);
     jac_phi_A_i[6] = f_j_world_1 * C_i[6];
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_1_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_1_world_2 + s_j_world_2;
-    jac_phi_A_i[8] = e_ij_world_2;
-    jac_phi_A_i[20] = e_ij_world_2;
-    jac_phi_A_i[32] = e_ij_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t29 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
-    jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
-    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
-    jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
+    const jg_real t29 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[21] = f_j_in_i_0;
     const jg_real t33 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
+    jac_phi_A_i[8] = e_ij_world_2;
+    jac_phi_A_i[20] = e_ij_world_2;
+    jac_phi_A_i[32] = e_ij_world_2;
+    jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
+    jac_phi_A_i[10] = f_j_world_2 * C_i[6];
+    jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
+    jac_phi_geometry[21] = f_j_in_i_0;
     jac_phi_A_i[13] = t11 * g_star_in_i_0 - t33 * g_star_in_i_2;
-    jac_phi_A_i[14] = f_j_world_0 * C_i[7];
     const jg_real f_star_in_i_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     const jg_real t35 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
+    const jg_real t36 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
+    jac_phi_A_i[14] = f_j_world_0 * C_i[7];
+    jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     jac_phi_A_i[17] = t23 * g_star_in_i_0 - t35 * g_star_in_i_2;
     jac_phi_A_i[18] = f_j_world_1 * C_i[7];
     jac_phi_A_i[19] = g_j_world_1 * f_star_in_i_1;
-    const jg_real t36 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
     jac_phi_A_i[21] = t28 * g_star_in_i_0 - t36 * g_star_in_i_2;
-    jac_phi_A_i[22] = C_i[7] * f_j_world_2;
+    jac_phi_A_i[22] = f_j_world_2 * C_i[7];
     jac_phi_A_i[23] = g_j_world_2 * f_star_in_i_1;
+    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[25] = t17 * g_star_in_i_0 + t33 * g_star_in_i_1;
     jac_phi_A_i[26] = f_j_world_0 * C_i[8];
-    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[27] = g_j_world_0 * f_star_in_i_2;
     jac_phi_A_i[29] = t24 * g_star_in_i_0 + t35 * g_star_in_i_1;
     jac_phi_A_i[30] = f_j_world_1 * C_i[8];
     jac_phi_A_i[31] = g_j_world_1 * f_star_in_i_2;
     jac_phi_A_i[33] = t29 * g_star_in_i_0 + t36 * g_star_in_i_1;
-    jac_phi_A_i[34] = C_i[8] * f_j_world_2;
-    jac_phi_A_i[35] = g_j_world_2 * f_star_in_i_2;
-    jac_phi_A_j[0] = s_j[0] * A_i[0];
-    jac_phi_A_j[1] = s_j[0] * A_i[3];
-    jac_phi_A_j[2] = s_j[0] * A_i[6];
+    jac_phi_A_i[34] = f_j_world_2 * C_i[8];
     const jg_real t38 = A_i[3] * C_j[0];
     const jg_real t39 = A_i[6] * C_j[3];
     const jg_real t40 = A_i[6] * C_j[0];
     const jg_real t41 = A_i[3] * C_j[3];
     const jg_real t42 = A_i[0] * C_j[3];
     const jg_real t43 = A_i[0] * C_j[0];
+    jac_phi_A_i[35] = g_j_world_2 * f_star_in_i_2;
+    jac_phi_A_j[0] = s_j[0] * A_i[0];
+    jac_phi_A_j[1] = s_j[0] * A_i[3];
+    jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = (t38 * g_j_in_i_2 + t39 * f_j_in_i_1 - (t40 * g_j_in_i_1 + t41 * f_j_in_i_2)) * g_star_in_i_0 +
         (t40 * g_j_in_i_0 + t42 * f_j_in_i_2 - (t43 * g_j_in_i_2 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (t43 *
         g_j_in_i_1 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + t42 * f_j_in_i_1)) * g_star_in_i_2;
-    jac_phi_A_j[4] = C_i[7] * t38 + C_i[6] * t43 + C_i[8] * t40;
+    jac_phi_A_j[4] = t38 * C_i[7] + t43 * C_i[6] + t40 * C_i[8];
     jac_phi_A_j[5] = t42 * f_star_in_i_0 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
-    jac_phi_A_j[7] = s_j[0] * A_i[4];
-    jac_phi_A_j[8] = s_j[0] * A_i[7];
     const jg_real t44 = A_i[4] * C_j[0];
     const jg_real t45 = A_i[7] * C_j[3];
     const jg_real t46 = A_i[7] * C_j[0];
     const jg_real t47 = A_i[4] * C_j[3];
     const jg_real t48 = A_i[1] * C_j[3];
     const jg_real t49 = A_i[1] * C_j[0];
-    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + t45 * f_j_in_i_1 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
+    jac_phi_A_j[7] = s_j[0] * A_i[4];
+    jac_phi_A_j[8] = s_j[0] * A_i[7];
+    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + f_j_in_i_1 * t45 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
         (t46 * g_j_in_i_0 + t48 * f_j_in_i_2 - (t49 * g_j_in_i_2 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (t49 *
         g_j_in_i_1 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + f_j_in_i_1 * t48)) * g_star_in_i_2;
-    jac_phi_A_j[10] = C_i[7] * t44 + C_i[6] * t49 + C_i[8] * t46;
+    jac_phi_A_j[10] = t44 * C_i[7] + t49 * C_i[6] + t46 * C_i[8];
     jac_phi_A_j[11] = t48 * f_star_in_i_0 + t47 * f_star_in_i_1 + t45 * f_star_in_i_2;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
@@ -172,52 +170,52 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     const jg_real t53 = A_i[5] * C_j[3];
     const jg_real t54 = A_i[2] * C_j[3];
     const jg_real t55 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + t51 * f_j_in_i_1 - (t52 * g_j_in_i_1 + t53 * f_j_in_i_2)) * g_star_in_i_0
-        + (t52 * g_j_in_i_0 + t54 * f_j_in_i_2 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
-        g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + f_j_in_i_1 * t54)) * g_star_in_i_2;
-    jac_phi_A_j[16] = C_i[7] * t50 + C_i[6] * t55 + C_i[8] * t52;
-    jac_phi_A_j[17] = t54 * f_star_in_i_0 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
-    jac_phi_A_j[18] = s_j[1] * A_i[0];
-    jac_phi_A_j[19] = s_j[1] * A_i[3];
-    jac_phi_A_j[20] = s_j[1] * A_i[6];
     const jg_real t56 = A_i[3] * C_j[1];
     const jg_real t57 = A_i[6] * C_j[4];
     const jg_real t58 = A_i[6] * C_j[1];
     const jg_real t59 = A_i[3] * C_j[4];
     const jg_real t60 = A_i[0] * C_j[4];
     const jg_real t61 = A_i[0] * C_j[1];
+    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + f_j_in_i_1 * t51 - (t52 * g_j_in_i_1 + f_j_in_i_2 * t53)) * g_star_in_i_0
+        + (t52 * g_j_in_i_0 + f_j_in_i_2 * t54 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
+        g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + f_j_in_i_1 * t54)) * g_star_in_i_2;
+    jac_phi_A_j[16] = t50 * C_i[7] + t55 * C_i[6] + t52 * C_i[8];
+    jac_phi_A_j[17] = t54 * f_star_in_i_0 + t53 * f_star_in_i_1 + t51 * f_star_in_i_2;
+    jac_phi_A_j[18] = s_j[1] * A_i[0];
+    jac_phi_A_j[19] = s_j[1] * A_i[3];
+    jac_phi_A_j[20] = s_j[1] * A_i[6];
     jac_phi_A_j[21] = (t56 * g_j_in_i_2 + t57 * f_j_in_i_1 - (t58 * g_j_in_i_1 + t59 * f_j_in_i_2)) * g_star_in_i_0
         + (t58 * g_j_in_i_0 + t60 * f_j_in_i_2 - (t61 * g_j_in_i_2 + t57 * f_j_in_i_0)) * g_star_in_i_1 + (t61 *
         g_j_in_i_1 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + t60 * f_j_in_i_1)) * g_star_in_i_2;
-    jac_phi_A_j[22] = C_i[7] * t56 + C_i[6] * t61 + C_i[8] * t58;
-    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
-    jac_phi_A_j[24] = s_j[1] * A_i[1];
-    jac_phi_A_j[25] = s_j[1] * A_i[4];
-    jac_phi_A_j[26] = s_j[1] * A_i[7];
+    jac_phi_A_j[22] = t56 * C_i[7] + t61 * C_i[6] + t58 * C_i[8];
     const jg_real t62 = A_i[4] * C_j[1];
     const jg_real t63 = A_i[7] * C_j[4];
     const jg_real t64 = A_i[7] * C_j[1];
     const jg_real t65 = A_i[4] * C_j[4];
     const jg_real t66 = A_i[1] * C_j[4];
     const jg_real t67 = A_i[1] * C_j[1];
-    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + t63 * f_j_in_i_1 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
+    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
+    jac_phi_A_j[24] = s_j[1] * A_i[1];
+    jac_phi_A_j[25] = s_j[1] * A_i[4];
+    jac_phi_A_j[26] = s_j[1] * A_i[7];
+    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + f_j_in_i_1 * t63 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
         + (t64 * g_j_in_i_0 + t66 * f_j_in_i_2 - (t67 * g_j_in_i_2 + t63 * f_j_in_i_0)) * g_star_in_i_1 + (t67 *
         g_j_in_i_1 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + f_j_in_i_1 * t66)) * g_star_in_i_2;
-    jac_phi_A_j[28] = C_i[7] * t62 + C_i[6] * t67 + C_i[8] * t64;
+    jac_phi_A_j[28] = t62 * C_i[7] + t67 * C_i[6] + t64 * C_i[8];
     jac_phi_A_j[29] = t66 * f_star_in_i_0 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
-    jac_phi_A_j[31] = s_j[1] * A_i[5];
-    jac_phi_A_j[32] = s_j[1] * A_i[8];
     const jg_real t68 = A_i[5] * C_j[1];
     const jg_real t69 = A_i[8] * C_j[4];
     const jg_real t70 = A_i[8] * C_j[1];
     const jg_real t71 = A_i[5] * C_j[4];
     const jg_real t72 = A_i[2] * C_j[4];
     const jg_real t73 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + t69 * f_j_in_i_1 - (t70 * g_j_in_i_1 + t71 * f_j_in_i_2)) * g_star_in_i_0
-        + (t70 * g_j_in_i_0 + t72 * f_j_in_i_2 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
+    jac_phi_A_j[31] = s_j[1] * A_i[5];
+    jac_phi_A_j[32] = s_j[1] * A_i[8];
+    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + f_j_in_i_1 * t69 - (t70 * g_j_in_i_1 + f_j_in_i_2 * t71)) * g_star_in_i_0
+        + (t70 * g_j_in_i_0 + f_j_in_i_2 * t72 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
         g_j_in_i_1 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + f_j_in_i_1 * t72)) * g_star_in_i_2;
-    jac_phi_A_j[34] = C_i[7] * t68 + C_i[6] * t73 + C_i[8] * t70;
+    jac_phi_A_j[34] = t68 * C_i[7] + t73 * C_i[6] + t70 * C_i[8];
     jac_phi_A_j[35] = t72 * f_star_in_i_0 + t71 * f_star_in_i_1 + t69 * f_star_in_i_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
@@ -228,49 +226,49 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     const jg_real t77 = A_i[3] * C_j[5];
     const jg_real t78 = A_i[0] * C_j[5];
     const jg_real t79 = A_i[0] * C_j[2];
-    jac_phi_A_j[39] = (t74 * g_j_in_i_2 + t75 * f_j_in_i_1 - (t76 * g_j_in_i_1 + t77 * f_j_in_i_2)) * g_star_in_i_0
-        + (t76 * g_j_in_i_0 + t78 * f_j_in_i_2 - (t79 * g_j_in_i_2 + t75 * f_j_in_i_0)) * g_star_in_i_1 + (t79 *
-        g_j_in_i_1 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + t78 * f_j_in_i_1)) * g_star_in_i_2;
-    jac_phi_A_j[40] = C_i[7] * t74 + C_i[6] * t79 + C_i[8] * t76;
-    jac_phi_A_j[41] = t78 * f_star_in_i_0 + t77 * f_star_in_i_1 + t75 * f_star_in_i_2;
-    jac_phi_A_j[42] = s_j[2] * A_i[1];
-    jac_phi_A_j[43] = s_j[2] * A_i[4];
-    jac_phi_A_j[44] = s_j[2] * A_i[7];
     const jg_real t80 = A_i[4] * C_j[2];
     const jg_real t81 = A_i[7] * C_j[5];
     const jg_real t82 = A_i[7] * C_j[2];
     const jg_real t83 = A_i[4] * C_j[5];
     const jg_real t84 = A_i[1] * C_j[5];
     const jg_real t85 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + t81 * f_j_in_i_1 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
+    jac_phi_A_j[39] = (t74 * g_j_in_i_2 + t75 * f_j_in_i_1 - (t76 * g_j_in_i_1 + t77 * f_j_in_i_2)) * g_star_in_i_0
+        + (t76 * g_j_in_i_0 + t78 * f_j_in_i_2 - (t79 * g_j_in_i_2 + t75 * f_j_in_i_0)) * g_star_in_i_1 + (t79 *
+        g_j_in_i_1 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + t78 * f_j_in_i_1)) * g_star_in_i_2;
+    jac_phi_A_j[40] = t74 * C_i[7] + t79 * C_i[6] + t76 * C_i[8];
+    jac_phi_A_j[41] = t78 * f_star_in_i_0 + t77 * f_star_in_i_1 + t75 * f_star_in_i_2;
+    jac_phi_A_j[42] = s_j[2] * A_i[1];
+    jac_phi_A_j[43] = s_j[2] * A_i[4];
+    jac_phi_A_j[44] = s_j[2] * A_i[7];
+    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + f_j_in_i_1 * t81 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
         + (t82 * g_j_in_i_0 + t84 * f_j_in_i_2 - (t85 * g_j_in_i_2 + t81 * f_j_in_i_0)) * g_star_in_i_1 + (t85 *
         g_j_in_i_1 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + f_j_in_i_1 * t84)) * g_star_in_i_2;
-    jac_phi_A_j[46] = C_i[7] * t80 + C_i[6] * t85 + C_i[8] * t82;
-    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
-    jac_phi_A_j[48] = s_j[2] * A_i[2];
-    jac_phi_A_j[49] = s_j[2] * A_i[5];
-    jac_phi_A_j[50] = s_j[2] * A_i[8];
+    jac_phi_A_j[46] = t80 * C_i[7] + t85 * C_i[6] + t82 * C_i[8];
     const jg_real t86 = A_i[5] * C_j[2];
     const jg_real t87 = A_i[8] * C_j[5];
     const jg_real t88 = A_i[8] * C_j[2];
     const jg_real t89 = A_i[5] * C_j[5];
     const jg_real t90 = A_i[2] * C_j[5];
     const jg_real t91 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + t87 * f_j_in_i_1 - (t88 * g_j_in_i_1 + t89 * f_j_in_i_2)) * g_star_in_i_0
-        + (t88 * g_j_in_i_0 + t90 * f_j_in_i_2 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
+    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
+    jac_phi_A_j[48] = s_j[2] * A_i[2];
+    jac_phi_A_j[49] = s_j[2] * A_i[5];
+    jac_phi_A_j[50] = s_j[2] * A_i[8];
+    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + f_j_in_i_1 * t87 - (t88 * g_j_in_i_1 + f_j_in_i_2 * t89)) * g_star_in_i_0
+        + (t88 * g_j_in_i_0 + f_j_in_i_2 * t90 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
         g_j_in_i_1 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + f_j_in_i_1 * t90)) * g_star_in_i_2;
-    jac_phi_A_j[52] = C_i[7] * t86 + C_i[6] * t91 + C_i[8] * t88;
+    jac_phi_A_j[52] = t86 * C_i[7] + t91 * C_i[6] + t88 * C_i[8];
     jac_phi_A_j[53] = t90 * f_star_in_i_0 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
     jac_phi_alpha[0] = -C_i[0];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
+    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     jac_phi_alpha[1] = -C_i[1];
     jac_phi_alpha[2] = -C_i[2];
     jac_phi_alpha[3] = -C_i[3];
     jac_phi_alpha[4] = -C_i[4];
     jac_phi_alpha[5] = -C_i[5];
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
     jac_phi_alpha[6] = -(h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 * f_star_in_i_2);
     jac_phi_alpha[7] = g_j_in_i_0 * g_star_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
     jac_phi_geometry[0] = JG_REAL(-1.0);
@@ -285,8 +283,8 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jac_phi_geometry[7] = -(h_j_in_i_1 * sine_0);
     jac_phi_geometry[8] = g_j_in_i_1 * cosine_0;
     jac_phi_geometry[10] = -(h_j_in_i_2 * sine_0);
-    jac_phi_geometry[11] = g_j_in_i_2 * cosine_0;
     const jg_real t96 = -alpha[1];
+    jac_phi_geometry[11] = g_j_in_i_2 * cosine_0;
     jac_phi_geometry[12] = t96;
     jac_phi_geometry[15] = t96;
     jac_phi_geometry[18] = t96;
@@ -294,35 +292,35 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jac_phi_geometry[14] = g_j_in_i_0 * sine_0;
     jac_phi_geometry[16] = h_j_in_i_1 * cosine_0;
     jac_phi_geometry[17] = g_j_in_i_1 * sine_0;
+    const jg_real t97 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t98 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real t99 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real t100 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real t101 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    const jg_real t102 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[19] = h_j_in_i_2 * cosine_0;
     jac_phi_geometry[20] = g_j_in_i_2 * sine_0;
-    const jg_real t97 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[24] = t97;
-    const jg_real t98 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[25] = t98;
-    const jg_real t99 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_geometry[26] = t99;
-    const jg_real t100 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     jac_phi_geometry[27] = t100;
-    const jg_real t101 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     jac_phi_geometry[28] = t101;
-    const jg_real t102 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[29] = t102;
     const jg_real t103 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_geometry[30] = t103;
     const jg_real t104 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[31] = t104;
     const jg_real t105 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[30] = t103;
+    jac_phi_geometry[31] = t104;
     jac_phi_geometry[32] = t105;
     jac_phi_geometry[33] = (t98 * g_j_in_i_2 - t99 * g_j_in_i_1) * g_star_in_i_0 + (t99 * g_j_in_i_0 - t97 *
         g_j_in_i_2) * g_star_in_i_1 + (t97 * g_j_in_i_1 - t98 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[34] = C_i[7] * t98 + C_i[6] * t97 + C_i[8] * t99;
+    jac_phi_geometry[34] = t98 * C_i[7] + t97 * C_i[6] + t99 * C_i[8];
     jac_phi_geometry[35] = (t101 * g_j_in_i_2 - t102 * g_j_in_i_1) * g_star_in_i_0 + (t102 * g_j_in_i_0 - t100 *
         g_j_in_i_2) * g_star_in_i_1 + (t100 * g_j_in_i_1 - t101 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[36] = C_i[7] * t101 + C_i[6] * t100 + C_i[8] * t102;
+    jac_phi_geometry[36] = t101 * C_i[7] + t100 * C_i[6] + t102 * C_i[8];
     jac_phi_geometry[37] = (t104 * g_j_in_i_2 - t105 * g_j_in_i_1) * g_star_in_i_0 + (t105 * g_j_in_i_0 - t103 *
         g_j_in_i_2) * g_star_in_i_1 + (t103 * g_j_in_i_1 - t104 * g_j_in_i_0) * g_star_in_i_2;
-    jac_phi_geometry[38] = C_i[7] * t104 + C_i[6] * t103 + C_i[8] * t105;
+    jac_phi_geometry[38] = t104 * C_i[7] + t103 * C_i[6] + t105 * C_i[8];
     jac_phi_geometry[39] = (t99 * f_j_in_i_1 - t98 * f_j_in_i_2) * g_star_in_i_0 + (t97 * f_j_in_i_2 - t99 *
         f_j_in_i_0) * g_star_in_i_1 + (t98 * f_j_in_i_0 - t97 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[40] = t97 * f_star_in_i_0 + t98 * f_star_in_i_1 + t99 * f_star_in_i_2;
@@ -334,12 +332,10 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, co
     jac_phi_geometry[44] = t103 * f_star_in_i_0 + t104 * f_star_in_i_1 + t105 * f_star_in_i_2;
 }
 
-static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_alpha,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *jac_phi_q_v_r_i, jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j,
+    jg_real *jac_phi_q_v_alpha, jg_real *jac_phi_q_v_geometry, jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -351,63 +347,60 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real *const alphadot = velocity + 12;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
+    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -423,7 +416,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[0] * A_ji_0 + v_i[1] * A_ji_3 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
@@ -437,25 +430,21 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[0] * A_ji_1 + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real t56 = A_j[3] * v_3_in_j_1;
     const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - e_ij_in_j_0 * t44 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
     const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = e_ij_in_j_0 * t46 - e_ij_in_j_1 * t57 - (A_j[6] * v_i[0] + v_i[1] * t43);
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
@@ -478,25 +467,32 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
     const jg_real t82 = C_j[7] * t79 - C_j[6] * t74;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
-    const jg_real t84 = A_j[6] * C_i[6] + t43 * C_i[7];
-    const jg_real h_star_in_j_1 = A_ji_1 * C_i[6] + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
-    const jg_real t86 = A_j[3] * C_i[6] + t45 * C_i[7];
+    const jg_real h_star_in_j_2 = A_ji_5 * C_i[7] + A_ji_2 * C_i[6] + A_ji_8 * C_i[8];
+    const jg_real t84 = t43 * C_i[7] + A_j[6] * C_i[6];
+    const jg_real h_star_in_j_1 = A_ji_4 * C_i[7] + A_ji_1 * C_i[6] + A_ji_7 * C_i[8];
+    const jg_real t86 = t45 * C_i[7] + A_j[3] * C_i[6];
     const jg_real t87 = h_star_in_j_2 * t74 + t84 * g_star_in_j_1 - (h_star_in_j_1 * t75 + t86 * g_star_in_j_2);
-    const jg_real h_star_in_j_0 = A_ji_0 * C_i[6] + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
-    const jg_real t89 = A_j[0] * C_i[6] + t47 * C_i[7];
+    const jg_real h_star_in_j_0 = A_ji_3 * C_i[7] + A_ji_0 * C_i[6] + A_ji_6 * C_i[8];
+    const jg_real t89 = t47 * C_i[7] + A_j[0] * C_i[6];
     const jg_real t90 = h_star_in_j_0 * t75 + t89 * g_star_in_j_2 - (h_star_in_j_2 * t79 + t84 * g_star_in_j_0);
     const jg_real t91 = h_star_in_j_1 * t79 + t86 * g_star_in_j_0 - (h_star_in_j_0 * t74 + t89 * g_star_in_j_1);
+    /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
+    const jg_real h_star_cross_f_j_in_j_0 = C_j[2] * h_star_in_j_1 - C_j[1] * h_star_in_j_2;
+    const jg_real t93 = t86 * C_j[2] - t84 * C_j[1];
+    const jg_real h_star_cross_f_j_in_j_1 = C_j[0] * h_star_in_j_2 - C_j[2] * h_star_in_j_0;
+    const jg_real t95 = t84 * C_j[0] - C_j[2] * t89;
+    const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - C_j[0] * h_star_in_j_1;
+    const jg_real t97 = C_j[1] * t89 - t86 * C_j[0];
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
+    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
+        A_ji_4 * t58));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
     jac_phi_q_v_A_i[3] = t44 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t82 + (t57 * g_star_cross_h_j_in_j_0 +
         omega_i_in_j_0 * t76 + (t46 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t80)) - alphadot[2] * (C_j[6] * t87
         + C_j[7] * t90 + C_j[8] * t91) - (omega_j[0] * t76 + omega_j[1] * t80 + omega_j[2] * t82);
-    /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
-    const jg_real h_star_cross_f_j_in_j_0 = C_j[2] * h_star_in_j_1 - C_j[1] * h_star_in_j_2;
-    const jg_real t93 = C_j[2] * t86 - C_j[1] * t84;
-    const jg_real h_star_cross_f_j_in_j_1 = C_j[0] * h_star_in_j_2 - C_j[2] * h_star_in_j_0;
-    const jg_real t95 = C_j[0] * t84 - C_j[2] * t89;
-    const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - C_j[0] * h_star_in_j_1;
-    const jg_real t97 = C_j[1] * t89 - C_j[0] * t86;
     jac_phi_q_v_A_i[4] = t44 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t97 + (t57 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t93 + (t46 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t95)) - (omega_j[0] * t93 +
         omega_j[1] * t95 + omega_j[2] * t97);
@@ -511,9 +507,6 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t104 = C_j[3] * t91 - C_j[5] * t87;
     const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
     const jg_real t106 = C_j[4] * t87 - C_j[3] * t90;
-    jac_phi_q_v_A_i[5] = t44 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t106 + (t57 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t101 + (t46 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t104)) + alphadot[2] * (C_j[3] *
-        t79 + C_j[4] * t74 + C_j[5] * t75) - (omega_j[0] * t101 + omega_j[1] * t104 + omega_j[2] * t106);
     const jg_real t107 = A_j[1] * v_3_in_j_0;
     const jg_real t108 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t109 = A_j[7] * omega_i[0] + omega_i[1] * t108;
@@ -523,43 +516,30 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t113 = e_ij_in_j_1 * t109 - e_ij_in_j_2 * t111 - (A_j[1] * v_i[0] + v_i[1] * t112);
     const jg_real t114 = A_j[4] * v_3_in_j_1;
     const jg_real t115 = A_j[1] * omega_i[0] + omega_i[1] * t112;
-    const jg_real t116 = e_ij_in_j_2 * t115 - e_ij_in_j_0 * t109 - (A_j[4] * v_i[0] + v_i[1] * t110);
+    const jg_real t116 = e_ij_in_j_2 * t115 - t109 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t110);
     const jg_real t117 = A_j[7] * v_3_in_j_2;
-    const jg_real t118 = e_ij_in_j_0 * t111 - e_ij_in_j_1 * t115 - (A_j[7] * v_i[0] + v_i[1] * t108);
-    jac_phi_q_v_A_i[6] = t117 + A_ji_2 * t118 + (t107 + A_ji_0 * t113 + (t114 + A_ji_1 * t116));
-    jac_phi_q_v_A_i[7] = t108 * v_3_in_j_2 + A_ji_5 * t118 + (t112 * v_3_in_j_0 + A_ji_3 * t113 + (t110 * v_3_in_j_1
-        + A_ji_4 * t116));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t113 + A_ji_7 * t116 + A_ji_8 * t118;
+    const jg_real t118 = t111 * e_ij_in_j_0 - e_ij_in_j_1 * t115 - (v_i[1] * t108 + A_j[7] * v_i[0]);
     const jg_real t119 = t110 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
     const jg_real t120 = t108 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
     const jg_real t121 = C_j[8] * t119 - C_j[7] * t120;
     const jg_real t122 = t112 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
     const jg_real t123 = C_j[6] * t120 - C_j[8] * t122;
     const jg_real t124 = C_j[7] * t122 - C_j[6] * t119;
-    const jg_real t125 = A_j[7] * C_i[6] + t108 * C_i[7];
-    const jg_real t126 = A_j[4] * C_i[6] + t110 * C_i[7];
+    const jg_real t125 = t108 * C_i[7] + A_j[7] * C_i[6];
+    const jg_real t126 = t110 * C_i[7] + A_j[4] * C_i[6];
     const jg_real t127 = h_star_in_j_2 * t119 + t125 * g_star_in_j_1 - (h_star_in_j_1 * t120 + t126 *
         g_star_in_j_2);
-    const jg_real t128 = A_j[1] * C_i[6] + t112 * C_i[7];
+    const jg_real t128 = t112 * C_i[7] + A_j[1] * C_i[6];
     const jg_real t129 = h_star_in_j_0 * t120 + t128 * g_star_in_j_2 - (h_star_in_j_2 * t122 + t125 *
         g_star_in_j_0);
     const jg_real t130 = h_star_in_j_1 * t122 + t126 * g_star_in_j_0 - (h_star_in_j_0 * t119 + t128 *
         g_star_in_j_1);
-    jac_phi_q_v_A_i[9] = t109 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t124 + (t115 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t121 + (t111 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t123)) - alphadot[2] * (C_j[6] *
-        t127 + C_j[7] * t129 + C_j[8] * t130) - (omega_j[0] * t121 + omega_j[1] * t123 + omega_j[2] * t124);
-    const jg_real t131 = C_j[2] * t126 - C_j[1] * t125;
-    const jg_real t132 = C_j[0] * t125 - C_j[2] * t128;
-    const jg_real t133 = C_j[1] * t128 - C_j[0] * t126;
-    jac_phi_q_v_A_i[10] = t109 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t133 + (t115 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t131 + (t111 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t132)) - (omega_j[0] * t131 +
-        omega_j[1] * t132 + omega_j[2] * t133);
+    const jg_real t131 = t126 * C_j[2] - t125 * C_j[1];
+    const jg_real t132 = t125 * C_j[0] - C_j[2] * t128;
+    const jg_real t133 = C_j[1] * t128 - t126 * C_j[0];
     const jg_real t134 = C_j[5] * t129 - C_j[4] * t130;
     const jg_real t135 = C_j[3] * t130 - C_j[5] * t127;
     const jg_real t136 = C_j[4] * t127 - C_j[3] * t129;
-    jac_phi_q_v_A_i[11] = t109 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t136 + (t115 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t134 + (t111 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t135)) + alphadot[2] * (C_j[3] *
-        t122 + C_j[4] * t119 + C_j[5] * t120) - (omega_j[0] * t134 + omega_j[1] * t135 + omega_j[2] * t136);
     const jg_real t137 = A_j[2] * v_3_in_j_0;
     const jg_real t138 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t139 = A_j[8] * omega_i[0] + omega_i[1] * t138;
@@ -569,43 +549,47 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t143 = e_ij_in_j_1 * t139 - e_ij_in_j_2 * t141 - (A_j[2] * v_i[0] + v_i[1] * t142);
     const jg_real t144 = A_j[5] * v_3_in_j_1;
     const jg_real t145 = A_j[2] * omega_i[0] + omega_i[1] * t142;
-    const jg_real t146 = e_ij_in_j_2 * t145 - e_ij_in_j_0 * t139 - (A_j[5] * v_i[0] + v_i[1] * t140);
+    const jg_real t146 = e_ij_in_j_2 * t145 - t139 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t140);
     const jg_real t147 = A_j[8] * v_3_in_j_2;
-    const jg_real t148 = e_ij_in_j_0 * t141 - e_ij_in_j_1 * t145 - (A_j[8] * v_i[0] + v_i[1] * t138);
+    const jg_real t148 = t141 * e_ij_in_j_0 - e_ij_in_j_1 * t145 - (v_i[1] * t138 + A_j[8] * v_i[0]);
+    jac_phi_q_v_A_i[5] = t44 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t106 + (t57 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t101 + (t46 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t104)) + alphadot[2] * (C_j[3] *
+        t79 + C_j[4] * t74 + C_j[5] * t75) - (omega_j[0] * t101 + omega_j[1] * t104 + omega_j[2] * t106);
+    jac_phi_q_v_A_i[6] = t117 + A_ji_2 * t118 + (t107 + A_ji_0 * t113 + (t114 + A_ji_1 * t116));
+    jac_phi_q_v_A_i[7] = t108 * v_3_in_j_2 + A_ji_5 * t118 + (t112 * v_3_in_j_0 + A_ji_3 * t113 + (t110 * v_3_in_j_1
+        + A_ji_4 * t116));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t113 + A_ji_7 * t116 + A_ji_8 * t118;
+    jac_phi_q_v_A_i[9] = t109 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t124 + (t115 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t121 + (t111 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t123)) - alphadot[2] * (C_j[6] *
+        t127 + C_j[7] * t129 + C_j[8] * t130) - (omega_j[0] * t121 + omega_j[1] * t123 + omega_j[2] * t124);
+    jac_phi_q_v_A_i[10] = t109 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t133 + (t115 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t131 + (t111 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t132)) - (omega_j[0] * t131 +
+        omega_j[1] * t132 + omega_j[2] * t133);
+    jac_phi_q_v_A_i[11] = t109 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t136 + (t115 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t134 + (t111 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t135)) + alphadot[2] * (C_j[3] *
+        t122 + C_j[4] * t119 + C_j[5] * t120) - (omega_j[0] * t134 + omega_j[1] * t135 + omega_j[2] * t136);
     jac_phi_q_v_A_i[12] = t147 + A_ji_2 * t148 + (t137 + A_ji_0 * t143 + (t144 + A_ji_1 * t146));
-    jac_phi_q_v_A_i[13] = t138 * v_3_in_j_2 + A_ji_5 * t148 + (t142 * v_3_in_j_0 + A_ji_3 * t143 + (t140 *
-        v_3_in_j_1 + A_ji_4 * t146));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t143 + A_ji_7 * t146 + A_ji_8 * t148;
     const jg_real t149 = t140 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
     const jg_real t150 = t138 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
     const jg_real t151 = C_j[8] * t149 - C_j[7] * t150;
     const jg_real t152 = t142 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
     const jg_real t153 = C_j[6] * t150 - C_j[8] * t152;
     const jg_real t154 = C_j[7] * t152 - C_j[6] * t149;
-    const jg_real t155 = A_j[8] * C_i[6] + t138 * C_i[7];
-    const jg_real t156 = A_j[5] * C_i[6] + t140 * C_i[7];
+    const jg_real t155 = t138 * C_i[7] + A_j[8] * C_i[6];
+    const jg_real t156 = t140 * C_i[7] + A_j[5] * C_i[6];
     const jg_real t157 = h_star_in_j_2 * t149 + t155 * g_star_in_j_1 - (h_star_in_j_1 * t150 + t156 *
         g_star_in_j_2);
-    const jg_real t158 = A_j[2] * C_i[6] + t142 * C_i[7];
+    const jg_real t158 = t142 * C_i[7] + A_j[2] * C_i[6];
     const jg_real t159 = h_star_in_j_0 * t150 + t158 * g_star_in_j_2 - (h_star_in_j_2 * t152 + t155 *
         g_star_in_j_0);
     const jg_real t160 = h_star_in_j_1 * t152 + t156 * g_star_in_j_0 - (h_star_in_j_0 * t149 + t158 *
         g_star_in_j_1);
-    jac_phi_q_v_A_i[15] = t139 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t154 + (t145 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t151 + (t141 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t153)) - alphadot[2] * (C_j[6] *
-        t157 + C_j[7] * t159 + C_j[8] * t160) - (omega_j[0] * t151 + omega_j[1] * t153 + omega_j[2] * t154);
-    const jg_real t161 = C_j[2] * t156 - C_j[1] * t155;
-    const jg_real t162 = C_j[0] * t155 - C_j[2] * t158;
-    const jg_real t163 = C_j[1] * t158 - C_j[0] * t156;
-    jac_phi_q_v_A_i[16] = t139 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t163 + (t145 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t161 + (t141 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t162)) - (omega_j[0] * t161 +
-        omega_j[1] * t162 + omega_j[2] * t163);
+    const jg_real t161 = t156 * C_j[2] - t155 * C_j[1];
+    const jg_real t162 = t155 * C_j[0] - C_j[2] * t158;
+    const jg_real t163 = C_j[1] * t158 - t156 * C_j[0];
     const jg_real t164 = C_j[5] * t159 - C_j[4] * t160;
     const jg_real t165 = C_j[3] * t160 - C_j[5] * t157;
     const jg_real t166 = C_j[4] * t157 - C_j[3] * t159;
-    jac_phi_q_v_A_i[17] = t139 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t166 + (t145 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t164 + (t141 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t165)) + alphadot[2] * (C_j[3] *
-        t152 + C_j[4] * t149 + C_j[5] * t150) - (omega_j[0] * t164 + omega_j[1] * t165 + omega_j[2] * t166);
     const jg_real t167 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t168 = A_j[6] * omega_i[2] + omega_i[1] * t167;
     const jg_real t169 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
@@ -613,8 +597,20 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t171 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t172 = e_ij_in_j_1 * t168 - e_ij_in_j_2 * t170 - (A_j[0] * v_i[2] + v_i[1] * t171);
     const jg_real t173 = A_j[0] * omega_i[2] + omega_i[1] * t171;
-    const jg_real t174 = e_ij_in_j_2 * t173 - e_ij_in_j_0 * t168 - (A_j[3] * v_i[2] + v_i[1] * t169);
-    const jg_real t175 = e_ij_in_j_0 * t170 - e_ij_in_j_1 * t173 - (A_j[6] * v_i[2] + v_i[1] * t167);
+    const jg_real t174 = e_ij_in_j_2 * t173 - t168 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t169);
+    const jg_real t175 = e_ij_in_j_0 * t170 - e_ij_in_j_1 * t173 - (v_i[1] * t167 + A_j[6] * v_i[2]);
+    jac_phi_q_v_A_i[13] = t138 * v_3_in_j_2 + A_ji_5 * t148 + (t142 * v_3_in_j_0 + A_ji_3 * t143 + (t140 *
+        v_3_in_j_1 + A_ji_4 * t146));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t143 + A_ji_7 * t146 + A_ji_8 * t148;
+    jac_phi_q_v_A_i[15] = t139 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t154 + (t145 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t151 + (t141 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t153)) - alphadot[2] * (C_j[6] *
+        t157 + C_j[7] * t159 + C_j[8] * t160) - (omega_j[0] * t151 + omega_j[1] * t153 + omega_j[2] * t154);
+    jac_phi_q_v_A_i[16] = t139 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t163 + (t145 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t161 + (t141 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t162)) - (omega_j[0] * t161 +
+        omega_j[1] * t162 + omega_j[2] * t163);
+    jac_phi_q_v_A_i[17] = t139 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t166 + (t145 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t164 + (t141 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t165)) + alphadot[2] * (C_j[3] *
+        t152 + C_j[4] * t149 + C_j[5] * t150) - (omega_j[0] * t164 + omega_j[1] * t165 + omega_j[2] * t166);
     jac_phi_q_v_A_i[18] = A_ji_0 * t172 + A_ji_1 * t174 + A_ji_2 * t175;
     jac_phi_q_v_A_i[19] = t167 * v_3_in_j_2 + A_ji_5 * t175 + (t171 * v_3_in_j_0 + A_ji_3 * t172 + (t169 *
         v_3_in_j_1 + A_ji_4 * t174));
@@ -625,30 +621,21 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t179 = t171 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
     const jg_real t180 = C_j[6] * t177 - C_j[8] * t179;
     const jg_real t181 = C_j[7] * t179 - C_j[6] * t176;
-    const jg_real t182 = A_j[6] * C_i[8] + t167 * C_i[7];
-    const jg_real t183 = A_j[3] * C_i[8] + t169 * C_i[7];
+    const jg_real t182 = t167 * C_i[7] + A_j[6] * C_i[8];
+    const jg_real t183 = t169 * C_i[7] + A_j[3] * C_i[8];
     const jg_real t184 = h_star_in_j_2 * t176 + t182 * g_star_in_j_1 - (h_star_in_j_1 * t177 + t183 *
         g_star_in_j_2);
-    const jg_real t185 = A_j[0] * C_i[8] + t171 * C_i[7];
+    const jg_real t185 = t171 * C_i[7] + A_j[0] * C_i[8];
     const jg_real t186 = h_star_in_j_0 * t177 + t185 * g_star_in_j_2 - (h_star_in_j_2 * t179 + t182 *
         g_star_in_j_0);
     const jg_real t187 = h_star_in_j_1 * t179 + t183 * g_star_in_j_0 - (h_star_in_j_0 * t176 + t185 *
         g_star_in_j_1);
-    jac_phi_q_v_A_i[21] = t168 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t181 + (t173 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t178 + (t170 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t180)) - alphadot[2] * (C_j[6] *
-        t184 + C_j[7] * t186 + C_j[8] * t187) - (omega_j[0] * t178 + omega_j[1] * t180 + omega_j[2] * t181);
     const jg_real t188 = C_j[2] * t183 - C_j[1] * t182;
     const jg_real t189 = C_j[0] * t182 - C_j[2] * t185;
     const jg_real t190 = C_j[1] * t185 - C_j[0] * t183;
-    jac_phi_q_v_A_i[22] = t168 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t190 + (t173 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t188 + (t170 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t189)) - (omega_j[0] * t188 +
-        omega_j[1] * t189 + omega_j[2] * t190);
     const jg_real t191 = C_j[5] * t186 - C_j[4] * t187;
     const jg_real t192 = C_j[3] * t187 - C_j[5] * t184;
     const jg_real t193 = C_j[4] * t184 - C_j[3] * t186;
-    jac_phi_q_v_A_i[23] = t168 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t193 + (t173 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t191 + (t170 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t192)) + alphadot[2] * (C_j[3] *
-        t179 + C_j[4] * t176 + C_j[5] * t177) - (omega_j[0] * t191 + omega_j[1] * t192 + omega_j[2] * t193);
     const jg_real t194 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t195 = A_j[7] * omega_i[2] + omega_i[1] * t194;
     const jg_real t196 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
@@ -656,42 +643,48 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t198 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t199 = e_ij_in_j_1 * t195 - e_ij_in_j_2 * t197 - (A_j[1] * v_i[2] + v_i[1] * t198);
     const jg_real t200 = A_j[1] * omega_i[2] + omega_i[1] * t198;
-    const jg_real t201 = e_ij_in_j_2 * t200 - e_ij_in_j_0 * t195 - (A_j[4] * v_i[2] + v_i[1] * t196);
-    const jg_real t202 = e_ij_in_j_0 * t197 - e_ij_in_j_1 * t200 - (A_j[7] * v_i[2] + v_i[1] * t194);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t199 + A_ji_1 * t201 + A_ji_2 * t202;
-    jac_phi_q_v_A_i[25] = t194 * v_3_in_j_2 + A_ji_5 * t202 + (t198 * v_3_in_j_0 + A_ji_3 * t199 + (t196 *
-        v_3_in_j_1 + A_ji_4 * t201));
-    jac_phi_q_v_A_i[26] = t117 + A_ji_8 * t202 + (t107 + A_ji_6 * t199 + (t114 + A_ji_7 * t201));
+    const jg_real t201 = e_ij_in_j_2 * t200 - t195 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t196);
+    const jg_real t202 = e_ij_in_j_0 * t197 - e_ij_in_j_1 * t200 - (v_i[1] * t194 + A_j[7] * v_i[2]);
     const jg_real t203 = t196 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
     const jg_real t204 = t194 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
     const jg_real t205 = C_j[8] * t203 - C_j[7] * t204;
     const jg_real t206 = t198 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
     const jg_real t207 = C_j[6] * t204 - C_j[8] * t206;
     const jg_real t208 = C_j[7] * t206 - C_j[6] * t203;
-    const jg_real t209 = A_j[7] * C_i[8] + t194 * C_i[7];
-    const jg_real t210 = A_j[4] * C_i[8] + t196 * C_i[7];
+    const jg_real t209 = t194 * C_i[7] + A_j[7] * C_i[8];
+    const jg_real t210 = t196 * C_i[7] + A_j[4] * C_i[8];
     const jg_real t211 = h_star_in_j_2 * t203 + t209 * g_star_in_j_1 - (h_star_in_j_1 * t204 + t210 *
         g_star_in_j_2);
-    const jg_real t212 = A_j[1] * C_i[8] + t198 * C_i[7];
+    const jg_real t212 = t198 * C_i[7] + A_j[1] * C_i[8];
     const jg_real t213 = h_star_in_j_0 * t204 + t212 * g_star_in_j_2 - (h_star_in_j_2 * t206 + t209 *
         g_star_in_j_0);
     const jg_real t214 = h_star_in_j_1 * t206 + t210 * g_star_in_j_0 - (h_star_in_j_0 * t203 + t212 *
         g_star_in_j_1);
-    jac_phi_q_v_A_i[27] = t195 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t208 + (t200 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t205 + (t197 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t207)) - alphadot[2] * (C_j[6] *
-        t211 + C_j[7] * t213 + C_j[8] * t214) - (omega_j[0] * t205 + omega_j[1] * t207 + omega_j[2] * t208);
     const jg_real t215 = C_j[2] * t210 - C_j[1] * t209;
     const jg_real t216 = C_j[0] * t209 - C_j[2] * t212;
     const jg_real t217 = C_j[1] * t212 - C_j[0] * t210;
+    jac_phi_q_v_A_i[21] = t168 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t181 + (t173 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t178 + (t170 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t180)) - alphadot[2] * (C_j[6] *
+        t184 + C_j[7] * t186 + C_j[8] * t187) - (omega_j[0] * t178 + omega_j[1] * t180 + omega_j[2] * t181);
+    jac_phi_q_v_A_i[22] = t168 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t190 + (t173 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t188 + (t170 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t189)) - (omega_j[0] * t188 +
+        omega_j[1] * t189 + omega_j[2] * t190);
+    jac_phi_q_v_A_i[23] = t168 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t193 + (t173 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t191 + (t170 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t192)) + alphadot[2] * (C_j[3] *
+        t179 + C_j[4] * t176 + C_j[5] * t177) - (omega_j[0] * t191 + omega_j[1] * t192 + omega_j[2] * t193);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t199 + A_ji_1 * t201 + A_ji_2 * t202;
+    jac_phi_q_v_A_i[25] = t194 * v_3_in_j_2 + A_ji_5 * t202 + (t198 * v_3_in_j_0 + A_ji_3 * t199 + (t196 *
+        v_3_in_j_1 + A_ji_4 * t201));
+    jac_phi_q_v_A_i[26] = t117 + A_ji_8 * t202 + (t107 + A_ji_6 * t199 + (t114 + A_ji_7 * t201));
+    jac_phi_q_v_A_i[27] = t195 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t208 + (t200 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t205 + (t197 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t207)) - alphadot[2] * (C_j[6] *
+        t211 + C_j[7] * t213 + C_j[8] * t214) - (omega_j[0] * t205 + omega_j[1] * t207 + omega_j[2] * t208);
     jac_phi_q_v_A_i[28] = t195 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t217 + (t200 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t215 + (t197 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t216)) - (omega_j[0] * t215 +
         omega_j[1] * t216 + omega_j[2] * t217);
     const jg_real t218 = C_j[5] * t213 - C_j[4] * t214;
     const jg_real t219 = C_j[3] * t214 - C_j[5] * t211;
     const jg_real t220 = C_j[4] * t211 - C_j[3] * t213;
-    jac_phi_q_v_A_i[29] = t195 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t220 + (t200 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t218 + (t197 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t219)) + alphadot[2] * (C_j[3] *
-        t206 + C_j[4] * t203 + C_j[5] * t204) - (omega_j[0] * t218 + omega_j[1] * t219 + omega_j[2] * t220);
     const jg_real t221 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t222 = A_j[8] * omega_i[2] + omega_i[1] * t221;
     const jg_real t223 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
@@ -699,49 +692,36 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t225 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t226 = e_ij_in_j_1 * t222 - e_ij_in_j_2 * t224 - (A_j[2] * v_i[2] + v_i[1] * t225);
     const jg_real t227 = A_j[2] * omega_i[2] + omega_i[1] * t225;
-    const jg_real t228 = e_ij_in_j_2 * t227 - e_ij_in_j_0 * t222 - (A_j[5] * v_i[2] + v_i[1] * t223);
-    const jg_real t229 = e_ij_in_j_0 * t224 - e_ij_in_j_1 * t227 - (A_j[8] * v_i[2] + v_i[1] * t221);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t226 + A_ji_1 * t228 + A_ji_2 * t229;
-    jac_phi_q_v_A_i[31] = t221 * v_3_in_j_2 + A_ji_5 * t229 + (t225 * v_3_in_j_0 + A_ji_3 * t226 + (t223 *
-        v_3_in_j_1 + A_ji_4 * t228));
-    jac_phi_q_v_A_i[32] = t147 + A_ji_8 * t229 + (t137 + A_ji_6 * t226 + (t144 + A_ji_7 * t228));
+    const jg_real t228 = e_ij_in_j_2 * t227 - t222 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t223);
+    const jg_real t229 = e_ij_in_j_0 * t224 - e_ij_in_j_1 * t227 - (v_i[1] * t221 + A_j[8] * v_i[2]);
     const jg_real t230 = t223 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
     const jg_real t231 = t221 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
     const jg_real t232 = C_j[8] * t230 - C_j[7] * t231;
     const jg_real t233 = t225 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
     const jg_real t234 = C_j[6] * t231 - C_j[8] * t233;
     const jg_real t235 = C_j[7] * t233 - C_j[6] * t230;
-    const jg_real t236 = A_j[8] * C_i[8] + t221 * C_i[7];
-    const jg_real t237 = A_j[5] * C_i[8] + t223 * C_i[7];
+    const jg_real t236 = t221 * C_i[7] + A_j[8] * C_i[8];
+    const jg_real t237 = t223 * C_i[7] + A_j[5] * C_i[8];
     const jg_real t238 = h_star_in_j_2 * t230 + t236 * g_star_in_j_1 - (h_star_in_j_1 * t231 + t237 *
         g_star_in_j_2);
-    const jg_real t239 = A_j[2] * C_i[8] + t225 * C_i[7];
+    const jg_real t239 = t225 * C_i[7] + A_j[2] * C_i[8];
     const jg_real t240 = h_star_in_j_0 * t231 + t239 * g_star_in_j_2 - (h_star_in_j_2 * t233 + t236 *
         g_star_in_j_0);
     const jg_real t241 = h_star_in_j_1 * t233 + t237 * g_star_in_j_0 - (h_star_in_j_0 * t230 + t239 *
         g_star_in_j_1);
-    jac_phi_q_v_A_i[33] = t222 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t235 + (t227 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t232 + (t224 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t234)) - alphadot[2] * (C_j[6] *
-        t238 + C_j[7] * t240 + C_j[8] * t241) - (omega_j[0] * t232 + omega_j[1] * t234 + omega_j[2] * t235);
     const jg_real t242 = C_j[2] * t237 - C_j[1] * t236;
     const jg_real t243 = C_j[0] * t236 - C_j[2] * t239;
     const jg_real t244 = C_j[1] * t239 - C_j[0] * t237;
-    jac_phi_q_v_A_i[34] = t222 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t244 + (t227 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t242 + (t224 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t243)) - (omega_j[0] * t242 +
-        omega_j[1] * t243 + omega_j[2] * t244);
     const jg_real t245 = C_j[5] * t240 - C_j[4] * t241;
     const jg_real t246 = C_j[3] * t241 - C_j[5] * t238;
     const jg_real t247 = C_j[4] * t238 - C_j[3] * t240;
-    jac_phi_q_v_A_i[35] = t222 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t247 + (t227 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t245 + (t224 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t246)) + alphadot[2] * (C_j[3] *
-        t233 + C_j[4] * t230 + C_j[5] * t231) - (omega_j[0] * t245 + omega_j[1] * t246 + omega_j[2] * t247);
     const jg_real t248 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
     const jg_real t249 = omega_i[1] * t248;
-    const jg_real t250 = e_ij_in_j_1 * t249;
+    const jg_real t250 = t249 * e_ij_in_j_1;
     const jg_real t251 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t252 = omega_i[1] * t251;
     const jg_real t253 = e_ij_in_j_2 * t252;
-    const jg_real t254 = A_i[6] * v_i[2] + A_i[0] * v_i[0];
+    const jg_real t254 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
     const jg_real t255 = t250 - t253 - t254;
     const jg_real t256 = v_0_world_0 * omega_i_in_j_2;
     const jg_real t257 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
@@ -752,9 +732,23 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t262 = e_ij_in_j_1 * t257;
     const jg_real t263 = v_i[1] * t248;
     const jg_real t264 = t261 + t252 * e_ij_in_j_0 - t262 - t263;
+    jac_phi_q_v_A_i[29] = t195 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t220 + (t200 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t218 + (t197 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t219)) + alphadot[2] * (C_j[3] *
+        t206 + C_j[4] * t203 + C_j[5] * t204) - (omega_j[0] * t218 + omega_j[1] * t219 + omega_j[2] * t220);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t226 + A_ji_1 * t228 + A_ji_2 * t229;
+    jac_phi_q_v_A_i[31] = t221 * v_3_in_j_2 + A_ji_5 * t229 + (t225 * v_3_in_j_0 + A_ji_3 * t226 + (t223 *
+        v_3_in_j_1 + A_ji_4 * t228));
+    jac_phi_q_v_A_i[32] = t147 + A_ji_8 * t229 + (t137 + A_ji_6 * t226 + (t144 + A_ji_7 * t228));
+    jac_phi_q_v_A_i[33] = t222 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t235 + (t227 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t232 + (t224 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t234)) - alphadot[2] * (C_j[6] *
+        t238 + C_j[7] * t240 + C_j[8] * t241) - (omega_j[0] * t232 + omega_j[1] * t234 + omega_j[2] * t235);
+    jac_phi_q_v_A_i[34] = t222 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t244 + (t227 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t242 + (t224 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t243)) - (omega_j[0] * t242 +
+        omega_j[1] * t243 + omega_j[2] * t244);
+    jac_phi_q_v_A_i[35] = t222 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t247 + (t227 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t245 + (t224 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t246)) + alphadot[2] * (C_j[3] *
+        t233 + C_j[4] * t230 + C_j[5] * t231) - (omega_j[0] * t245 + omega_j[1] * t246 + omega_j[2] * t247);
     jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t255 + A_ji_1 * t260 + A_ji_2 * t264;
-    jac_phi_q_v_A_j[1] = t248 * v_3_in_j_2 + A_ji_5 * t264 + (t251 * v_3_in_j_1 + A_ji_4 * t260 + A_ji_3 * t255);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t255 + A_ji_7 * t260 + A_ji_8 * t264;
     const jg_real t265 = t251 * g_star_in_i_1;
     const jg_real t266 = C_j[8] * t265;
     const jg_real t267 = t248 * g_star_in_i_1;
@@ -779,32 +773,23 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t286 = h_star_in_j_1 * t270;
     const jg_real t287 = t282 * g_star_in_j_1;
     const jg_real t288 = t286 + t279 * g_star_in_j_0 - (t287 + h_star_in_j_0 * t265);
-    jac_phi_q_v_A_j[3] = t249 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t274 + (t257 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t269 + (t252 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t272)) - alphadot[2] * (C_j[6] *
-        t281 + C_j[7] * t285 + C_j[8] * t288) - (omega_j[0] * t269 + omega_j[1] * t272 + omega_j[2] * t274);
-    const jg_real t289 = C_j[2] * t279;
+    const jg_real t289 = t279 * C_j[2];
     const jg_real t290 = t276 * C_j[1];
     const jg_real t291 = t289 - t290;
     const jg_real t292 = C_j[2] * t282;
     const jg_real t293 = t276 * C_j[0] - t292;
     const jg_real t294 = C_j[1] * t282;
-    const jg_real t295 = t294 - C_j[0] * t279;
-    jac_phi_q_v_A_j[4] = t249 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t295 + (t257 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t291 + (t252 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t291 +
-        omega_j[1] * t293 + omega_j[2] * t295);
+    const jg_real t295 = t294 - t279 * C_j[0];
     const jg_real t296 = C_j[5] * t285 - C_j[4] * t288;
     const jg_real t297 = C_j[3] * t288 - C_j[5] * t281;
     const jg_real t298 = C_j[4] * t281 - C_j[3] * t285;
-    jac_phi_q_v_A_j[5] = t249 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t298 + (t257 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t296 + (t252 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t297)) + alphadot[2] * (C_j[3] *
-        t270 + C_j[4] * t265 + C_j[5] * t267) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
     const jg_real t299 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t300 = omega_i[1] * t299;
-    const jg_real t301 = e_ij_in_j_1 * t300;
+    const jg_real t301 = t300 * e_ij_in_j_1;
     const jg_real t302 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
     const jg_real t303 = omega_i[1] * t302;
     const jg_real t304 = e_ij_in_j_2 * t303;
-    const jg_real t305 = A_i[7] * v_i[2] + A_i[1] * v_i[0];
+    const jg_real t305 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
     const jg_real t306 = t301 - t304 - t305;
     const jg_real t307 = v_0_world_1 * omega_i_in_j_2;
     const jg_real t308 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
@@ -815,6 +800,17 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t313 = e_ij_in_j_1 * t308;
     const jg_real t314 = v_i[1] * t299;
     const jg_real t315 = t312 + t303 * e_ij_in_j_0 - t313 - t314;
+    jac_phi_q_v_A_j[1] = t248 * v_3_in_j_2 + A_ji_5 * t264 + (t251 * v_3_in_j_1 + A_ji_4 * t260 + A_ji_3 * t255);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t255 + A_ji_7 * t260 + A_ji_8 * t264;
+    jac_phi_q_v_A_j[3] = t249 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t274 + (t257 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t269 + (t252 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t272)) - alphadot[2] * (C_j[6] *
+        t281 + C_j[7] * t285 + C_j[8] * t288) - (omega_j[0] * t269 + omega_j[1] * t272 + omega_j[2] * t274);
+    jac_phi_q_v_A_j[4] = t249 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t295 + (t257 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t291 + (t252 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t291 +
+        omega_j[1] * t293 + omega_j[2] * t295);
+    jac_phi_q_v_A_j[5] = t249 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t298 + (t257 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t296 + (t252 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t297)) + alphadot[2] * (C_j[3] *
+        t270 + C_j[4] * t265 + C_j[5] * t267) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
     jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t306 + A_ji_1 * t311 + A_ji_2 * t315;
     jac_phi_q_v_A_j[7] = t299 * v_3_in_j_2 + A_ji_5 * t315 + (t302 * v_3_in_j_1 + A_ji_4 * t311 + A_ji_3 * t306);
     jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t306 + A_ji_7 * t311 + A_ji_8 * t315;
@@ -842,32 +838,23 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t337 = h_star_in_j_1 * t321;
     const jg_real t338 = t333 * g_star_in_j_1;
     const jg_real t339 = t337 + t330 * g_star_in_j_0 - (t338 + h_star_in_j_0 * t316);
-    jac_phi_q_v_A_j[9] = t300 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t325 + (t308 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t320 + (t303 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t323)) - alphadot[2] * (C_j[6] *
-        t332 + C_j[7] * t336 + C_j[8] * t339) - (omega_j[0] * t320 + omega_j[1] * t323 + omega_j[2] * t325);
-    const jg_real t340 = C_j[2] * t330;
+    const jg_real t340 = t330 * C_j[2];
     const jg_real t341 = t327 * C_j[1];
     const jg_real t342 = t340 - t341;
     const jg_real t343 = C_j[2] * t333;
     const jg_real t344 = t327 * C_j[0] - t343;
     const jg_real t345 = C_j[1] * t333;
-    const jg_real t346 = t345 - C_j[0] * t330;
-    jac_phi_q_v_A_j[10] = t300 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t308 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t342 + (t303 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
-        omega_j[1] * t344 + omega_j[2] * t346);
+    const jg_real t346 = t345 - t330 * C_j[0];
     const jg_real t347 = C_j[5] * t336 - C_j[4] * t339;
     const jg_real t348 = C_j[3] * t339 - C_j[5] * t332;
     const jg_real t349 = C_j[4] * t332 - C_j[3] * t336;
-    jac_phi_q_v_A_j[11] = t300 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t349 + (t308 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t347 + (t303 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t348)) + alphadot[2] * (C_j[3] *
-        t321 + C_j[4] * t316 + C_j[5] * t318) - (omega_j[0] * t347 + omega_j[1] * t348 + omega_j[2] * t349);
     const jg_real t350 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t351 = omega_i[1] * t350;
-    const jg_real t352 = e_ij_in_j_1 * t351;
+    const jg_real t352 = t351 * e_ij_in_j_1;
     const jg_real t353 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
     const jg_real t354 = omega_i[1] * t353;
     const jg_real t355 = e_ij_in_j_2 * t354;
-    const jg_real t356 = A_i[8] * v_i[2] + A_i[2] * v_i[0];
+    const jg_real t356 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
     const jg_real t357 = t352 - t355 - t356;
     const jg_real t358 = v_0_world_2 * omega_i_in_j_2;
     const jg_real t359 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
@@ -878,9 +865,6 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t364 = e_ij_in_j_1 * t359;
     const jg_real t365 = v_i[1] * t350;
     const jg_real t366 = t363 + t354 * e_ij_in_j_0 - t364 - t365;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t357 + A_ji_1 * t362 + A_ji_2 * t366;
-    jac_phi_q_v_A_j[13] = t350 * v_3_in_j_2 + A_ji_5 * t366 + (t353 * v_3_in_j_1 + A_ji_4 * t362 + A_ji_3 * t357);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t357 + A_ji_7 * t362 + A_ji_8 * t366;
     const jg_real t367 = t353 * g_star_in_i_1;
     const jg_real t368 = C_j[8] * t367;
     const jg_real t369 = t350 * g_star_in_i_1;
@@ -905,37 +889,43 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t388 = h_star_in_j_1 * t372;
     const jg_real t389 = t384 * g_star_in_j_1;
     const jg_real t390 = t388 + t381 * g_star_in_j_0 - (t389 + h_star_in_j_0 * t367);
-    jac_phi_q_v_A_j[15] = t351 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t376 + (t359 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t371 + (t354 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t374)) - alphadot[2] * (C_j[6] *
-        t383 + C_j[7] * t387 + C_j[8] * t390) - (omega_j[0] * t371 + omega_j[1] * t374 + omega_j[2] * t376);
-    const jg_real t391 = C_j[2] * t381;
+    const jg_real t391 = t381 * C_j[2];
     const jg_real t392 = t378 * C_j[1];
     const jg_real t393 = t391 - t392;
     const jg_real t394 = C_j[2] * t384;
     const jg_real t395 = t378 * C_j[0] - t394;
     const jg_real t396 = C_j[1] * t384;
-    const jg_real t397 = t396 - C_j[0] * t381;
+    const jg_real t397 = t396 - t381 * C_j[0];
+    jac_phi_q_v_A_j[9] = t300 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t325 + (t308 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t320 + (t303 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t323)) - alphadot[2] * (C_j[6] *
+        t332 + C_j[7] * t336 + C_j[8] * t339) - (omega_j[0] * t320 + omega_j[1] * t323 + omega_j[2] * t325);
+    jac_phi_q_v_A_j[10] = t300 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t308 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t342 + (t303 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
+        omega_j[1] * t344 + omega_j[2] * t346);
+    jac_phi_q_v_A_j[11] = t300 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t349 + (t308 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t347 + (t303 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t348)) + alphadot[2] * (C_j[3] *
+        t321 + C_j[4] * t316 + C_j[5] * t318) - (omega_j[0] * t347 + omega_j[1] * t348 + omega_j[2] * t349);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t357 + A_ji_1 * t362 + A_ji_2 * t366;
+    jac_phi_q_v_A_j[13] = t350 * v_3_in_j_2 + A_ji_5 * t366 + (t353 * v_3_in_j_1 + A_ji_4 * t362 + A_ji_3 * t357);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t357 + A_ji_7 * t362 + A_ji_8 * t366;
+    jac_phi_q_v_A_j[15] = t351 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t376 + (t359 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t371 + (t354 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t374)) - alphadot[2] * (C_j[6] *
+        t383 + C_j[7] * t387 + C_j[8] * t390) - (omega_j[0] * t371 + omega_j[1] * t374 + omega_j[2] * t376);
     jac_phi_q_v_A_j[16] = t351 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t397 + (t359 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t393 + (t354 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t395)) - (omega_j[0] * t393 +
         omega_j[1] * t395 + omega_j[2] * t397);
     const jg_real t398 = C_j[5] * t387 - C_j[4] * t390;
     const jg_real t399 = C_j[3] * t390 - C_j[5] * t383;
     const jg_real t400 = C_j[4] * t383 - C_j[3] * t387;
-    jac_phi_q_v_A_j[17] = t351 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t400 + (t359 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t398 + (t354 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t399)) + alphadot[2] * (C_j[3] *
-        t372 + C_j[4] * t367 + C_j[5] * t369) - (omega_j[0] * t398 + omega_j[1] * t399 + omega_j[2] * t400);
     const jg_real t401 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
     const jg_real t402 = omega_i[1] * t401;
     const jg_real t403 = t402 * e_ij_in_j_0;
     const jg_real t404 = t403 + t253 + t254;
-    const jg_real t405 = e_ij_in_j_1 * t402 + t256 - t258 + t259;
+    const jg_real t405 = t402 * e_ij_in_j_1 + t256 - t258 + t259;
     const jg_real t406 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t407 = e_ij_in_j_0 * t257;
+    const jg_real t407 = t257 * e_ij_in_j_0;
     const jg_real t408 = v_i[1] * t401;
     const jg_real t409 = t407 - (t406 - e_ij_in_j_1 * t252) - t408;
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t404 + A_ji_0 * t405 + A_ji_2 * t409;
-    jac_phi_q_v_A_j[19] = t401 * v_3_in_j_2 + A_ji_5 * t409 + (A_ji_3 * t405 - t251 * v_3_in_j_0 - A_ji_4 * t404);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t404 + A_ji_6 * t405 + A_ji_8 * t409;
     const jg_real t410 = t401 * g_star_in_i_1;
     const jg_real t411 = t271 - C_j[7] * t410;
     const jg_real t412 = C_j[6] * t410;
@@ -950,35 +940,39 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t421 = t282 * g_star_in_j_0;
     const jg_real t422 = h_star_in_j_0 * t270;
     const jg_real t423 = t421 - h_star_in_j_1 * t265 - (t422 - t279 * g_star_in_j_1);
-    jac_phi_q_v_A_j[21] = t402 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t415 + (omega_i_in_j_0 * t411 - t252 *
-        g_star_cross_h_j_in_j_0 + (t257 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t413)) - alphadot[2] * (C_j[6]
-        * t417 + C_j[7] * t420 + C_j[8] * t423) - (omega_j[0] * t411 + omega_j[1] * t413 - omega_j[2] * t415);
     const jg_real t424 = t416 * C_j[0];
     const jg_real t425 = t424 + t289;
     const jg_real t426 = t292 - t416 * C_j[1];
     const jg_real t427 = C_j[0] * t282;
-    const jg_real t428 = t427 + C_j[1] * t279;
-    jac_phi_q_v_A_j[22] = t402 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t428 + (omega_i_in_j_0 * t426 - t252 *
-        h_star_cross_f_j_in_j_0 + (t257 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t425)) - (omega_j[0] * t426 +
-        omega_j[1] * t425 - omega_j[2] * t428);
+    const jg_real t428 = t427 + t279 * C_j[1];
     const jg_real t429 = C_j[5] * t420 - C_j[4] * t423;
     const jg_real t430 = C_j[3] * t423 - C_j[5] * t417;
     const jg_real t431 = C_j[4] * t417 - C_j[3] * t420;
-    jac_phi_q_v_A_j[23] = t402 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (omega_i_in_j_0 * t429 - t252 *
-        f_star_cross_g_j_in_j_0 + (t257 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t430)) + alphadot[2] * (C_j[4]
-        * t270 - C_j[3] * t265 + C_j[5] * t410) - (omega_j[0] * t429 + omega_j[1] * t430 + omega_j[2] * t431);
     const jg_real t432 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
     const jg_real t433 = omega_i[1] * t432;
     const jg_real t434 = t433 * e_ij_in_j_0;
     const jg_real t435 = t434 + t304 + t305;
-    const jg_real t436 = e_ij_in_j_1 * t433 + t307 - t309 + t310;
+    const jg_real t436 = t433 * e_ij_in_j_1 + t307 - t309 + t310;
     const jg_real t437 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t438 = e_ij_in_j_0 * t308;
+    const jg_real t438 = t308 * e_ij_in_j_0;
     const jg_real t439 = v_i[1] * t432;
     const jg_real t440 = t438 - (t437 - e_ij_in_j_1 * t303) - t439;
+    jac_phi_q_v_A_j[17] = t351 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t400 + (t359 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t398 + (t354 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t399)) + alphadot[2] * (C_j[3] *
+        t372 + C_j[4] * t367 + C_j[5] * t369) - (omega_j[0] * t398 + omega_j[1] * t399 + omega_j[2] * t400);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t404 + A_ji_0 * t405 + A_ji_2 * t409;
+    jac_phi_q_v_A_j[19] = t401 * v_3_in_j_2 + A_ji_5 * t409 + (A_ji_3 * t405 - t251 * v_3_in_j_0 - A_ji_4 * t404);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t404 + A_ji_6 * t405 + A_ji_8 * t409;
+    jac_phi_q_v_A_j[21] = t402 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t415 + (omega_i_in_j_0 * t411 - t252 *
+        g_star_cross_h_j_in_j_0 + (t257 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t413)) - alphadot[2] * (C_j[6]
+        * t417 + C_j[7] * t420 + C_j[8] * t423) - (omega_j[0] * t411 + omega_j[1] * t413 - omega_j[2] * t415);
+    jac_phi_q_v_A_j[22] = t402 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t428 + (omega_i_in_j_0 * t426 - t252 *
+        h_star_cross_f_j_in_j_0 + (t257 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t425)) - (omega_j[0] * t426 +
+        omega_j[1] * t425 - omega_j[2] * t428);
+    jac_phi_q_v_A_j[23] = t402 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (omega_i_in_j_0 * t429 - t252 *
+        f_star_cross_g_j_in_j_0 + (t257 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t430)) + alphadot[2] * (C_j[4]
+        * t270 - C_j[3] * t265 + C_j[5] * t410) - (omega_j[0] * t429 + omega_j[1] * t430 + omega_j[2] * t431);
     jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t435 + A_ji_0 * t436 + A_ji_2 * t440;
-    jac_phi_q_v_A_j[25] = t432 * v_3_in_j_2 + A_ji_5 * t440 + (A_ji_3 * t436 - t302 * v_3_in_j_0 - A_ji_4 * t435);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t435 + A_ji_6 * t436 + A_ji_8 * t440;
     const jg_real t441 = t432 * g_star_in_i_1;
     const jg_real t442 = t322 - C_j[7] * t441;
     const jg_real t443 = C_j[6] * t441;
@@ -993,32 +987,34 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t452 = t333 * g_star_in_j_0;
     const jg_real t453 = h_star_in_j_0 * t321;
     const jg_real t454 = t452 - h_star_in_j_1 * t316 - (t453 - t330 * g_star_in_j_1);
-    jac_phi_q_v_A_j[27] = t433 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t446 + (omega_i_in_j_0 * t442 - t303 *
-        g_star_cross_h_j_in_j_0 + (t308 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t444)) - alphadot[2] * (C_j[6]
-        * t448 + C_j[7] * t451 + C_j[8] * t454) - (omega_j[0] * t442 + omega_j[1] * t444 - omega_j[2] * t446);
     const jg_real t455 = t447 * C_j[0];
     const jg_real t456 = t455 + t340;
     const jg_real t457 = t343 - t447 * C_j[1];
     const jg_real t458 = C_j[0] * t333;
-    const jg_real t459 = t458 + C_j[1] * t330;
-    jac_phi_q_v_A_j[28] = t433 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t457 - t303 *
-        h_star_cross_f_j_in_j_0 + (t308 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t456)) - (omega_j[0] * t457 +
-        omega_j[1] * t456 - omega_j[2] * t459);
+    const jg_real t459 = t458 + t330 * C_j[1];
     const jg_real t460 = C_j[5] * t451 - C_j[4] * t454;
     const jg_real t461 = C_j[3] * t454 - C_j[5] * t448;
     const jg_real t462 = C_j[4] * t448 - C_j[3] * t451;
-    jac_phi_q_v_A_j[29] = t433 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t462 + (omega_i_in_j_0 * t460 - t303 *
-        f_star_cross_g_j_in_j_0 + (t308 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t461)) + alphadot[2] * (C_j[4]
-        * t321 - C_j[3] * t316 + C_j[5] * t441) - (omega_j[0] * t460 + omega_j[1] * t461 + omega_j[2] * t462);
     const jg_real t463 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
     const jg_real t464 = omega_i[1] * t463;
     const jg_real t465 = t464 * e_ij_in_j_0;
     const jg_real t466 = t465 + t355 + t356;
-    const jg_real t467 = e_ij_in_j_1 * t464 + t358 - t360 + t361;
+    const jg_real t467 = t464 * e_ij_in_j_1 + t358 - t360 + t361;
     const jg_real t468 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t469 = e_ij_in_j_0 * t359;
+    const jg_real t469 = t359 * e_ij_in_j_0;
     const jg_real t470 = v_i[1] * t463;
     const jg_real t471 = t469 - (t468 - e_ij_in_j_1 * t354) - t470;
+    jac_phi_q_v_A_j[25] = t432 * v_3_in_j_2 + A_ji_5 * t440 + (A_ji_3 * t436 - t302 * v_3_in_j_0 - A_ji_4 * t435);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t435 + A_ji_6 * t436 + A_ji_8 * t440;
+    jac_phi_q_v_A_j[27] = t433 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t446 + (omega_i_in_j_0 * t442 - t303 *
+        g_star_cross_h_j_in_j_0 + (t308 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t444)) - alphadot[2] * (C_j[6]
+        * t448 + C_j[7] * t451 + C_j[8] * t454) - (omega_j[0] * t442 + omega_j[1] * t444 - omega_j[2] * t446);
+    jac_phi_q_v_A_j[28] = t433 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t457 - t303 *
+        h_star_cross_f_j_in_j_0 + (t308 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t456)) - (omega_j[0] * t457 +
+        omega_j[1] * t456 - omega_j[2] * t459);
+    jac_phi_q_v_A_j[29] = t433 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t462 + (omega_i_in_j_0 * t460 - t303 *
+        f_star_cross_g_j_in_j_0 + (t308 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t461)) + alphadot[2] * (C_j[4]
+        * t321 - C_j[3] * t316 + C_j[5] * t441) - (omega_j[0] * t460 + omega_j[1] * t461 + omega_j[2] * t462);
     jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t466 + A_ji_0 * t467 + A_ji_2 * t471;
     jac_phi_q_v_A_j[31] = t463 * v_3_in_j_2 + A_ji_5 * t471 + (A_ji_3 * t467 - t353 * v_3_in_j_0 - A_ji_4 * t466);
     jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t466 + A_ji_6 * t467 + A_ji_8 * t471;
@@ -1036,104 +1032,93 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t483 = t384 * g_star_in_j_0;
     const jg_real t484 = h_star_in_j_0 * t372;
     const jg_real t485 = t483 - h_star_in_j_1 * t367 - (t484 - t381 * g_star_in_j_1);
-    jac_phi_q_v_A_j[33] = t464 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t477 + (omega_i_in_j_0 * t473 - t354 *
-        g_star_cross_h_j_in_j_0 + (t359 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t475)) - alphadot[2] * (C_j[6]
-        * t479 + C_j[7] * t482 + C_j[8] * t485) - (omega_j[0] * t473 + omega_j[1] * t475 - omega_j[2] * t477);
     const jg_real t486 = t478 * C_j[0];
     const jg_real t487 = t486 + t391;
     const jg_real t488 = t394 - t478 * C_j[1];
     const jg_real t489 = C_j[0] * t384;
-    const jg_real t490 = t489 + C_j[1] * t381;
-    jac_phi_q_v_A_j[34] = t464 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t354 *
-        h_star_cross_f_j_in_j_0 + (t359 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t487)) - (omega_j[0] * t488 +
-        omega_j[1] * t487 - omega_j[2] * t490);
+    const jg_real t490 = t489 + t381 * C_j[1];
     const jg_real t491 = C_j[5] * t482 - C_j[4] * t485;
     const jg_real t492 = C_j[3] * t485 - C_j[5] * t479;
     const jg_real t493 = C_j[4] * t479 - C_j[3] * t482;
-    jac_phi_q_v_A_j[35] = t464 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t354 *
-        f_star_cross_g_j_in_j_0 + (t359 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t492)) + alphadot[2] * (C_j[4]
-        * t372 - C_j[3] * t367 + C_j[5] * t472) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
     const jg_real t494 = t250 - t403 - t254;
-    const jg_real t495 = t262 - (t261 - e_ij_in_j_2 * t402) + t263;
-    const jg_real t496 = t406 - e_ij_in_j_2 * t249 - t407 + t408;
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t495 - t248 * v_3_in_j_0 + (A_ji_4 * t496 - t401 * v_3_in_j_1) + A_ji_5 * t494;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
+    const jg_real t495 = t262 - (t261 - t402 * e_ij_in_j_2) + t263;
+    const jg_real t496 = t406 - t249 * e_ij_in_j_2 - t407 + t408;
     const jg_real t497 = t414 + C_j[8] * t267;
     const jg_real t498 = C_j[8] * t410 + t273;
     const jg_real t499 = t412 - t268;
     const jg_real t500 = t287 - h_star_in_j_2 * t410 - (t286 - t416 * g_star_in_j_2);
     const jg_real t501 = t422 - t276 * g_star_in_j_2 - (t421 - h_star_in_j_2 * t267);
     const jg_real t502 = t277 + t418 - (t278 + t419);
-    jac_phi_q_v_A_j[39] = t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t499 + (omega_i_in_j_1 * t497 - t402 *
-        g_star_cross_h_j_in_j_1 - (t249 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t498)) - alphadot[2] * (C_j[6]
-        * t500 + C_j[7] * t501 + C_j[8] * t502) - (omega_j[1] * t497 - omega_j[0] * t498 + omega_j[2] * t499);
     const jg_real t503 = t424 - t290;
     const jg_real t504 = t427 + t276 * C_j[2];
     const jg_real t505 = t294 + t416 * C_j[2];
+    jac_phi_q_v_A_j[33] = t464 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t477 + (omega_i_in_j_0 * t473 - t354 *
+        g_star_cross_h_j_in_j_0 + (t359 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t475)) - alphadot[2] * (C_j[6]
+        * t479 + C_j[7] * t482 + C_j[8] * t485) - (omega_j[0] * t473 + omega_j[1] * t475 - omega_j[2] * t477);
+    jac_phi_q_v_A_j[34] = t464 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t354 *
+        h_star_cross_f_j_in_j_0 + (t359 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t487)) - (omega_j[0] * t488 +
+        omega_j[1] * t487 - omega_j[2] * t490);
+    jac_phi_q_v_A_j[35] = t464 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t354 *
+        f_star_cross_g_j_in_j_0 + (t359 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t492)) + alphadot[2] * (C_j[4]
+        * t372 - C_j[3] * t367 + C_j[5] * t472) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t495 - t248 * v_3_in_j_0 + (A_ji_4 * t496 - t401 * v_3_in_j_1) + A_ji_5 * t494;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
+    jac_phi_q_v_A_j[39] = t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t499 + (omega_i_in_j_1 * t497 - t402 *
+        g_star_cross_h_j_in_j_1 - (t249 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t498)) - alphadot[2] * (C_j[6]
+        * t500 + C_j[7] * t501 + C_j[8] * t502) - (omega_j[1] * t497 - omega_j[0] * t498 + omega_j[2] * t499);
     jac_phi_q_v_A_j[40] = t257 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t503 + (omega_i_in_j_1 * t504 - t402 *
         h_star_cross_f_j_in_j_1 - (t249 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t505)) - (omega_j[1] * t504 -
         omega_j[0] * t505 + omega_j[2] * t503);
     const jg_real t506 = C_j[5] * t501 - C_j[4] * t502;
     const jg_real t507 = C_j[3] * t502 - C_j[5] * t500;
     const jg_real t508 = C_j[4] * t500 - C_j[3] * t501;
-    jac_phi_q_v_A_j[41] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t249 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t402 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
-        * t270 - (C_j[3] * t267 + C_j[4] * t410)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
     const jg_real t509 = t301 - t434 - t305;
-    const jg_real t510 = t313 - (t312 - e_ij_in_j_2 * t433) + t314;
-    const jg_real t511 = t437 - e_ij_in_j_2 * t300 - t438 + t439;
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t510 - t299 * v_3_in_j_0 + (A_ji_4 * t511 - t432 * v_3_in_j_1) + A_ji_5 * t509;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
+    const jg_real t510 = t313 - (t312 - t433 * e_ij_in_j_2) + t314;
+    const jg_real t511 = t437 - t300 * e_ij_in_j_2 - t438 + t439;
     const jg_real t512 = t445 + C_j[8] * t318;
     const jg_real t513 = C_j[8] * t441 + t324;
     const jg_real t514 = t443 - t319;
     const jg_real t515 = t338 - h_star_in_j_2 * t441 - (t337 - t447 * g_star_in_j_2);
     const jg_real t516 = t453 - t327 * g_star_in_j_2 - (t452 - h_star_in_j_2 * t318);
     const jg_real t517 = t328 + t449 - (t329 + t450);
-    jac_phi_q_v_A_j[45] = t308 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t514 + (omega_i_in_j_1 * t512 - t433 *
-        g_star_cross_h_j_in_j_1 - (t300 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t513)) - alphadot[2] * (C_j[6]
-        * t515 + C_j[7] * t516 + C_j[8] * t517) - (omega_j[1] * t512 - omega_j[0] * t513 + omega_j[2] * t514);
     const jg_real t518 = t455 - t341;
     const jg_real t519 = t458 + t327 * C_j[2];
     const jg_real t520 = t345 + t447 * C_j[2];
-    jac_phi_q_v_A_j[46] = t308 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t433 *
-        h_star_cross_f_j_in_j_1 - (t300 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
-        omega_j[0] * t520 + omega_j[2] * t518);
     const jg_real t521 = C_j[5] * t516 - C_j[4] * t517;
     const jg_real t522 = C_j[3] * t517 - C_j[5] * t515;
     const jg_real t523 = C_j[4] * t515 - C_j[3] * t516;
+    const jg_real t524 = t352 - t465 - t356;
+    const jg_real t525 = t364 - (t363 - t464 * e_ij_in_j_2) + t365;
+    const jg_real t526 = t468 - t351 * e_ij_in_j_2 - t469 + t470;
+    jac_phi_q_v_A_j[41] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t249 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t402 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
+        * t270 - (C_j[3] * t267 + C_j[4] * t410)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t510 - t299 * v_3_in_j_0 + (A_ji_4 * t511 - t432 * v_3_in_j_1) + A_ji_5 * t509;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
+    jac_phi_q_v_A_j[45] = t308 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t514 + (omega_i_in_j_1 * t512 - t433 *
+        g_star_cross_h_j_in_j_1 - (t300 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t513)) - alphadot[2] * (C_j[6]
+        * t515 + C_j[7] * t516 + C_j[8] * t517) - (omega_j[1] * t512 - omega_j[0] * t513 + omega_j[2] * t514);
+    jac_phi_q_v_A_j[46] = t308 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t433 *
+        h_star_cross_f_j_in_j_1 - (t300 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
+        omega_j[0] * t520 + omega_j[2] * t518);
     jac_phi_q_v_A_j[47] = t308 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t523 + (omega_i_in_j_0 * t521 - t300 *
         f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t522 - t433 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
         * t321 - (C_j[3] * t318 + C_j[4] * t441)) - (omega_j[0] * t521 + omega_j[1] * t522 + omega_j[2] * t523);
-    const jg_real t524 = t352 - t465 - t356;
-    const jg_real t525 = t364 - (t363 - e_ij_in_j_2 * t464) + t365;
-    const jg_real t526 = t468 - e_ij_in_j_2 * t351 - t469 + t470;
     jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t524 + (A_ji_0 * t525 + A_ji_1 * t526);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t525 - t350 * v_3_in_j_0 + (A_ji_4 * t526 - t463 * v_3_in_j_1) + A_ji_5 * t524;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t524 + (A_ji_6 * t525 + A_ji_7 * t526);
     const jg_real t527 = t476 + C_j[8] * t369;
     const jg_real t528 = C_j[8] * t472 + t375;
     const jg_real t529 = t474 - t370;
     const jg_real t530 = t389 - h_star_in_j_2 * t472 - (t388 - t478 * g_star_in_j_2);
     const jg_real t531 = t484 - t378 * g_star_in_j_2 - (t483 - h_star_in_j_2 * t369);
     const jg_real t532 = t379 + t480 - (t380 + t481);
-    jac_phi_q_v_A_j[51] = t359 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t529 + (omega_i_in_j_1 * t527 - t464 *
-        g_star_cross_h_j_in_j_1 - (t351 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t528)) - alphadot[2] * (C_j[6]
-        * t530 + C_j[7] * t531 + C_j[8] * t532) - (omega_j[1] * t527 - omega_j[0] * t528 + omega_j[2] * t529);
     const jg_real t533 = t486 - t392;
     const jg_real t534 = t489 + t378 * C_j[2];
     const jg_real t535 = t396 + t478 * C_j[2];
-    jac_phi_q_v_A_j[52] = t359 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t533 + (omega_i_in_j_1 * t534 - t464 *
-        h_star_cross_f_j_in_j_1 - (t351 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t535)) - (omega_j[1] * t534 -
-        omega_j[0] * t535 + omega_j[2] * t533);
     const jg_real t536 = C_j[5] * t531 - C_j[4] * t532;
     const jg_real t537 = C_j[3] * t532 - C_j[5] * t530;
     const jg_real t538 = C_j[4] * t530 - C_j[3] * t531;
-    jac_phi_q_v_A_j[53] = t359 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t538 + (omega_i_in_j_0 * t536 - t351 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t537 - t464 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
-        * t372 - (C_j[3] * t369 + C_j[4] * t472)) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] * t538);
     const jg_real t539 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t540 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t541 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -1146,16 +1131,27 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t548 = C_j[7] * t542 - C_j[8] * t543;
     const jg_real t549 = C_j[8] * t545 - C_j[6] * t542;
     const jg_real t550 = C_j[6] * t543 - C_j[7] * t545;
-    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 * t550 - alphadot[2] *
-        (C_j[6] * t544 + C_j[7] * t546 + C_j[8] * t547) - (omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] *
-        t550);
     const jg_real t551 = C_j[5] * t546 - C_j[4] * t547;
     const jg_real t552 = C_j[3] * t547 - C_j[5] * t544;
     const jg_real t553 = C_j[4] * t544 - C_j[3] * t546;
+    const jg_real t554 = -alphadot[0];
+    jac_phi_q_v_A_j[49] = A_ji_3 * t525 - t350 * v_3_in_j_0 + (A_ji_4 * t526 - t463 * v_3_in_j_1) + A_ji_5 * t524;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t524 + (A_ji_6 * t525 + A_ji_7 * t526);
+    jac_phi_q_v_A_j[51] = t359 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t529 + (omega_i_in_j_1 * t527 - t464 *
+        g_star_cross_h_j_in_j_1 - (t351 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t528)) - alphadot[2] * (C_j[6]
+        * t530 + C_j[7] * t531 + C_j[8] * t532) - (omega_j[1] * t527 - omega_j[0] * t528 + omega_j[2] * t529);
+    jac_phi_q_v_A_j[52] = t359 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t533 + (omega_i_in_j_1 * t534 - t464 *
+        h_star_cross_f_j_in_j_1 - (t351 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t535)) - (omega_j[1] * t534 -
+        omega_j[0] * t535 + omega_j[2] * t533);
+    jac_phi_q_v_A_j[53] = t359 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t538 + (omega_i_in_j_0 * t536 - t351 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t537 - t464 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
+        * t372 - (C_j[3] * t369 + C_j[4] * t472)) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] * t538);
+    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 * t550 - alphadot[2] *
+        (C_j[6] * t544 + C_j[7] * t546 + C_j[8] * t547) - (omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] *
+        t550);
     jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t552 + omega_i_in_j_2 * t553 - alphadot[2] *
         (C_j[3] * t545 + C_j[4] * t543 + C_j[5] * t542) - (omega_j[0] * t551 + omega_j[1] * t552 + omega_j[2] *
         t553);
-    const jg_real t554 = -alphadot[0];
     jac_phi_q_v_geometry[0] = t554;
     jac_phi_q_v_geometry[3] = t554;
     jac_phi_q_v_geometry[6] = t554;
@@ -1168,15 +1164,9 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t561 = C_j[7] * t555 - C_j[8] * t556;
     const jg_real t562 = C_j[8] * t558 - C_j[6] * t555;
     const jg_real t563 = C_j[6] * t556 - C_j[7] * t558;
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - alphadot[2] *
-        (C_j[6] * t557 + C_j[7] * t559 + C_j[8] * t560) - (omega_j[0] * t561 + omega_j[1] * t562 + omega_j[2] *
-        t563);
     const jg_real t564 = C_j[5] * t559 - C_j[4] * t560;
     const jg_real t565 = C_j[3] * t560 - C_j[5] * t557;
     const jg_real t566 = C_j[4] * t557 - C_j[3] * t559;
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - alphadot[2] *
-        (C_j[3] * t558 + C_j[4] * t556 + C_j[5] * t555) - (omega_j[0] * t564 + omega_j[1] * t565 + omega_j[2] *
-        t566);
     const jg_real t567 = A_ji_5 * sine_0;
     const jg_real t568 = A_ji_4 * sine_0;
     const jg_real t569 = h_star_in_j_1 * t567 - h_star_in_j_2 * t568;
@@ -1186,15 +1176,9 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t573 = C_j[7] * t567 - C_j[8] * t568;
     const jg_real t574 = C_j[8] * t570 - C_j[6] * t567;
     const jg_real t575 = C_j[6] * t568 - C_j[7] * t570;
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t573 + omega_i_in_j_1 * t574 + omega_i_in_j_2 * t575 - alphadot[2] *
-        (C_j[6] * t569 + C_j[7] * t571 + C_j[8] * t572) - (omega_j[0] * t573 + omega_j[1] * t574 + omega_j[2] *
-        t575);
     const jg_real t576 = C_j[5] * t571 - C_j[4] * t572;
     const jg_real t577 = C_j[3] * t572 - C_j[5] * t569;
     const jg_real t578 = C_j[4] * t569 - C_j[3] * t571;
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t576 + omega_i_in_j_1 * t577 + omega_i_in_j_2 * t578 - alphadot[2] *
-        (C_j[3] * t570 + C_j[4] * t568 + C_j[5] * t567) - (omega_j[0] * t576 + omega_j[1] * t577 + omega_j[2] *
-        t578);
     const jg_real t579 = A_ji_8 * sine_0;
     const jg_real t580 = A_ji_7 * sine_0;
     const jg_real t581 = h_star_in_j_1 * t579 - h_star_in_j_2 * t580;
@@ -1204,16 +1188,28 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t585 = C_j[7] * t579 - C_j[8] * t580;
     const jg_real t586 = C_j[8] * t582 - C_j[6] * t579;
     const jg_real t587 = C_j[6] * t580 - C_j[7] * t582;
-    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t585 + omega_i_in_j_1 * t586 + omega_i_in_j_2 * t587 - alphadot[2] *
-        (C_j[6] * t581 + C_j[7] * t583 + C_j[8] * t584) - (omega_j[0] * t585 + omega_j[1] * t586 + omega_j[2] *
-        t587);
     const jg_real t588 = C_j[5] * t583 - C_j[4] * t584;
     const jg_real t589 = C_j[3] * t584 - C_j[5] * t581;
     const jg_real t590 = C_j[4] * t581 - C_j[3] * t583;
+    const jg_real t591 = -alphadot[1];
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - alphadot[2] *
+        (C_j[6] * t557 + C_j[7] * t559 + C_j[8] * t560) - (omega_j[0] * t561 + omega_j[1] * t562 + omega_j[2] *
+        t563);
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - alphadot[2] *
+        (C_j[3] * t558 + C_j[4] * t556 + C_j[5] * t555) - (omega_j[0] * t564 + omega_j[1] * t565 + omega_j[2] *
+        t566);
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t573 + omega_i_in_j_1 * t574 + omega_i_in_j_2 * t575 - alphadot[2] *
+        (C_j[6] * t569 + C_j[7] * t571 + C_j[8] * t572) - (omega_j[0] * t573 + omega_j[1] * t574 + omega_j[2] *
+        t575);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t576 + omega_i_in_j_1 * t577 + omega_i_in_j_2 * t578 - alphadot[2] *
+        (C_j[3] * t570 + C_j[4] * t568 + C_j[5] * t567) - (omega_j[0] * t576 + omega_j[1] * t577 + omega_j[2] *
+        t578);
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t585 + omega_i_in_j_1 * t586 + omega_i_in_j_2 * t587 - alphadot[2] *
+        (C_j[6] * t581 + C_j[7] * t583 + C_j[8] * t584) - (omega_j[0] * t585 + omega_j[1] * t586 + omega_j[2] *
+        t587);
     jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t588 + omega_i_in_j_1 * t589 + omega_i_in_j_2 * t590 - alphadot[2] *
         (C_j[3] * t582 + C_j[4] * t580 + C_j[5] * t579) - (omega_j[0] * t588 + omega_j[1] * t589 + omega_j[2] *
         t590);
-    const jg_real t591 = -alphadot[1];
     jac_phi_q_v_geometry[9] = t591;
     jac_phi_q_v_geometry[12] = t591;
     jac_phi_q_v_geometry[15] = t591;
@@ -1226,15 +1222,9 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t598 = C_j[8] * t592 - C_j[7] * t593;
     const jg_real t599 = C_j[6] * t593 - C_j[8] * t595;
     const jg_real t600 = C_j[7] * t595 - C_j[6] * t592;
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t598 + omega_i_in_j_1 * t599 + omega_i_in_j_2 * t600 - alphadot[2] *
-        (C_j[6] * t594 + C_j[7] * t596 + C_j[8] * t597) - (omega_j[0] * t598 + omega_j[1] * t599 + omega_j[2] *
-        t600);
     const jg_real t601 = C_j[5] * t596 - C_j[4] * t597;
     const jg_real t602 = C_j[3] * t597 - C_j[5] * t594;
     const jg_real t603 = C_j[4] * t594 - C_j[3] * t596;
-    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t601 + omega_i_in_j_1 * t602 + omega_i_in_j_2 * t603 + alphadot[2] *
-        (C_j[3] * t595 + C_j[4] * t592 + C_j[5] * t593) - (omega_j[0] * t601 + omega_j[1] * t602 + omega_j[2] *
-        t603);
     const jg_real t604 = A_ji_4 * cosine_0;
     const jg_real t605 = A_ji_5 * cosine_0;
     const jg_real t606 = h_star_in_j_2 * t604 - h_star_in_j_1 * t605;
@@ -1244,15 +1234,9 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t610 = C_j[8] * t604 - C_j[7] * t605;
     const jg_real t611 = C_j[6] * t605 - C_j[8] * t607;
     const jg_real t612 = C_j[7] * t607 - C_j[6] * t604;
-    jac_phi_q_v_geometry[13] = omega_i_in_j_0 * t610 + omega_i_in_j_1 * t611 + omega_i_in_j_2 * t612 - alphadot[2] *
-        (C_j[6] * t606 + C_j[7] * t608 + C_j[8] * t609) - (omega_j[0] * t610 + omega_j[1] * t611 + omega_j[2] *
-        t612);
     const jg_real t613 = C_j[5] * t608 - C_j[4] * t609;
     const jg_real t614 = C_j[3] * t609 - C_j[5] * t606;
     const jg_real t615 = C_j[4] * t606 - C_j[3] * t608;
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t613 + omega_i_in_j_1 * t614 + omega_i_in_j_2 * t615 + alphadot[2] *
-        (C_j[3] * t607 + C_j[4] * t604 + C_j[5] * t605) - (omega_j[0] * t613 + omega_j[1] * t614 + omega_j[2] *
-        t615);
     const jg_real t616 = A_ji_7 * cosine_0;
     const jg_real t617 = A_ji_8 * cosine_0;
     const jg_real t618 = h_star_in_j_2 * t616 - h_star_in_j_1 * t617;
@@ -1262,72 +1246,84 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     const jg_real t622 = C_j[8] * t616 - C_j[7] * t617;
     const jg_real t623 = C_j[6] * t617 - C_j[8] * t619;
     const jg_real t624 = C_j[7] * t619 - C_j[6] * t616;
-    jac_phi_q_v_geometry[16] = omega_i_in_j_0 * t622 + omega_i_in_j_1 * t623 + omega_i_in_j_2 * t624 - alphadot[2] *
-        (C_j[6] * t618 + C_j[7] * t620 + C_j[8] * t621) - (omega_j[0] * t622 + omega_j[1] * t623 + omega_j[2] *
-        t624);
     const jg_real t625 = C_j[5] * t620 - C_j[4] * t621;
     const jg_real t626 = C_j[3] * t621 - C_j[5] * t618;
     const jg_real t627 = C_j[4] * t618 - C_j[3] * t620;
-    jac_phi_q_v_geometry[17] = omega_i_in_j_0 * t625 + omega_i_in_j_1 * t626 + omega_i_in_j_2 * t627 + alphadot[2] *
-        (C_j[3] * t619 + C_j[4] * t616 + C_j[5] * t617) - (omega_j[0] * t625 + omega_j[1] * t626 + omega_j[2] *
-        t627);
     const jg_real t628 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
     const jg_real t629 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
     const jg_real t630 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    jac_phi_q_v_geometry[18] = -(alphadot[2] * (C_j[6] * t628 + C_j[7] * t629 + C_j[8] * t630));
     const jg_real t631 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
     const jg_real t632 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
     const jg_real t633 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t598 + omega_i_in_j_1 * t599 + omega_i_in_j_2 * t600 - alphadot[2] *
+        (C_j[6] * t594 + C_j[7] * t596 + C_j[8] * t597) - (omega_j[0] * t598 + omega_j[1] * t599 + omega_j[2] *
+        t600);
+    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t601 + omega_i_in_j_1 * t602 + omega_i_in_j_2 * t603 + alphadot[2] *
+        (C_j[3] * t595 + C_j[4] * t592 + C_j[5] * t593) - (omega_j[0] * t601 + omega_j[1] * t602 + omega_j[2] *
+        t603);
+    jac_phi_q_v_geometry[13] = omega_i_in_j_0 * t610 + omega_i_in_j_1 * t611 + omega_i_in_j_2 * t612 - alphadot[2] *
+        (C_j[6] * t606 + C_j[7] * t608 + C_j[8] * t609) - (omega_j[0] * t610 + omega_j[1] * t611 + omega_j[2] *
+        t612);
+    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t613 + omega_i_in_j_1 * t614 + omega_i_in_j_2 * t615 + alphadot[2] *
+        (C_j[3] * t607 + C_j[4] * t604 + C_j[5] * t605) - (omega_j[0] * t613 + omega_j[1] * t614 + omega_j[2] *
+        t615);
+    jac_phi_q_v_geometry[16] = omega_i_in_j_0 * t622 + omega_i_in_j_1 * t623 + omega_i_in_j_2 * t624 - alphadot[2] *
+        (C_j[6] * t618 + C_j[7] * t620 + C_j[8] * t621) - (omega_j[0] * t622 + omega_j[1] * t623 + omega_j[2] *
+        t624);
+    jac_phi_q_v_geometry[17] = omega_i_in_j_0 * t625 + omega_i_in_j_1 * t626 + omega_i_in_j_2 * t627 + alphadot[2] *
+        (C_j[3] * t619 + C_j[4] * t616 + C_j[5] * t617) - (omega_j[0] * t625 + omega_j[1] * t626 + omega_j[2] *
+        t627);
+    jac_phi_q_v_geometry[18] = -(alphadot[2] * (C_j[6] * t628 + C_j[7] * t629 + C_j[8] * t630));
     jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t631 + omega_i_in_j_1 * t632 + omega_i_in_j_2 * t633 - (omega_j[0] *
         t631 + omega_j[1] * t632 + omega_j[2] * t633);
     const jg_real t634 = C_j[5] * t629 - C_j[4] * t630;
     const jg_real t635 = C_j[3] * t630 - C_j[5] * t628;
     const jg_real t636 = C_j[4] * t628 - C_j[3] * t629;
-    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t634 + omega_i_in_j_1 * t635 + omega_i_in_j_2 * t636 - (omega_j[0] *
-        t634 + omega_j[1] * t635 + omega_j[2] * t636);
     const jg_real t637 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
     const jg_real t638 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
     const jg_real t639 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
-    jac_phi_q_v_geometry[21] = -(alphadot[2] * (C_j[6] * t637 + C_j[7] * t638 + C_j[8] * t639));
     const jg_real t640 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
     const jg_real t641 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
     const jg_real t642 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t640 + omega_i_in_j_1 * t641 + omega_i_in_j_2 * t642 - (omega_j[0] *
-        t640 + omega_j[1] * t641 + omega_j[2] * t642);
     const jg_real t643 = C_j[5] * t638 - C_j[4] * t639;
     const jg_real t644 = C_j[3] * t639 - C_j[5] * t637;
     const jg_real t645 = C_j[4] * t637 - C_j[3] * t638;
-    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t643 + omega_i_in_j_1 * t644 + omega_i_in_j_2 * t645 - (omega_j[0] *
-        t643 + omega_j[1] * t644 + omega_j[2] * t645);
     const jg_real t646 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
     const jg_real t647 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
     const jg_real t648 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
-    jac_phi_q_v_geometry[24] = -(alphadot[2] * (C_j[6] * t646 + C_j[7] * t647 + C_j[8] * t648));
     const jg_real t649 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
     const jg_real t650 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
     const jg_real t651 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    jac_phi_q_v_geometry[25] = omega_i_in_j_0 * t649 + omega_i_in_j_1 * t650 + omega_i_in_j_2 * t651 - (omega_j[0] *
-        t649 + omega_j[1] * t650 + omega_j[2] * t651);
     const jg_real t652 = C_j[5] * t647 - C_j[4] * t648;
     const jg_real t653 = C_j[3] * t648 - C_j[5] * t646;
     const jg_real t654 = C_j[4] * t646 - C_j[3] * t647;
-    jac_phi_q_v_geometry[26] = omega_i_in_j_0 * t652 + omega_i_in_j_1 * t653 + omega_i_in_j_2 * t654 - (omega_j[0] *
-        t652 + omega_j[1] * t653 + omega_j[2] * t654);
     const jg_real t655 = omega_i_in_j_2 - omega_j[2];
     const jg_real t656 = omega_j[1] - omega_i_in_j_1;
+    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t634 + omega_i_in_j_1 * t635 + omega_i_in_j_2 * t636 - (omega_j[0] *
+        t634 + omega_j[1] * t635 + omega_j[2] * t636);
+    jac_phi_q_v_geometry[21] = -(alphadot[2] * (C_j[6] * t637 + C_j[7] * t638 + C_j[8] * t639));
+    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t640 + omega_i_in_j_1 * t641 + omega_i_in_j_2 * t642 - (omega_j[0] *
+        t640 + omega_j[1] * t641 + omega_j[2] * t642);
+    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t643 + omega_i_in_j_1 * t644 + omega_i_in_j_2 * t645 - (omega_j[0] *
+        t643 + omega_j[1] * t644 + omega_j[2] * t645);
+    jac_phi_q_v_geometry[24] = -(alphadot[2] * (C_j[6] * t646 + C_j[7] * t647 + C_j[8] * t648));
+    jac_phi_q_v_geometry[25] = omega_i_in_j_0 * t649 + omega_i_in_j_1 * t650 + omega_i_in_j_2 * t651 - (omega_j[0] *
+        t649 + omega_j[1] * t650 + omega_j[2] * t651);
+    jac_phi_q_v_geometry[26] = omega_i_in_j_0 * t652 + omega_i_in_j_1 * t653 + omega_i_in_j_2 * t654 - (omega_j[0] *
+        t652 + omega_j[1] * t653 + omega_j[2] * t654);
     jac_phi_q_v_geometry[27] = -(A_ji_1 * t655 + A_ji_2 * t656);
+    const jg_real t657 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[28] = -(A_ji_4 * t655 + A_ji_5 * t656);
     jac_phi_q_v_geometry[29] = -(A_ji_7 * t655 + A_ji_8 * t656);
-    const jg_real t657 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[30] = A_ji_0 * t655 - A_ji_2 * t657;
     jac_phi_q_v_geometry[31] = A_ji_3 * t655 - A_ji_5 * t657;
     jac_phi_q_v_geometry[32] = A_ji_6 * t655 - A_ji_8 * t657;
     jac_phi_q_v_geometry[33] = A_ji_0 * t656 + A_ji_1 * t657;
     jac_phi_q_v_geometry[34] = A_ji_3 * t656 + A_ji_4 * t657;
     jac_phi_q_v_geometry[35] = A_ji_6 * t656 + A_ji_7 * t657;
-    jac_phi_q_v_geometry[36] = h_star_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
+    jac_phi_q_v_geometry[36] = omega_i_in_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
-    jac_phi_q_v_geometry[37] = omega_i_in_j_2 * h_star_in_j_0 - h_star_in_j_2 * omega_i_in_j_0 - (omega_j[2] *
+    jac_phi_q_v_geometry[37] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
         h_star_in_j_0 - omega_j[0] * h_star_in_j_2);
     jac_phi_q_v_geometry[38] = omega_i_in_j_0 * h_star_in_j_1 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
         h_star_in_j_1 - omega_j[1] * h_star_in_j_0);
@@ -1341,23 +1337,26 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         f_star_in_j_0 - (omega_j[1] * g_star_in_j_2 - omega_j[2] * g_star_in_j_1);
     jac_phi_q_v_geometry[43] = omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2 - alphadot[2] *
         f_star_in_j_1 - (omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2);
+    const jg_real t658 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
+    const jg_real t659 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
+    const jg_real t660 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
     jac_phi_q_v_geometry[44] = omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0 - alphadot[2] *
         f_star_in_j_2 - (omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t658 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_velocity[1] = t658;
     jac_phi_q_v_velocity[3] = t658;
-    const jg_real t659 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
     jac_phi_q_v_velocity[2] = t659;
     jac_phi_q_v_velocity[6] = t659;
     jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    const jg_real t660 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
     jac_phi_q_v_velocity[5] = t660;
     jac_phi_q_v_velocity[7] = t660;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t661 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t662 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t663 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t664 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t665 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t666 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t661 + A_ji_1 * t662 + A_ji_2 * t663;
     jac_phi_q_v_velocity[10] = A_ji_3 * t661 + A_ji_4 * t662 + A_ji_5 * t663;
     jac_phi_q_v_velocity[11] = A_ji_6 * t661 + A_ji_7 * t662 + A_ji_8 * t663;
@@ -1367,10 +1366,10 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ji_0 * f_star_cross_g_j_in_j_0 + A_ji_1 * f_star_cross_g_j_in_j_1 + A_ji_2 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t664 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t665 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t666 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
     jac_phi_q_v_velocity[15] = A_ji_0 * t664 + A_ji_1 * t665 + A_ji_2 * t666;
+    const jg_real t667 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t668 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t669 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
     jac_phi_q_v_velocity[16] = A_ji_3 * t664 + A_ji_4 * t665 + A_ji_5 * t666;
     jac_phi_q_v_velocity[17] = A_ji_6 * t664 + A_ji_7 * t665 + A_ji_8 * t666;
     jac_phi_q_v_velocity[18] = A_ji_3 * g_star_cross_h_j_in_j_0 + A_ji_4 * g_star_cross_h_j_in_j_1 + A_ji_5 *
@@ -1379,9 +1378,6 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[20] = A_ji_3 * f_star_cross_g_j_in_j_0 + A_ji_4 * f_star_cross_g_j_in_j_1 + A_ji_5 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t667 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t668 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t669 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
     jac_phi_q_v_velocity[21] = A_ji_0 * t667 + A_ji_1 * t668 + A_ji_2 * t669;
     jac_phi_q_v_velocity[22] = A_ji_3 * t667 + A_ji_4 * t668 + A_ji_5 * t669;
     jac_phi_q_v_velocity[23] = A_ji_6 * t667 + A_ji_7 * t668 + A_ji_8 * t669;
@@ -1391,7 +1387,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[26] = A_ji_6 * f_star_cross_g_j_in_j_0 + A_ji_7 * f_star_cross_g_j_in_j_1 + A_ji_8 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
     jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_v_velocity[39] = -g_star_cross_h_j_in_j_0;
@@ -1403,7 +1399,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_1;
     jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_1;
     jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_1;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
     jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_v_velocity[51] = -g_star_cross_h_j_in_j_2;
@@ -1412,70 +1408,64 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i
     jac_phi_q_v_velocity[54] = -C_i[0];
     jac_phi_q_v_velocity[55] = -C_i[1];
     jac_phi_q_v_velocity[56] = -C_i[2];
+    /* f_star_dot_h_j = f_star . h_j */
+    const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
+    /* g_star_dot_g_j = g_star . g_j */
+    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[57] = -C_i[3];
     jac_phi_q_v_velocity[58] = -C_i[4];
     jac_phi_q_v_velocity[59] = -C_i[5];
-    /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
     jac_phi_q_v_velocity[60] = -f_star_dot_h_j;
-    /* g_star_dot_g_j = g_star . g_j */
-    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[61] = g_star_dot_g_j;
 }
 
-static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
+static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *jac_phi_q_t_lambda_r_i, jg_real *jac_phi_q_t_lambda_A_i, jg_real *jac_phi_q_t_lambda_r_j,
+    jg_real *jac_phi_q_t_lambda_A_j, jg_real *jac_phi_q_t_lambda_alpha, jg_real *jac_phi_q_t_lambda_geometry,
+    jg_real *jac_phi_q_t_lambda_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[28] = A_ij_2;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[18] = A_ij_7;
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_q_t_lambda_lambda[16] = A_ij_1;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_t_lambda_lambda[30] = A_ij_8;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
-    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[28] = A_ij_2;
+    jac_phi_q_t_lambda_lambda[18] = A_ij_7;
+    jac_phi_q_t_lambda_lambda[16] = A_ij_1;
+    jac_phi_q_t_lambda_lambda[30] = A_ij_8;
+    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
+    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     jac_phi_q_t_lambda_lambda[6] = A_ij_6;
     const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
-    jac_phi_q_t_lambda_lambda[17] = A_ij_4;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
-    jac_phi_q_t_lambda_lambda[29] = A_ij_5;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[73] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ij_7 + lambda[0] * A_ij_6 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[77] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* h_star_in_j = h_star, axes of body j */
@@ -1483,7 +1473,6 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real h_star_in_j_2 = C_i[7] * A_ij_7 + C_i[6] * A_ij_6 + C_i[8] * A_ij_8;
     /* f_j_cross_h_star_in_j = f_j x h_star, axes of body j */
     const jg_real f_j_cross_h_star_in_j_0 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
-    jac_phi_q_t_lambda_lambda[46] = f_j_cross_h_star_in_j_0;
     /* v_2_in_j = lambda_4 f_j x h_star, axes of body j */
     const jg_real v_2_in_j_0 = lambda[4] * f_j_cross_h_star_in_j_0;
     jg_real sine_0;
@@ -1526,23 +1515,25 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t53 = t48 * g_star_in_j_2 + h_star_in_j_0 * t51 - (t52 * g_star_in_j_0 + h_star_in_j_2 * t44);
     const jg_real t54 = lambda[1] * t45 + lambda[2] * t46;
     const jg_real t55 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t55;
     const jg_real t56 = v_5_in_j_2 * t49 + v_5_in_j_1 * t51 + (s_j[1] * t55 + s_j[2] * t54 + lambda[4] * (C_j[1] *
         t52 + C_j[2] * t47) + (v_3_in_j_1 * t50 - v_3_in_j_2 * t53));
-    jac_phi_q_t_lambda_A_i[6] = t56;
     const jg_real t57 = t52 * g_star_in_j_1 - h_star_in_j_2 * t49 - (h_star_in_j_1 * t51 - t47 * g_star_in_j_2);
     const jg_real v_3_in_j_0 = lambda[5] * C_j[3];
     const jg_real t59 = lambda[0] * A_j[0];
+    jac_phi_q_t_lambda_lambda[17] = A_ij_4;
+    jac_phi_q_t_lambda_lambda[29] = A_ij_5;
+    jac_phi_q_t_lambda_geometry[73] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[77] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_lambda[46] = f_j_cross_h_star_in_j_0;
+    jac_phi_q_t_lambda_A_i[5] = t55;
+    jac_phi_q_t_lambda_A_i[6] = t56;
     jac_phi_q_t_lambda_A_i[3] = t59;
     const jg_real v_5_in_j_0 = lambda[3] * C_j[6];
     const jg_real t61 = v_5_in_j_2 * t44 - v_5_in_j_0 * t51 + (s_j[2] * t59 - s_j[0] * t55 + lambda[4] * (C_j[2] *
         t48 - C_j[0] * t52) + (v_3_in_j_2 * t57 - v_3_in_j_0 * t50));
-    jac_phi_q_t_lambda_A_i[7] = t61;
     const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ij_1 + lambda[0] * A_ij_0 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_h_star_in_j_2 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
-    jac_phi_q_t_lambda_lambda[48] = f_j_cross_h_star_in_j_2;
     const jg_real v_2_in_j_2 = lambda[4] * f_j_cross_h_star_in_j_2;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real v_4_in_j_2 = v_3_in_j_0 * f_star_in_j_1 - v_3_in_j_1 * f_star_in_j_0;
@@ -1551,12 +1542,9 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t70 = A_j[6] * v_7_in_j_2;
     const jg_real t71 = v_3_in_j_0 * t53 - v_3_in_j_1 * t57 - (s_j[1] * t59 + s_j[0] * t54 + lambda[4] * (C_j[1] *
         t48 + C_j[0] * t47)) - (v_5_in_j_0 * t49 + v_5_in_j_1 * t44);
-    jac_phi_q_t_lambda_A_i[8] = t71;
-    jac_phi_q_t_lambda_A_i[0] = -(t70 + A_ij_6 * t71 + (t43 + A_ij_0 * t56 + A_ij_3 * t61));
     const jg_real v_4_in_j_1 = v_3_in_j_2 * f_star_in_j_0 - v_3_in_j_0 * f_star_in_j_2;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_j_cross_h_star_in_j_1 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
-    jac_phi_q_t_lambda_lambda[47] = f_j_cross_h_star_in_j_1;
     const jg_real v_2_in_j_1 = lambda[4] * f_j_cross_h_star_in_j_1;
     const jg_real v_6_in_j_1 = v_5_in_j_2 * g_star_in_j_0 - v_5_in_j_0 * g_star_in_j_2;
     const jg_real v_7_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_4_in_j_1 + v_6_in_j_1;
@@ -1564,13 +1552,16 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t80 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = t80 - (A_ij_4 * t61 - t78 + A_ij_1 * t56 + A_ij_7 * t71);
     const jg_real t81 = t46 * v_7_in_j_1;
     const jg_real t82 = lambda[1] * v_0_world_0;
+    jac_phi_q_t_lambda_A_i[7] = t61;
+    jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_lambda[48] = f_j_cross_h_star_in_j_2;
+    jac_phi_q_t_lambda_A_i[8] = t71;
+    jac_phi_q_t_lambda_A_i[0] = -(t70 + A_ij_6 * t71 + (t43 + A_ij_0 * t56 + A_ij_3 * t61));
+    jac_phi_q_t_lambda_lambda[47] = f_j_cross_h_star_in_j_1;
+    jac_phi_q_t_lambda_A_i[1] = t80 - (A_ij_4 * t61 - t78 + A_ij_1 * t56 + A_ij_7 * t71);
     jac_phi_q_t_lambda_A_i[2] = -(A_ij_5 * t61 - t81 + A_ij_2 * t56 + A_ij_8 * t71 + t82);
-    jac_phi_q_t_lambda_A_i[4] = -t54;
-    jac_phi_q_t_lambda_A_i[9] = v_3_in_j_0 * t44 - v_3_in_j_1 * t49 + v_3_in_j_2 * t51 - (v_5_in_j_0 * t57 +
-        v_5_in_j_1 * t53 + v_5_in_j_2 * t50);
     const jg_real t83 = A_j[1] * v_7_in_j_0;
     const jg_real t84 = A_j[1] * g_star_in_i_0;
     const jg_real t85 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
@@ -1584,31 +1575,29 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t93 = t88 * g_star_in_j_2 + h_star_in_j_0 * t91 - (t92 * g_star_in_j_0 + h_star_in_j_2 * t84);
     const jg_real t94 = lambda[1] * t85 + lambda[2] * t86;
     const jg_real t95 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[15] = t95;
     const jg_real t96 = v_5_in_j_2 * t89 + v_5_in_j_1 * t91 + (s_j[1] * t95 + s_j[2] * t94 + lambda[4] * (C_j[1] *
         t92 + C_j[2] * t87) + (v_3_in_j_1 * t90 - v_3_in_j_2 * t93));
-    jac_phi_q_t_lambda_A_i[16] = t96;
     const jg_real t97 = t92 * g_star_in_j_1 - h_star_in_j_2 * t89 - (h_star_in_j_1 * t91 - t87 * g_star_in_j_2);
     const jg_real t98 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[13] = t98;
     const jg_real t99 = v_5_in_j_2 * t84 - v_5_in_j_0 * t91 + (s_j[2] * t98 - s_j[0] * t95 + lambda[4] * (C_j[2] *
         t88 - C_j[0] * t92) + (v_3_in_j_2 * t97 - v_3_in_j_0 * t90));
-    jac_phi_q_t_lambda_A_i[17] = t99;
     const jg_real t100 = A_j[7] * v_7_in_j_2;
     const jg_real t101 = v_3_in_j_0 * t93 - v_3_in_j_1 * t97 - (s_j[1] * t98 + s_j[0] * t94 + lambda[4] * (C_j[1] *
         t88 + C_j[0] * t87)) - (v_5_in_j_0 * t89 + v_5_in_j_1 * t84);
+    jac_phi_q_t_lambda_A_i[4] = -t54;
+    jac_phi_q_t_lambda_A_i[9] = v_3_in_j_0 * t44 - v_3_in_j_1 * t49 + v_3_in_j_2 * t51 - (v_5_in_j_0 * t57 +
+        v_5_in_j_1 * t53 + v_5_in_j_2 * t50);
+    jac_phi_q_t_lambda_A_i[15] = t95;
+    jac_phi_q_t_lambda_A_i[16] = t96;
+    jac_phi_q_t_lambda_A_i[13] = t98;
+    jac_phi_q_t_lambda_A_i[17] = t99;
     jac_phi_q_t_lambda_A_i[18] = t101;
     jac_phi_q_t_lambda_A_i[10] = -(t100 + A_ij_6 * t101 + (t83 + A_ij_0 * t96 + A_ij_3 * t99));
     const jg_real t102 = t85 * v_7_in_j_1;
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t104 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[11] = t104 - (A_ij_4 * t99 - t102 + A_ij_1 * t96 + A_ij_7 * t101);
     const jg_real t105 = t86 * v_7_in_j_1;
     const jg_real t106 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[12] = -(A_ij_5 * t99 - t105 + A_ij_2 * t96 + A_ij_8 * t101 + t106);
-    jac_phi_q_t_lambda_A_i[14] = -t94;
-    jac_phi_q_t_lambda_A_i[19] = v_3_in_j_0 * t84 - v_3_in_j_1 * t89 + v_3_in_j_2 * t91 - (v_5_in_j_0 * t97 +
-        v_5_in_j_1 * t93 + v_5_in_j_2 * t90);
     const jg_real t107 = A_j[2] * v_7_in_j_0;
     const jg_real t108 = A_j[2] * g_star_in_i_0;
     const jg_real t109 = A_j[8] * A_ij_2 - A_j[2] * A_ij_8;
@@ -1624,32 +1613,30 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
         t108);
     const jg_real t118 = lambda[1] * t109 + lambda[2] * t110;
     const jg_real t119 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[25] = t119;
     const jg_real t120 = v_5_in_j_2 * t113 + v_5_in_j_1 * t115 + (s_j[1] * t119 + s_j[2] * t118 + lambda[4] *
         (C_j[1] * t116 + C_j[2] * t111) + (v_3_in_j_1 * t114 - v_3_in_j_2 * t117));
-    jac_phi_q_t_lambda_A_i[26] = t120;
     const jg_real t121 = t116 * g_star_in_j_1 - h_star_in_j_2 * t113 - (h_star_in_j_1 * t115 - t111 *
         g_star_in_j_2);
     const jg_real t122 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[23] = t122;
     const jg_real t123 = v_5_in_j_2 * t108 - v_5_in_j_0 * t115 + (s_j[2] * t122 - s_j[0] * t119 + lambda[4] *
         (C_j[2] * t112 - C_j[0] * t116) + (v_3_in_j_2 * t121 - v_3_in_j_0 * t114));
+    jac_phi_q_t_lambda_A_i[11] = t104 - (A_ij_4 * t99 - t102 + A_ij_1 * t96 + A_ij_7 * t101);
+    jac_phi_q_t_lambda_A_i[12] = -(A_ij_5 * t99 - t105 + A_ij_2 * t96 + A_ij_8 * t101 + t106);
+    jac_phi_q_t_lambda_A_i[14] = -t94;
+    jac_phi_q_t_lambda_A_i[19] = v_3_in_j_0 * t84 - v_3_in_j_1 * t89 + v_3_in_j_2 * t91 - (v_5_in_j_0 * t97 +
+        v_5_in_j_1 * t93 + v_5_in_j_2 * t90);
+    jac_phi_q_t_lambda_A_i[25] = t119;
+    jac_phi_q_t_lambda_A_i[26] = t120;
+    jac_phi_q_t_lambda_A_i[23] = t122;
     jac_phi_q_t_lambda_A_i[27] = t123;
     const jg_real t124 = A_j[8] * v_7_in_j_2;
     const jg_real t125 = v_3_in_j_0 * t117 - v_3_in_j_1 * t121 - (s_j[1] * t122 + s_j[0] * t118 + lambda[4] *
         (C_j[1] * t112 + C_j[0] * t111)) - (v_5_in_j_0 * t113 + v_5_in_j_1 * t108);
-    jac_phi_q_t_lambda_A_i[28] = t125;
-    jac_phi_q_t_lambda_A_i[20] = -(t124 + A_ij_6 * t125 + (t107 + A_ij_0 * t120 + A_ij_3 * t123));
     const jg_real t126 = t109 * v_7_in_j_1;
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t128 = lambda[2] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[21] = t128 - (A_ij_4 * t123 - t126 + A_ij_1 * t120 + A_ij_7 * t125);
     const jg_real t129 = t110 * v_7_in_j_1;
     const jg_real t130 = lambda[1] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[22] = -(A_ij_5 * t123 - t129 + A_ij_2 * t120 + A_ij_8 * t125 + t130);
-    jac_phi_q_t_lambda_A_i[24] = -t118;
-    jac_phi_q_t_lambda_A_i[29] = v_3_in_j_0 * t108 - v_3_in_j_1 * t113 + v_3_in_j_2 * t115 - (v_5_in_j_0 * t121 +
-        v_5_in_j_1 * t117 + v_5_in_j_2 * t114);
     const jg_real t131 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
     const jg_real t132 = C_i[6] * t45 - C_i[8] * t131;
     const jg_real t133 = A_j[6] * g_star_in_i_1;
@@ -1662,26 +1649,33 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t139 = t132 * g_star_in_j_0 + h_star_in_j_1 * t137 - (t138 * g_star_in_j_1 + h_star_in_j_0 *
         t135);
     const jg_real t140 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[33] = t140;
     const jg_real t141 = lambda[1] * A_j[6];
+    jac_phi_q_t_lambda_A_i[28] = t125;
+    jac_phi_q_t_lambda_A_i[20] = -(t124 + A_ij_6 * t125 + (t107 + A_ij_0 * t120 + A_ij_3 * t123));
+    jac_phi_q_t_lambda_A_i[21] = t128 - (A_ij_4 * t123 - t126 + A_ij_1 * t120 + A_ij_7 * t125);
+    jac_phi_q_t_lambda_A_i[22] = -(A_ij_5 * t123 - t129 + A_ij_2 * t120 + A_ij_8 * t125 + t130);
+    jac_phi_q_t_lambda_A_i[24] = -t118;
+    jac_phi_q_t_lambda_A_i[29] = v_3_in_j_0 * t108 - v_3_in_j_1 * t113 + v_3_in_j_2 * t115 - (v_5_in_j_0 * t121 +
+        v_5_in_j_1 * t117 + v_5_in_j_2 * t114);
+    jac_phi_q_t_lambda_A_i[33] = t140;
     jac_phi_q_t_lambda_A_i[35] = t141;
     const jg_real t142 = v_5_in_j_2 * t137 - v_5_in_j_0 * t133 + (s_j[2] * t140 - s_j[0] * t141 + lambda[4] *
         (C_j[2] * t138 - C_j[0] * t134) + (v_3_in_j_2 * t136 - v_3_in_j_0 * t139));
-    jac_phi_q_t_lambda_A_i[37] = t142;
     const jg_real t143 = t138 * g_star_in_j_2 + h_star_in_j_0 * t133 - (t134 * g_star_in_j_0 + h_star_in_j_2 *
         t137);
     const jg_real t144 = lambda[0] * t45 - lambda[2] * t131;
-    jac_phi_q_t_lambda_A_i[34] = t144;
     const jg_real t145 = v_5_in_j_1 * t133 - v_5_in_j_2 * t135 + (s_j[1] * t141 - s_j[2] * t144 + lambda[4] *
         (C_j[1] * t134 - C_j[2] * t132) + (v_3_in_j_1 * t139 - v_3_in_j_2 * t143));
-    jac_phi_q_t_lambda_A_i[36] = t145;
     const jg_real t146 = v_5_in_j_0 * t135 - v_5_in_j_1 * t137 + (s_j[0] * t144 - s_j[1] * t140 + lambda[4] *
         (C_j[0] * t132 - C_j[1] * t138) + (v_3_in_j_0 * t143 - v_3_in_j_1 * t136));
+    const jg_real t147 = t131 * v_7_in_j_1;
+    const jg_real t148 = lambda[0] * v_0_world_0;
+    jac_phi_q_t_lambda_A_i[37] = t142;
+    jac_phi_q_t_lambda_A_i[34] = t144;
+    jac_phi_q_t_lambda_A_i[36] = t145;
     jac_phi_q_t_lambda_A_i[38] = t146;
     jac_phi_q_t_lambda_A_i[30] = -(t78 + A_ij_3 * t142 + A_ij_0 * t145 + A_ij_6 * t146 + t80);
     jac_phi_q_t_lambda_A_i[31] = -(t70 + A_ij_7 * t146 + (t43 + A_ij_1 * t145 + A_ij_4 * t142));
-    const jg_real t147 = t131 * v_7_in_j_1;
-    const jg_real t148 = lambda[0] * v_0_world_0;
     jac_phi_q_t_lambda_A_i[32] = t148 - (A_ij_5 * t142 - t147 + A_ij_2 * t145 + A_ij_8 * t146);
     jac_phi_q_t_lambda_A_i[39] = v_3_in_j_1 * t135 + v_3_in_j_0 * t137 + v_3_in_j_2 * t133 - (v_5_in_j_0 * t136 +
         v_5_in_j_1 * t143 + v_5_in_j_2 * t139);
@@ -1697,29 +1691,26 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t157 = t150 * g_star_in_j_0 + h_star_in_j_1 * t155 - (t156 * g_star_in_j_1 + h_star_in_j_0 *
         t153);
     const jg_real t158 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[43] = t158;
     const jg_real t159 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[45] = t159;
     const jg_real t160 = v_5_in_j_2 * t155 - v_5_in_j_0 * t151 + (s_j[2] * t158 - s_j[0] * t159 + lambda[4] *
         (C_j[2] * t156 - C_j[0] * t152) + (v_3_in_j_2 * t154 - v_3_in_j_0 * t157));
-    jac_phi_q_t_lambda_A_i[47] = t160;
     const jg_real t161 = t156 * g_star_in_j_2 + h_star_in_j_0 * t151 - (t152 * g_star_in_j_0 + h_star_in_j_2 *
         t155);
     const jg_real t162 = lambda[0] * t85 - lambda[2] * t149;
-    jac_phi_q_t_lambda_A_i[44] = t162;
     const jg_real t163 = v_5_in_j_1 * t151 - v_5_in_j_2 * t153 + (s_j[1] * t159 - s_j[2] * t162 + lambda[4] *
         (C_j[1] * t152 - C_j[2] * t150) + (v_3_in_j_1 * t157 - v_3_in_j_2 * t161));
-    jac_phi_q_t_lambda_A_i[46] = t163;
     const jg_real t164 = v_5_in_j_0 * t153 - v_5_in_j_1 * t155 + (s_j[0] * t162 - s_j[1] * t158 + lambda[4] *
         (C_j[0] * t150 - C_j[1] * t156) + (v_3_in_j_0 * t161 - v_3_in_j_1 * t154));
+    jac_phi_q_t_lambda_A_i[43] = t158;
+    jac_phi_q_t_lambda_A_i[45] = t159;
+    jac_phi_q_t_lambda_A_i[47] = t160;
+    jac_phi_q_t_lambda_A_i[44] = t162;
+    jac_phi_q_t_lambda_A_i[46] = t163;
     jac_phi_q_t_lambda_A_i[48] = t164;
     jac_phi_q_t_lambda_A_i[40] = -(t102 + A_ij_3 * t160 + A_ij_0 * t163 + A_ij_6 * t164 + t104);
     jac_phi_q_t_lambda_A_i[41] = -(t100 + A_ij_7 * t164 + (t83 + A_ij_1 * t163 + A_ij_4 * t160));
     const jg_real t165 = t149 * v_7_in_j_1;
     const jg_real t166 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[42] = t166 - (A_ij_5 * t160 - t165 + A_ij_2 * t163 + A_ij_8 * t164);
-    jac_phi_q_t_lambda_A_i[49] = v_3_in_j_1 * t153 + v_3_in_j_0 * t155 + v_3_in_j_2 * t151 - (v_5_in_j_0 * t154 +
-        v_5_in_j_1 * t161 + v_5_in_j_2 * t157);
     const jg_real t167 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
     const jg_real t168 = C_i[6] * t109 - C_i[8] * t167;
     const jg_real t169 = A_j[8] * g_star_in_i_1;
@@ -1732,29 +1723,27 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t175 = t168 * g_star_in_j_0 + h_star_in_j_1 * t173 - (t174 * g_star_in_j_1 + h_star_in_j_0 *
         t171);
     const jg_real t176 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[53] = t176;
     const jg_real t177 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[55] = t177;
     const jg_real t178 = v_5_in_j_2 * t173 - v_5_in_j_0 * t169 + (s_j[2] * t176 - s_j[0] * t177 + lambda[4] *
         (C_j[2] * t174 - C_j[0] * t170) + (v_3_in_j_2 * t172 - v_3_in_j_0 * t175));
-    jac_phi_q_t_lambda_A_i[57] = t178;
     const jg_real t179 = t174 * g_star_in_j_2 + h_star_in_j_0 * t169 - (t170 * g_star_in_j_0 + h_star_in_j_2 *
         t173);
     const jg_real t180 = lambda[0] * t109 - lambda[2] * t167;
-    jac_phi_q_t_lambda_A_i[54] = t180;
     const jg_real t181 = v_5_in_j_1 * t169 - v_5_in_j_2 * t171 + (s_j[1] * t177 - s_j[2] * t180 + lambda[4] *
         (C_j[1] * t170 - C_j[2] * t168) + (v_3_in_j_1 * t175 - v_3_in_j_2 * t179));
-    jac_phi_q_t_lambda_A_i[56] = t181;
     const jg_real t182 = v_5_in_j_0 * t171 - v_5_in_j_1 * t173 + (s_j[0] * t180 - s_j[1] * t176 + lambda[4] *
         (C_j[0] * t168 - C_j[1] * t174) + (v_3_in_j_0 * t179 - v_3_in_j_1 * t172));
+    jac_phi_q_t_lambda_A_i[42] = t166 - (A_ij_5 * t160 - t165 + A_ij_2 * t163 + A_ij_8 * t164);
+    jac_phi_q_t_lambda_A_i[49] = v_3_in_j_1 * t153 + v_3_in_j_0 * t155 + v_3_in_j_2 * t151 - (v_5_in_j_0 * t154 +
+        v_5_in_j_1 * t161 + v_5_in_j_2 * t157);
+    jac_phi_q_t_lambda_A_i[53] = t176;
+    jac_phi_q_t_lambda_A_i[55] = t177;
+    jac_phi_q_t_lambda_A_i[57] = t178;
+    jac_phi_q_t_lambda_A_i[54] = t180;
+    jac_phi_q_t_lambda_A_i[56] = t181;
     jac_phi_q_t_lambda_A_i[58] = t182;
-    jac_phi_q_t_lambda_A_i[50] = -(t126 + A_ij_3 * t178 + A_ij_0 * t181 + A_ij_6 * t182 + t128);
-    jac_phi_q_t_lambda_A_i[51] = -(t124 + A_ij_7 * t182 + (t107 + A_ij_1 * t181 + A_ij_4 * t178));
     const jg_real t183 = t167 * v_7_in_j_1;
     const jg_real t184 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[52] = t184 - (A_ij_5 * t178 - t183 + A_ij_2 * t181 + A_ij_8 * t182);
-    jac_phi_q_t_lambda_A_i[59] = v_3_in_j_1 * t171 + v_3_in_j_0 * t173 + v_3_in_j_2 * t169 - (v_5_in_j_0 * t172 +
-        v_5_in_j_1 * t179 + v_5_in_j_2 * t175);
     const jg_real t185 = C_i[6] * t46 + C_i[7] * t131;
     const jg_real t186 = A_j[6] * g_star_in_i_2;
     const jg_real t187 = A_j[6] * C_i[8];
@@ -1766,27 +1755,25 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t192 = t185 * g_star_in_j_0 + h_star_in_j_1 * t190 - (t191 * g_star_in_j_1 + h_star_in_j_0 *
         t188);
     const jg_real t193 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[63] = t193;
     const jg_real t194 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[65] = t194;
     const jg_real t195 = v_5_in_j_2 * t190 - v_5_in_j_0 * t186 + (s_j[2] * t193 - s_j[0] * t194 + lambda[4] *
         (C_j[2] * t191 - C_j[0] * t187) + (v_3_in_j_2 * t189 - v_3_in_j_0 * t192));
-    jac_phi_q_t_lambda_A_i[67] = t195;
     const jg_real t196 = t191 * g_star_in_j_2 + h_star_in_j_0 * t186 - (t187 * g_star_in_j_0 + h_star_in_j_2 *
         t190);
     const jg_real t197 = lambda[0] * t46 + lambda[1] * t131;
+    jac_phi_q_t_lambda_A_i[50] = -(t126 + A_ij_3 * t178 + A_ij_0 * t181 + A_ij_6 * t182 + t128);
+    jac_phi_q_t_lambda_A_i[51] = -(t124 + A_ij_7 * t182 + (t107 + A_ij_1 * t181 + A_ij_4 * t178));
+    jac_phi_q_t_lambda_A_i[52] = t184 - (A_ij_5 * t178 - t183 + A_ij_2 * t181 + A_ij_8 * t182);
+    jac_phi_q_t_lambda_A_i[59] = v_3_in_j_1 * t171 + v_3_in_j_0 * t173 + v_3_in_j_2 * t169 - (v_5_in_j_0 * t172 +
+        v_5_in_j_1 * t179 + v_5_in_j_2 * t175);
+    jac_phi_q_t_lambda_A_i[63] = t193;
+    jac_phi_q_t_lambda_A_i[65] = t194;
+    jac_phi_q_t_lambda_A_i[67] = t195;
     jac_phi_q_t_lambda_A_i[64] = t197;
     const jg_real t198 = v_5_in_j_1 * t186 - v_5_in_j_2 * t188 + (s_j[1] * t194 - s_j[2] * t197 + lambda[4] *
         (C_j[1] * t187 - C_j[2] * t185) + (v_3_in_j_1 * t192 - v_3_in_j_2 * t196));
-    jac_phi_q_t_lambda_A_i[66] = t198;
     const jg_real t199 = v_5_in_j_0 * t188 - v_5_in_j_1 * t190 + (s_j[0] * t197 - s_j[1] * t193 + lambda[4] *
         (C_j[0] * t185 - C_j[1] * t191) + (v_3_in_j_0 * t196 - v_3_in_j_1 * t189));
-    jac_phi_q_t_lambda_A_i[68] = t199;
-    jac_phi_q_t_lambda_A_i[60] = t82 - (t81 + A_ij_3 * t195 + A_ij_0 * t198 + A_ij_6 * t199);
-    jac_phi_q_t_lambda_A_i[61] = -(t147 + A_ij_4 * t195 + A_ij_1 * t198 + A_ij_7 * t199 + t148);
-    jac_phi_q_t_lambda_A_i[62] = -(t70 + A_ij_8 * t199 + (t43 + A_ij_2 * t198 + A_ij_5 * t195));
-    jac_phi_q_t_lambda_A_i[69] = v_3_in_j_1 * t188 + v_3_in_j_0 * t190 + v_3_in_j_2 * t186 - (v_5_in_j_0 * t189 +
-        v_5_in_j_1 * t196 + v_5_in_j_2 * t192);
     const jg_real t200 = C_i[6] * t86 + C_i[7] * t149;
     const jg_real t201 = A_j[7] * g_star_in_i_2;
     const jg_real t202 = A_j[7] * C_i[8];
@@ -1798,21 +1785,28 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t207 = t200 * g_star_in_j_0 + h_star_in_j_1 * t205 - (t206 * g_star_in_j_1 + h_star_in_j_0 *
         t203);
     const jg_real t208 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[73] = t208;
     const jg_real t209 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[66] = t198;
+    jac_phi_q_t_lambda_A_i[68] = t199;
+    jac_phi_q_t_lambda_A_i[60] = t82 - (t81 + A_ij_3 * t195 + A_ij_0 * t198 + A_ij_6 * t199);
+    jac_phi_q_t_lambda_A_i[61] = -(t147 + A_ij_4 * t195 + A_ij_1 * t198 + A_ij_7 * t199 + t148);
+    jac_phi_q_t_lambda_A_i[62] = -(t70 + A_ij_8 * t199 + (t43 + A_ij_2 * t198 + A_ij_5 * t195));
+    jac_phi_q_t_lambda_A_i[69] = v_3_in_j_1 * t188 + v_3_in_j_0 * t190 + v_3_in_j_2 * t186 - (v_5_in_j_0 * t189 +
+        v_5_in_j_1 * t196 + v_5_in_j_2 * t192);
+    jac_phi_q_t_lambda_A_i[73] = t208;
     jac_phi_q_t_lambda_A_i[75] = t209;
     const jg_real t210 = v_5_in_j_2 * t205 - v_5_in_j_0 * t201 + (s_j[2] * t208 - s_j[0] * t209 + lambda[4] *
         (C_j[2] * t206 - C_j[0] * t202) + (v_3_in_j_2 * t204 - v_3_in_j_0 * t207));
-    jac_phi_q_t_lambda_A_i[77] = t210;
     const jg_real t211 = t206 * g_star_in_j_2 + h_star_in_j_0 * t201 - (t202 * g_star_in_j_0 + h_star_in_j_2 *
         t205);
     const jg_real t212 = lambda[0] * t86 + lambda[1] * t149;
-    jac_phi_q_t_lambda_A_i[74] = t212;
     const jg_real t213 = v_5_in_j_1 * t201 - v_5_in_j_2 * t203 + (s_j[1] * t209 - s_j[2] * t212 + lambda[4] *
         (C_j[1] * t202 - C_j[2] * t200) + (v_3_in_j_1 * t207 - v_3_in_j_2 * t211));
-    jac_phi_q_t_lambda_A_i[76] = t213;
     const jg_real t214 = v_5_in_j_0 * t203 - v_5_in_j_1 * t205 + (s_j[0] * t212 - s_j[1] * t208 + lambda[4] *
         (C_j[0] * t200 - C_j[1] * t206) + (v_3_in_j_0 * t211 - v_3_in_j_1 * t204));
+    jac_phi_q_t_lambda_A_i[77] = t210;
+    jac_phi_q_t_lambda_A_i[74] = t212;
+    jac_phi_q_t_lambda_A_i[76] = t213;
     jac_phi_q_t_lambda_A_i[78] = t214;
     jac_phi_q_t_lambda_A_i[70] = t106 - (t105 + A_ij_3 * t210 + A_ij_0 * t213 + A_ij_6 * t214);
     jac_phi_q_t_lambda_A_i[71] = -(t165 + A_ij_4 * t210 + A_ij_1 * t213 + A_ij_7 * t214 + t166);
@@ -1830,21 +1824,21 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t222 = t215 * g_star_in_j_0 + h_star_in_j_1 * t220 - (t221 * g_star_in_j_1 + h_star_in_j_0 *
         t218);
     const jg_real t223 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[83] = t223;
     const jg_real t224 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[85] = t224;
     const jg_real t225 = v_5_in_j_2 * t220 - v_5_in_j_0 * t216 + (s_j[2] * t223 - s_j[0] * t224 + lambda[4] *
         (C_j[2] * t221 - C_j[0] * t217) + (v_3_in_j_2 * t219 - v_3_in_j_0 * t222));
-    jac_phi_q_t_lambda_A_i[87] = t225;
     const jg_real t226 = t221 * g_star_in_j_2 + h_star_in_j_0 * t216 - (t217 * g_star_in_j_0 + h_star_in_j_2 *
         t220);
     const jg_real t227 = lambda[0] * t110 + lambda[1] * t167;
-    jac_phi_q_t_lambda_A_i[84] = t227;
     const jg_real t228 = v_5_in_j_1 * t216 - v_5_in_j_2 * t218 + (s_j[1] * t224 - s_j[2] * t227 + lambda[4] *
         (C_j[1] * t217 - C_j[2] * t215) + (v_3_in_j_1 * t222 - v_3_in_j_2 * t226));
-    jac_phi_q_t_lambda_A_i[86] = t228;
     const jg_real t229 = v_5_in_j_0 * t218 - v_5_in_j_1 * t220 + (s_j[0] * t227 - s_j[1] * t223 + lambda[4] *
         (C_j[0] * t215 - C_j[1] * t221) + (v_3_in_j_0 * t226 - v_3_in_j_1 * t219));
+    jac_phi_q_t_lambda_A_i[83] = t223;
+    jac_phi_q_t_lambda_A_i[85] = t224;
+    jac_phi_q_t_lambda_A_i[87] = t225;
+    jac_phi_q_t_lambda_A_i[84] = t227;
+    jac_phi_q_t_lambda_A_i[86] = t228;
     jac_phi_q_t_lambda_A_i[88] = t229;
     jac_phi_q_t_lambda_A_i[80] = t130 - (t129 + A_ij_3 * t225 + A_ij_0 * t228 + A_ij_6 * t229);
     jac_phi_q_t_lambda_A_i[81] = -(t183 + A_ij_4 * t225 + A_ij_1 * t228 + A_ij_7 * t229 + t184);
@@ -1857,9 +1851,6 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_r_j[3] = -t3;
     jac_phi_q_t_lambda_r_j[4] = -t4;
     jac_phi_q_t_lambda_r_j[5] = -t5;
-    jac_phi_q_t_lambda_r_j[6] = -t6;
-    jac_phi_q_t_lambda_r_j[7] = -t7;
-    jac_phi_q_t_lambda_r_j[8] = -t8;
     const jg_real t230 = A_i[6] * A_ij_7 - A_i[3] * A_ij_8;
     const jg_real t231 = A_i[0] * A_ij_8 - A_i[6] * A_ij_6;
     const jg_real t232 = A_i[3] * A_ij_6 - A_i[0] * A_ij_7;
@@ -1872,31 +1863,25 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t239 = t233 * g_star_in_j_0 + t235 - (t237 + h_star_in_j_0 * t238);
     const jg_real t240 = t236 * g_star_in_j_2 - h_star_in_j_2 * t234;
     const jg_real t241 = lambda[0] * t230 + lambda[1] * t231 + lambda[2] * t232;
-    jac_phi_q_t_lambda_A_j[4] = t241;
     const jg_real t242 = v_3_in_j_1 * t239 - v_3_in_j_2 * t240 - (s_j[2] * t241 + C_j[2] * t233 * lambda[4]) -
         v_5_in_j_2 * t238;
-    jac_phi_q_t_lambda_A_j[5] = t242;
     const jg_real t243 = h_star_in_j_2 * t238 - t233 * g_star_in_j_2;
     const jg_real t244 = lambda[1] * A_i[3] + lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t244;
-    jac_phi_q_t_lambda_A_j[31] = t244;
     const jg_real t245 = s_j[2] * t244 + C_j[2] * t236 * lambda[4] + (v_3_in_j_2 * t243 - v_3_in_j_0 * t239) +
         v_5_in_j_2 * t234;
+    jac_phi_q_t_lambda_r_j[6] = -t6;
+    jac_phi_q_t_lambda_r_j[7] = -t7;
+    jac_phi_q_t_lambda_r_j[8] = -t8;
+    jac_phi_q_t_lambda_A_j[4] = t241;
+    jac_phi_q_t_lambda_A_j[5] = t242;
+    jac_phi_q_t_lambda_A_j[3] = t244;
+    jac_phi_q_t_lambda_A_j[31] = t244;
     jac_phi_q_t_lambda_A_j[6] = t245;
     const jg_real t246 = s_j[1] * t244;
     const jg_real t247 = C_j[1] * t236;
     const jg_real t248 = v_5_in_j_1 * t234;
     const jg_real t249 = v_5_in_j_0 * t238 - t248 + (s_j[0] * t241 - t246 + lambda[4] * (C_j[0] * t233 - t247) +
         (v_3_in_j_0 * t240 - v_3_in_j_1 * t243));
-    jac_phi_q_t_lambda_A_j[7] = t249;
-    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_7_in_j_0 + A_ij_0 * t242 + (t230 * v_7_in_j_1 + A_ij_3 * t245) + A_ij_6
-        * t249);
-    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_7_in_j_0 + A_ij_1 * t242 + (t231 * v_7_in_j_1 + A_ij_4 * t245) + A_ij_7
-        * t249);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_7_in_j_0 + A_ij_2 * t242 + (t232 * v_7_in_j_1 + A_ij_5 * t245) + A_ij_8
-        * t249);
-    jac_phi_q_t_lambda_A_j[8] = v_3_in_j_1 * t238 + v_3_in_j_0 * t234 - (v_5_in_j_0 * t243 + v_5_in_j_1 * t240 +
-        v_5_in_j_2 * t239);
     const jg_real t250 = A_i[7] * A_ij_7 - A_i[4] * A_ij_8;
     const jg_real t251 = A_i[1] * A_ij_8 - A_i[7] * A_ij_6;
     const jg_real t252 = A_i[4] * A_ij_6 - A_i[1] * A_ij_7;
@@ -1909,31 +1894,30 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t259 = t253 * g_star_in_j_0 + t255 - (t257 + h_star_in_j_0 * t258);
     const jg_real t260 = t256 * g_star_in_j_2 - h_star_in_j_2 * t254;
     const jg_real t261 = lambda[0] * t250 + lambda[1] * t251 + lambda[2] * t252;
-    jac_phi_q_t_lambda_A_j[13] = t261;
     const jg_real t262 = v_3_in_j_1 * t259 - v_3_in_j_2 * t260 - (s_j[2] * t261 + C_j[2] * t253 * lambda[4]) -
         v_5_in_j_2 * t258;
-    jac_phi_q_t_lambda_A_j[14] = t262;
     const jg_real t263 = h_star_in_j_2 * t258 - t253 * g_star_in_j_2;
     const jg_real t264 = lambda[1] * A_i[4] + lambda[0] * A_i[1] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[7] = t249;
+    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_7_in_j_0 + A_ij_0 * t242 + (t230 * v_7_in_j_1 + A_ij_3 * t245) + A_ij_6
+        * t249);
+    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_7_in_j_0 + A_ij_1 * t242 + (t231 * v_7_in_j_1 + A_ij_4 * t245) + A_ij_7
+        * t249);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_7_in_j_0 + A_ij_2 * t242 + (t232 * v_7_in_j_1 + A_ij_5 * t245) + A_ij_8
+        * t249);
+    jac_phi_q_t_lambda_A_j[8] = v_3_in_j_1 * t238 + v_3_in_j_0 * t234 - (v_5_in_j_0 * t243 + v_5_in_j_1 * t240 +
+        v_5_in_j_2 * t239);
+    jac_phi_q_t_lambda_A_j[13] = t261;
+    jac_phi_q_t_lambda_A_j[14] = t262;
     jac_phi_q_t_lambda_A_j[12] = t264;
     jac_phi_q_t_lambda_A_j[40] = t264;
     const jg_real t265 = s_j[2] * t264 + C_j[2] * t256 * lambda[4] + (v_3_in_j_2 * t263 - v_3_in_j_0 * t259) +
         v_5_in_j_2 * t254;
-    jac_phi_q_t_lambda_A_j[15] = t265;
     const jg_real t266 = s_j[1] * t264;
     const jg_real t267 = C_j[1] * t256;
     const jg_real t268 = v_5_in_j_1 * t254;
     const jg_real t269 = v_5_in_j_0 * t258 - t268 + (s_j[0] * t261 - t266 + lambda[4] * (C_j[0] * t253 - t267) +
         (v_3_in_j_0 * t260 - v_3_in_j_1 * t263));
-    jac_phi_q_t_lambda_A_j[16] = t269;
-    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_7_in_j_0 + A_ij_0 * t262 + (t250 * v_7_in_j_1 + A_ij_3 * t265) + A_ij_6
-        * t269);
-    jac_phi_q_t_lambda_A_j[10] = -(A_i[4] * v_7_in_j_0 + A_ij_1 * t262 + (t251 * v_7_in_j_1 + A_ij_4 * t265) +
-        A_ij_7 * t269);
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_7_in_j_0 + A_ij_2 * t262 + (t252 * v_7_in_j_1 + A_ij_5 * t265) +
-        A_ij_8 * t269);
-    jac_phi_q_t_lambda_A_j[17] = v_3_in_j_1 * t258 + v_3_in_j_0 * t254 - (v_5_in_j_0 * t263 + v_5_in_j_1 * t260 +
-        v_5_in_j_2 * t259);
     const jg_real t270 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
     const jg_real t271 = A_i[2] * A_ij_8 - A_i[8] * A_ij_6;
     const jg_real t272 = A_i[5] * A_ij_6 - A_i[2] * A_ij_7;
@@ -1946,22 +1930,32 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t279 = t273 * g_star_in_j_0 + t275 - (t277 + h_star_in_j_0 * t278);
     const jg_real t280 = t276 * g_star_in_j_2 - h_star_in_j_2 * t274;
     const jg_real t281 = lambda[0] * t270 + lambda[1] * t271 + lambda[2] * t272;
-    jac_phi_q_t_lambda_A_j[22] = t281;
     const jg_real t282 = v_3_in_j_1 * t279 - v_3_in_j_2 * t280 - (s_j[2] * t281 + C_j[2] * t273 * lambda[4]) -
         v_5_in_j_2 * t278;
+    jac_phi_q_t_lambda_A_j[15] = t265;
+    jac_phi_q_t_lambda_A_j[16] = t269;
+    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_7_in_j_0 + A_ij_0 * t262 + (t250 * v_7_in_j_1 + A_ij_3 * t265) + A_ij_6
+        * t269);
+    jac_phi_q_t_lambda_A_j[10] = -(A_i[4] * v_7_in_j_0 + A_ij_1 * t262 + (t251 * v_7_in_j_1 + A_ij_4 * t265) +
+        A_ij_7 * t269);
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_7_in_j_0 + A_ij_2 * t262 + (t252 * v_7_in_j_1 + A_ij_5 * t265) +
+        A_ij_8 * t269);
+    jac_phi_q_t_lambda_A_j[17] = v_3_in_j_1 * t258 + v_3_in_j_0 * t254 - (v_5_in_j_0 * t263 + v_5_in_j_1 * t260 +
+        v_5_in_j_2 * t259);
+    jac_phi_q_t_lambda_A_j[22] = t281;
     jac_phi_q_t_lambda_A_j[23] = t282;
     const jg_real t283 = h_star_in_j_2 * t278 - t273 * g_star_in_j_2;
     const jg_real t284 = lambda[1] * A_i[5] + lambda[0] * A_i[2] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[21] = t284;
-    jac_phi_q_t_lambda_A_j[49] = t284;
     const jg_real t285 = s_j[2] * t284 + C_j[2] * t276 * lambda[4] + (v_3_in_j_2 * t283 - v_3_in_j_0 * t279) +
         v_5_in_j_2 * t274;
-    jac_phi_q_t_lambda_A_j[24] = t285;
     const jg_real t286 = s_j[1] * t284;
     const jg_real t287 = C_j[1] * t276;
     const jg_real t288 = v_5_in_j_1 * t274;
     const jg_real t289 = v_5_in_j_0 * t278 - t288 + (s_j[0] * t281 - t286 + lambda[4] * (C_j[0] * t273 - t287) +
         (v_3_in_j_0 * t280 - v_3_in_j_1 * t283));
+    jac_phi_q_t_lambda_A_j[21] = t284;
+    jac_phi_q_t_lambda_A_j[49] = t284;
+    jac_phi_q_t_lambda_A_j[24] = t285;
     jac_phi_q_t_lambda_A_j[25] = t289;
     jac_phi_q_t_lambda_A_j[18] = -(A_i[2] * v_7_in_j_0 + A_ij_0 * t282 + (t270 * v_7_in_j_1 + A_ij_3 * t285) +
         A_ij_6 * t289);
@@ -1979,16 +1973,16 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t295 = t237 + h_star_in_j_2 * t294 - (t235 + t293 * g_star_in_j_2);
     const jg_real t296 = h_star_in_j_0 * t234 - t236 * g_star_in_j_0;
     const jg_real t297 = lambda[0] * t290 + lambda[1] * t291 + lambda[2] * t292;
-    jac_phi_q_t_lambda_A_j[30] = t297;
     const jg_real t298 = s_j[0] * t297 + C_j[0] * t293 * lambda[4] + (v_3_in_j_0 * t296 - v_3_in_j_1 * t295) +
         v_5_in_j_0 * t294;
-    jac_phi_q_t_lambda_A_j[34] = t298;
     const jg_real t299 = t293 * g_star_in_j_0 - h_star_in_j_0 * t294;
     const jg_real t300 = v_3_in_j_2 * t295 - v_3_in_j_0 * t299 - (s_j[0] * t244 + C_j[0] * t236 * lambda[4]) -
         v_5_in_j_0 * t234;
-    jac_phi_q_t_lambda_A_j[33] = t300;
     const jg_real t301 = t248 - v_5_in_j_2 * t294 + (t246 - s_j[2] * t297 + lambda[4] * (t247 - C_j[2] * t293) +
         (v_3_in_j_1 * t299 - v_3_in_j_2 * t296));
+    jac_phi_q_t_lambda_A_j[30] = t297;
+    jac_phi_q_t_lambda_A_j[34] = t298;
+    jac_phi_q_t_lambda_A_j[33] = t300;
     jac_phi_q_t_lambda_A_j[32] = t301;
     jac_phi_q_t_lambda_A_j[27] = -(A_i[0] * v_7_in_j_2 + A_ij_6 * t298 + (t290 * v_7_in_j_1 + A_ij_3 * t300 + A_ij_0
         * t301));
@@ -2006,16 +2000,16 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t307 = t257 + h_star_in_j_2 * t306 - (t255 + t305 * g_star_in_j_2);
     const jg_real t308 = h_star_in_j_0 * t254 - t256 * g_star_in_j_0;
     const jg_real t309 = lambda[0] * t302 + lambda[1] * t303 + lambda[2] * t304;
-    jac_phi_q_t_lambda_A_j[39] = t309;
     const jg_real t310 = s_j[0] * t309 + C_j[0] * t305 * lambda[4] + (v_3_in_j_0 * t308 - v_3_in_j_1 * t307) +
         v_5_in_j_0 * t306;
-    jac_phi_q_t_lambda_A_j[43] = t310;
     const jg_real t311 = t305 * g_star_in_j_0 - h_star_in_j_0 * t306;
     const jg_real t312 = v_3_in_j_2 * t307 - v_3_in_j_0 * t311 - (s_j[0] * t264 + C_j[0] * t256 * lambda[4]) -
         v_5_in_j_0 * t254;
-    jac_phi_q_t_lambda_A_j[42] = t312;
     const jg_real t313 = t268 - v_5_in_j_2 * t306 + (t266 - s_j[2] * t309 + lambda[4] * (t267 - C_j[2] * t305) +
         (v_3_in_j_1 * t311 - v_3_in_j_2 * t308));
+    jac_phi_q_t_lambda_A_j[39] = t309;
+    jac_phi_q_t_lambda_A_j[43] = t310;
+    jac_phi_q_t_lambda_A_j[42] = t312;
     jac_phi_q_t_lambda_A_j[41] = t313;
     jac_phi_q_t_lambda_A_j[36] = -(A_i[1] * v_7_in_j_2 + A_ij_6 * t310 + (t302 * v_7_in_j_1 + A_ij_3 * t312 + A_ij_0
         * t313));
@@ -2033,16 +2027,16 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t319 = t277 + h_star_in_j_2 * t318 - (t275 + t317 * g_star_in_j_2);
     const jg_real t320 = h_star_in_j_0 * t274 - t276 * g_star_in_j_0;
     const jg_real t321 = lambda[0] * t314 + lambda[1] * t315 + lambda[2] * t316;
-    jac_phi_q_t_lambda_A_j[48] = t321;
     const jg_real t322 = s_j[0] * t321 + C_j[0] * t317 * lambda[4] + (v_3_in_j_0 * t320 - v_3_in_j_1 * t319) +
         v_5_in_j_0 * t318;
-    jac_phi_q_t_lambda_A_j[52] = t322;
     const jg_real t323 = t317 * g_star_in_j_0 - h_star_in_j_0 * t318;
     const jg_real t324 = v_3_in_j_2 * t319 - v_3_in_j_0 * t323 - (s_j[0] * t284 + C_j[0] * t276 * lambda[4]) -
         v_5_in_j_0 * t274;
-    jac_phi_q_t_lambda_A_j[51] = t324;
     const jg_real t325 = t288 - v_5_in_j_2 * t318 + (t286 - s_j[2] * t321 + lambda[4] * (t287 - C_j[2] * t317) +
         (v_3_in_j_1 * t323 - v_3_in_j_2 * t320));
+    jac_phi_q_t_lambda_A_j[48] = t321;
+    jac_phi_q_t_lambda_A_j[52] = t322;
+    jac_phi_q_t_lambda_A_j[51] = t324;
     jac_phi_q_t_lambda_A_j[50] = t325;
     jac_phi_q_t_lambda_A_j[45] = -(A_i[2] * v_7_in_j_2 + A_ij_6 * t322 + (t314 * v_7_in_j_1 + A_ij_3 * t324 + A_ij_0
         * t325));
@@ -2061,33 +2055,33 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t332 = A_ij_0 * t326 + A_ij_1 * t327 + A_ij_2 * t328;
     const jg_real t333 = h_star_in_j_0 * t330 - h_star_in_j_1 * t332;
     const jg_real t334 = v_5_in_j_0 * t329 - v_5_in_j_2 * t332 + (v_3_in_j_2 * t331 - v_3_in_j_0 * t333);
-    jac_phi_q_t_lambda_alpha[4] = t334;
     const jg_real t335 = h_star_in_j_2 * t332 - h_star_in_j_0 * t329;
     const jg_real t336 = v_5_in_j_2 * t330 - v_5_in_j_1 * t329 + (v_3_in_j_1 * t333 - v_3_in_j_2 * t335);
-    jac_phi_q_t_lambda_alpha[3] = t336;
     const jg_real t337 = v_5_in_j_1 * t332 - v_5_in_j_0 * t330 + (v_3_in_j_0 * t335 - v_3_in_j_1 * t331);
-    jac_phi_q_t_lambda_alpha[5] = t337;
-    jac_phi_q_t_lambda_alpha[0] = -(A_ij_0 * t336 + A_ij_3 * t334 + A_ij_6 * t337);
-    jac_phi_q_t_lambda_alpha[1] = -(A_ij_1 * t336 + A_ij_4 * t334 + A_ij_7 * t337);
-    jac_phi_q_t_lambda_alpha[2] = -(A_ij_2 * t336 + A_ij_5 * t334 + A_ij_8 * t337);
-    jac_phi_q_t_lambda_alpha[6] = -(v_3_in_j_1 * t330 + v_3_in_j_0 * t332 + v_3_in_j_2 * t329 + (v_5_in_j_0 * t331 +
-        v_5_in_j_1 * t335 + v_5_in_j_2 * t333));
     const jg_real t338 = A_ij_6 * sine_0;
     const jg_real t339 = A_ij_3 * sine_0;
     const jg_real t340 = h_star_in_j_1 * t338 - h_star_in_j_2 * t339;
     const jg_real t341 = A_ij_0 * sine_0;
     const jg_real t342 = h_star_in_j_0 * t339 - h_star_in_j_1 * t341;
     const jg_real t343 = v_5_in_j_0 * t338 - v_5_in_j_2 * t341 + (v_3_in_j_2 * t340 - v_3_in_j_0 * t342);
+    jac_phi_q_t_lambda_alpha[4] = t334;
+    jac_phi_q_t_lambda_alpha[3] = t336;
+    jac_phi_q_t_lambda_alpha[5] = t337;
+    jac_phi_q_t_lambda_alpha[0] = -(A_ij_0 * t336 + A_ij_3 * t334 + A_ij_6 * t337);
+    jac_phi_q_t_lambda_alpha[1] = -(A_ij_1 * t336 + A_ij_4 * t334 + A_ij_7 * t337);
+    jac_phi_q_t_lambda_alpha[2] = -(A_ij_2 * t336 + A_ij_5 * t334 + A_ij_8 * t337);
+    jac_phi_q_t_lambda_alpha[6] = -(v_3_in_j_1 * t330 + v_3_in_j_0 * t332 + v_3_in_j_2 * t329 + (v_5_in_j_0 * t331 +
+        v_5_in_j_1 * t335 + v_5_in_j_2 * t333));
     jac_phi_q_t_lambda_geometry[4] = t343;
     const jg_real t344 = h_star_in_j_2 * t341 - h_star_in_j_0 * t338;
     const jg_real t345 = v_5_in_j_2 * t339 - v_5_in_j_1 * t338 + (v_3_in_j_1 * t342 - v_3_in_j_2 * t344);
-    jac_phi_q_t_lambda_geometry[3] = t345;
     const jg_real t346 = v_5_in_j_1 * t341 - v_5_in_j_0 * t339 + (v_3_in_j_0 * t344 - v_3_in_j_1 * t340);
+    const jg_real t347 = -lambda[0];
+    jac_phi_q_t_lambda_geometry[3] = t345;
     jac_phi_q_t_lambda_geometry[5] = t346;
     jac_phi_q_t_lambda_geometry[0] = -(A_ij_0 * t345 + A_ij_3 * t343 + A_ij_6 * t346);
     jac_phi_q_t_lambda_geometry[1] = -(A_ij_1 * t345 + A_ij_4 * t343 + A_ij_7 * t346);
     jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t345 + A_ij_5 * t343 + A_ij_8 * t346);
-    const jg_real t347 = -lambda[0];
     jac_phi_q_t_lambda_geometry[6] = t347;
     jac_phi_q_t_lambda_geometry[30] = t347;
     jac_phi_q_t_lambda_geometry[7] = -(v_3_in_j_1 * t339 + v_3_in_j_0 * t341 + v_3_in_j_2 * t338 + (v_5_in_j_0 *
@@ -2098,51 +2092,51 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t351 = A_ij_1 * sine_0;
     const jg_real t352 = h_star_in_j_0 * t349 - h_star_in_j_1 * t351;
     const jg_real t353 = v_5_in_j_0 * t348 - v_5_in_j_2 * t351 + (v_3_in_j_2 * t350 - v_3_in_j_0 * t352);
-    jac_phi_q_t_lambda_geometry[12] = t353;
     const jg_real t354 = h_star_in_j_2 * t351 - h_star_in_j_0 * t348;
     const jg_real t355 = v_5_in_j_2 * t349 - v_5_in_j_1 * t348 + (v_3_in_j_1 * t352 - v_3_in_j_2 * t354);
-    jac_phi_q_t_lambda_geometry[11] = t355;
     const jg_real t356 = v_5_in_j_1 * t351 - v_5_in_j_0 * t349 + (v_3_in_j_0 * t354 - v_3_in_j_1 * t350);
+    const jg_real t357 = -lambda[1];
+    jac_phi_q_t_lambda_geometry[12] = t353;
+    jac_phi_q_t_lambda_geometry[11] = t355;
     jac_phi_q_t_lambda_geometry[13] = t356;
     jac_phi_q_t_lambda_geometry[8] = -(A_ij_0 * t355 + A_ij_3 * t353 + A_ij_6 * t356);
     jac_phi_q_t_lambda_geometry[9] = -(A_ij_1 * t355 + A_ij_4 * t353 + A_ij_7 * t356);
     jac_phi_q_t_lambda_geometry[10] = -(A_ij_2 * t355 + A_ij_5 * t353 + A_ij_8 * t356);
-    const jg_real t357 = -lambda[1];
     jac_phi_q_t_lambda_geometry[14] = t357;
     jac_phi_q_t_lambda_geometry[38] = t357;
-    jac_phi_q_t_lambda_geometry[15] = -(v_3_in_j_1 * t349 + v_3_in_j_0 * t351 + v_3_in_j_2 * t348 + (v_5_in_j_0 *
-        t350 + v_5_in_j_1 * t354 + v_5_in_j_2 * t352));
     const jg_real t358 = A_ij_8 * sine_0;
     const jg_real t359 = A_ij_5 * sine_0;
     const jg_real t360 = h_star_in_j_1 * t358 - h_star_in_j_2 * t359;
     const jg_real t361 = A_ij_2 * sine_0;
     const jg_real t362 = h_star_in_j_0 * t359 - h_star_in_j_1 * t361;
     const jg_real t363 = v_5_in_j_0 * t358 - v_5_in_j_2 * t361 + (v_3_in_j_2 * t360 - v_3_in_j_0 * t362);
-    jac_phi_q_t_lambda_geometry[20] = t363;
     const jg_real t364 = h_star_in_j_2 * t361 - h_star_in_j_0 * t358;
     const jg_real t365 = v_5_in_j_2 * t359 - v_5_in_j_1 * t358 + (v_3_in_j_1 * t362 - v_3_in_j_2 * t364);
-    jac_phi_q_t_lambda_geometry[19] = t365;
     const jg_real t366 = v_5_in_j_1 * t361 - v_5_in_j_0 * t359 + (v_3_in_j_0 * t364 - v_3_in_j_1 * t360);
+    const jg_real t367 = -lambda[2];
+    jac_phi_q_t_lambda_geometry[15] = -(v_3_in_j_1 * t349 + v_3_in_j_0 * t351 + v_3_in_j_2 * t348 + (v_5_in_j_0 *
+        t350 + v_5_in_j_1 * t354 + v_5_in_j_2 * t352));
+    jac_phi_q_t_lambda_geometry[20] = t363;
+    jac_phi_q_t_lambda_geometry[19] = t365;
     jac_phi_q_t_lambda_geometry[21] = t366;
     jac_phi_q_t_lambda_geometry[16] = -(A_ij_0 * t365 + A_ij_3 * t363 + A_ij_6 * t366);
     jac_phi_q_t_lambda_geometry[17] = -(A_ij_1 * t365 + A_ij_4 * t363 + A_ij_7 * t366);
     jac_phi_q_t_lambda_geometry[18] = -(A_ij_2 * t365 + A_ij_5 * t363 + A_ij_8 * t366);
-    const jg_real t367 = -lambda[2];
     jac_phi_q_t_lambda_geometry[22] = t367;
     jac_phi_q_t_lambda_geometry[46] = t367;
-    jac_phi_q_t_lambda_geometry[23] = -(v_3_in_j_1 * t359 + v_3_in_j_0 * t361 + v_3_in_j_2 * t358 + (v_5_in_j_0 *
-        t360 + v_5_in_j_1 * t364 + v_5_in_j_2 * t362));
     const jg_real t368 = A_ij_6 * cosine_0;
     const jg_real t369 = A_ij_3 * cosine_0;
     const jg_real t370 = h_star_in_j_2 * t369 - h_star_in_j_1 * t368;
     const jg_real t371 = A_ij_0 * cosine_0;
     const jg_real t372 = h_star_in_j_1 * t371 - h_star_in_j_0 * t369;
     const jg_real t373 = v_5_in_j_2 * t371 - v_5_in_j_0 * t368 + (v_3_in_j_2 * t370 - v_3_in_j_0 * t372);
-    jac_phi_q_t_lambda_geometry[28] = t373;
     const jg_real t374 = h_star_in_j_0 * t368 - h_star_in_j_2 * t371;
     const jg_real t375 = v_5_in_j_1 * t368 - v_5_in_j_2 * t369 + (v_3_in_j_1 * t372 - v_3_in_j_2 * t374);
-    jac_phi_q_t_lambda_geometry[27] = t375;
     const jg_real t376 = v_5_in_j_0 * t369 - v_5_in_j_1 * t371 + (v_3_in_j_0 * t374 - v_3_in_j_1 * t370);
+    jac_phi_q_t_lambda_geometry[23] = -(v_3_in_j_1 * t359 + v_3_in_j_0 * t361 + v_3_in_j_2 * t358 + (v_5_in_j_0 *
+        t360 + v_5_in_j_1 * t364 + v_5_in_j_2 * t362));
+    jac_phi_q_t_lambda_geometry[28] = t373;
+    jac_phi_q_t_lambda_geometry[27] = t375;
     jac_phi_q_t_lambda_geometry[29] = t376;
     jac_phi_q_t_lambda_geometry[24] = -(A_ij_0 * t375 + A_ij_3 * t373 + A_ij_6 * t376);
     jac_phi_q_t_lambda_geometry[25] = -(A_ij_1 * t375 + A_ij_4 * t373 + A_ij_7 * t376);
@@ -2155,68 +2149,68 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     const jg_real t380 = A_ij_1 * cosine_0;
     const jg_real t381 = h_star_in_j_1 * t380 - h_star_in_j_0 * t378;
     const jg_real t382 = v_5_in_j_2 * t380 - v_5_in_j_0 * t377 + (v_3_in_j_2 * t379 - v_3_in_j_0 * t381);
-    jac_phi_q_t_lambda_geometry[36] = t382;
     const jg_real t383 = h_star_in_j_0 * t377 - h_star_in_j_2 * t380;
     const jg_real t384 = v_5_in_j_1 * t377 - v_5_in_j_2 * t378 + (v_3_in_j_1 * t381 - v_3_in_j_2 * t383);
-    jac_phi_q_t_lambda_geometry[35] = t384;
     const jg_real t385 = v_5_in_j_0 * t378 - v_5_in_j_1 * t380 + (v_3_in_j_0 * t383 - v_3_in_j_1 * t379);
-    jac_phi_q_t_lambda_geometry[37] = t385;
-    jac_phi_q_t_lambda_geometry[32] = -(A_ij_0 * t384 + A_ij_3 * t382 + A_ij_6 * t385);
-    jac_phi_q_t_lambda_geometry[33] = -(A_ij_1 * t384 + A_ij_4 * t382 + A_ij_7 * t385);
-    jac_phi_q_t_lambda_geometry[34] = -(A_ij_2 * t384 + A_ij_5 * t382 + A_ij_8 * t385);
-    jac_phi_q_t_lambda_geometry[39] = v_3_in_j_1 * t378 + v_3_in_j_0 * t380 + v_3_in_j_2 * t377 - (v_5_in_j_0 * t379
-        + v_5_in_j_1 * t383 + v_5_in_j_2 * t381);
     const jg_real t386 = A_ij_8 * cosine_0;
     const jg_real t387 = A_ij_5 * cosine_0;
     const jg_real t388 = h_star_in_j_2 * t387 - h_star_in_j_1 * t386;
     const jg_real t389 = A_ij_2 * cosine_0;
     const jg_real t390 = h_star_in_j_1 * t389 - h_star_in_j_0 * t387;
     const jg_real t391 = v_5_in_j_2 * t389 - v_5_in_j_0 * t386 + (v_3_in_j_2 * t388 - v_3_in_j_0 * t390);
+    jac_phi_q_t_lambda_geometry[36] = t382;
+    jac_phi_q_t_lambda_geometry[35] = t384;
+    jac_phi_q_t_lambda_geometry[37] = t385;
+    jac_phi_q_t_lambda_geometry[32] = -(A_ij_0 * t384 + A_ij_3 * t382 + A_ij_6 * t385);
+    jac_phi_q_t_lambda_geometry[33] = -(A_ij_1 * t384 + A_ij_4 * t382 + A_ij_7 * t385);
+    jac_phi_q_t_lambda_geometry[34] = -(A_ij_2 * t384 + A_ij_5 * t382 + A_ij_8 * t385);
+    jac_phi_q_t_lambda_geometry[39] = v_3_in_j_1 * t378 + v_3_in_j_0 * t380 + v_3_in_j_2 * t377 - (v_5_in_j_0 * t379
+        + v_5_in_j_1 * t383 + v_5_in_j_2 * t381);
     jac_phi_q_t_lambda_geometry[44] = t391;
     const jg_real t392 = h_star_in_j_0 * t386 - h_star_in_j_2 * t389;
     const jg_real t393 = v_5_in_j_1 * t386 - v_5_in_j_2 * t387 + (v_3_in_j_1 * t390 - v_3_in_j_2 * t392);
-    jac_phi_q_t_lambda_geometry[43] = t393;
     const jg_real t394 = v_5_in_j_0 * t387 - v_5_in_j_1 * t389 + (v_3_in_j_0 * t392 - v_3_in_j_1 * t388);
+    const jg_real t395 = A_ij_6 * g_star_in_j_1 - A_ij_3 * g_star_in_j_2;
+    const jg_real t396 = A_ij_3 * g_star_in_j_0 - A_ij_0 * g_star_in_j_1;
+    const jg_real t397 = v_3_in_j_2 * t395 - v_3_in_j_0 * t396 + lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6);
+    const jg_real t398 = A_ij_0 * g_star_in_j_2 - A_ij_6 * g_star_in_j_0;
+    const jg_real t399 = v_3_in_j_1 * t396 - v_3_in_j_2 * t398 + lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3);
+    jac_phi_q_t_lambda_geometry[43] = t393;
     jac_phi_q_t_lambda_geometry[45] = t394;
     jac_phi_q_t_lambda_geometry[40] = -(A_ij_0 * t393 + A_ij_3 * t391 + A_ij_6 * t394);
     jac_phi_q_t_lambda_geometry[41] = -(A_ij_1 * t393 + A_ij_4 * t391 + A_ij_7 * t394);
     jac_phi_q_t_lambda_geometry[42] = -(A_ij_2 * t393 + A_ij_5 * t391 + A_ij_8 * t394);
     jac_phi_q_t_lambda_geometry[47] = v_3_in_j_1 * t387 + v_3_in_j_0 * t389 + v_3_in_j_2 * t386 - (v_5_in_j_0 * t388
         + v_5_in_j_1 * t392 + v_5_in_j_2 * t390);
-    const jg_real t395 = A_ij_6 * g_star_in_j_1 - A_ij_3 * g_star_in_j_2;
-    const jg_real t396 = A_ij_3 * g_star_in_j_0 - A_ij_0 * g_star_in_j_1;
-    const jg_real t397 = v_3_in_j_2 * t395 - v_3_in_j_0 * t396 + lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6);
     jac_phi_q_t_lambda_geometry[52] = t397;
-    const jg_real t398 = A_ij_0 * g_star_in_j_2 - A_ij_6 * g_star_in_j_0;
-    const jg_real t399 = v_3_in_j_1 * t396 - v_3_in_j_2 * t398 + lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3);
     jac_phi_q_t_lambda_geometry[51] = t399;
     const jg_real t400 = v_3_in_j_0 * t398 - v_3_in_j_1 * t395 + lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0);
+    const jg_real t401 = A_ij_7 * g_star_in_j_1 - A_ij_4 * g_star_in_j_2;
+    const jg_real t402 = A_ij_4 * g_star_in_j_0 - A_ij_1 * g_star_in_j_1;
+    const jg_real t403 = v_3_in_j_2 * t401 - v_3_in_j_0 * t402 + lambda[4] * (C_j[2] * A_ij_1 - A_ij_7 * C_j[0]);
+    const jg_real t404 = A_ij_1 * g_star_in_j_2 - A_ij_7 * g_star_in_j_0;
+    const jg_real t405 = v_3_in_j_1 * t402 - v_3_in_j_2 * t404 + lambda[4] * (C_j[1] * A_ij_7 - C_j[2] * A_ij_4);
+    const jg_real t406 = v_3_in_j_0 * t404 - v_3_in_j_1 * t401 + lambda[4] * (C_j[0] * A_ij_4 - C_j[1] * A_ij_1);
     jac_phi_q_t_lambda_geometry[53] = t400;
     jac_phi_q_t_lambda_geometry[48] = -(A_ij_0 * t399 + A_ij_3 * t397 + A_ij_6 * t400);
     jac_phi_q_t_lambda_geometry[49] = -(A_ij_1 * t399 + A_ij_4 * t397 + A_ij_7 * t400);
     jac_phi_q_t_lambda_geometry[50] = -(A_ij_2 * t399 + A_ij_5 * t397 + A_ij_8 * t400);
     jac_phi_q_t_lambda_geometry[54] = -(v_5_in_j_0 * t395 + v_5_in_j_1 * t398 + v_5_in_j_2 * t396);
-    const jg_real t401 = A_ij_7 * g_star_in_j_1 - A_ij_4 * g_star_in_j_2;
-    const jg_real t402 = A_ij_4 * g_star_in_j_0 - A_ij_1 * g_star_in_j_1;
-    const jg_real t403 = v_3_in_j_2 * t401 - v_3_in_j_0 * t402 + lambda[4] * (C_j[2] * A_ij_1 - C_j[0] * A_ij_7);
     jac_phi_q_t_lambda_geometry[59] = t403;
-    const jg_real t404 = A_ij_1 * g_star_in_j_2 - A_ij_7 * g_star_in_j_0;
-    const jg_real t405 = v_3_in_j_1 * t402 - v_3_in_j_2 * t404 + lambda[4] * (C_j[1] * A_ij_7 - C_j[2] * A_ij_4);
     jac_phi_q_t_lambda_geometry[58] = t405;
-    const jg_real t406 = v_3_in_j_0 * t404 - v_3_in_j_1 * t401 + lambda[4] * (C_j[0] * A_ij_4 - C_j[1] * A_ij_1);
     jac_phi_q_t_lambda_geometry[60] = t406;
+    const jg_real t407 = A_ij_8 * g_star_in_j_1 - A_ij_5 * g_star_in_j_2;
+    const jg_real t408 = A_ij_5 * g_star_in_j_0 - A_ij_2 * g_star_in_j_1;
+    const jg_real t409 = v_3_in_j_2 * t407 - v_3_in_j_0 * t408 + lambda[4] * (A_ij_2 * C_j[2] - C_j[0] * A_ij_8);
+    const jg_real t410 = A_ij_2 * g_star_in_j_2 - A_ij_8 * g_star_in_j_0;
+    const jg_real t411 = v_3_in_j_1 * t408 - v_3_in_j_2 * t410 + lambda[4] * (C_j[1] * A_ij_8 - C_j[2] * A_ij_5);
+    const jg_real t412 = v_3_in_j_0 * t410 - v_3_in_j_1 * t407 + lambda[4] * (C_j[0] * A_ij_5 - A_ij_2 * C_j[1]);
     jac_phi_q_t_lambda_geometry[55] = -(A_ij_0 * t405 + A_ij_3 * t403 + A_ij_6 * t406);
     jac_phi_q_t_lambda_geometry[56] = -(A_ij_1 * t405 + A_ij_4 * t403 + A_ij_7 * t406);
     jac_phi_q_t_lambda_geometry[57] = -(A_ij_2 * t405 + A_ij_5 * t403 + A_ij_8 * t406);
     jac_phi_q_t_lambda_geometry[61] = -(v_5_in_j_0 * t401 + v_5_in_j_1 * t404 + v_5_in_j_2 * t402);
-    const jg_real t407 = A_ij_8 * g_star_in_j_1 - A_ij_5 * g_star_in_j_2;
-    const jg_real t408 = A_ij_5 * g_star_in_j_0 - A_ij_2 * g_star_in_j_1;
-    const jg_real t409 = v_3_in_j_2 * t407 - v_3_in_j_0 * t408 + lambda[4] * (C_j[2] * A_ij_2 - C_j[0] * A_ij_8);
     jac_phi_q_t_lambda_geometry[66] = t409;
-    const jg_real t410 = A_ij_2 * g_star_in_j_2 - A_ij_8 * g_star_in_j_0;
-    const jg_real t411 = v_3_in_j_1 * t408 - v_3_in_j_2 * t410 + lambda[4] * (C_j[1] * A_ij_8 - C_j[2] * A_ij_5);
     jac_phi_q_t_lambda_geometry[65] = t411;
-    const jg_real t412 = v_3_in_j_0 * t410 - v_3_in_j_1 * t407 + lambda[4] * (C_j[0] * A_ij_5 - C_j[1] * A_ij_2);
     jac_phi_q_t_lambda_geometry[67] = t412;
     jac_phi_q_t_lambda_geometry[62] = -(A_ij_0 * t411 + A_ij_3 * t409 + A_ij_6 * t412);
     jac_phi_q_t_lambda_geometry[63] = -(A_ij_1 * t411 + A_ij_4 * t409 + A_ij_7 * t412);
@@ -2227,6 +2221,7 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_geometry[71] = A_ij_5 * lambda_0_1_2_in_j_2 - A_ij_8 * lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[74] = A_ij_6 * lambda_0_1_2_in_j_0 - A_ij_0 * lambda_0_1_2_in_j_2;
+    const jg_real t413 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[75] = A_ij_7 * lambda_0_1_2_in_j_0 - A_ij_1 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[76] = A_ij_8 * lambda_0_1_2_in_j_0 - A_ij_2 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[78] = -lambda_0_1_2_in_j_0;
@@ -2234,34 +2229,33 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_geometry[80] = A_ij_1 * lambda_0_1_2_in_j_1 - A_ij_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[81] = A_ij_2 * lambda_0_1_2_in_j_1 - A_ij_5 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[82] = -lambda_0_1_2_in_j_1;
-    const jg_real t413 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[88] = t413;
     const jg_real t414 = lambda[4] * h_star_in_j_2;
+    const jg_real t415 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[92] = t414;
     jac_phi_q_t_lambda_geometry[84] = A_ij_3 * t414 - A_ij_6 * t413;
     jac_phi_q_t_lambda_geometry[85] = A_ij_4 * t414 - A_ij_7 * t413;
     jac_phi_q_t_lambda_geometry[86] = A_ij_5 * t414 - A_ij_8 * t413;
     jac_phi_q_t_lambda_geometry[87] = -t414;
-    const jg_real t415 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[98] = t415;
     jac_phi_q_t_lambda_geometry[89] = A_ij_6 * t415 - A_ij_0 * t414;
     jac_phi_q_t_lambda_geometry[90] = A_ij_7 * t415 - A_ij_1 * t414;
+    const jg_real t416 = lambda[5] * f_star_in_j_2;
+    const jg_real t417 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[91] = A_ij_8 * t415 - A_ij_2 * t414;
     jac_phi_q_t_lambda_geometry[93] = -t415;
     jac_phi_q_t_lambda_geometry[94] = A_ij_0 * t413 - A_ij_3 * t415;
     jac_phi_q_t_lambda_geometry[95] = A_ij_1 * t413 - A_ij_4 * t415;
     jac_phi_q_t_lambda_geometry[96] = A_ij_2 * t413 - A_ij_5 * t415;
     jac_phi_q_t_lambda_geometry[97] = -t413;
-    const jg_real t416 = lambda[5] * f_star_in_j_2;
     jac_phi_q_t_lambda_geometry[108] = t416;
-    const jg_real t417 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[103] = t417;
+    const jg_real t418 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[99] = A_ij_3 * t416 - A_ij_6 * t417;
     jac_phi_q_t_lambda_geometry[100] = A_ij_4 * t416 - A_ij_7 * t417;
     jac_phi_q_t_lambda_geometry[101] = A_ij_5 * t416 - A_ij_8 * t417;
     jac_phi_q_t_lambda_geometry[102] = -t416;
     jac_phi_q_t_lambda_geometry[104] = lambda[5] * g_star_in_j_0;
-    const jg_real t418 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[115] = t418;
     jac_phi_q_t_lambda_geometry[105] = A_ij_6 * t418 - A_ij_0 * t416;
     jac_phi_q_t_lambda_geometry[106] = A_ij_7 * t418 - A_ij_1 * t416;
@@ -2274,15 +2268,15 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_geometry[114] = -t417;
     jac_phi_q_t_lambda_geometry[116] = lambda[5] * g_star_in_j_2;
     const jg_real t419 = lambda[3] * g_star_in_j_2;
-    jac_phi_q_t_lambda_geometry[126] = t419;
     const jg_real t420 = lambda[3] * g_star_in_j_1;
+    const jg_real t421 = lambda[3] * g_star_in_j_0;
+    jac_phi_q_t_lambda_geometry[126] = t419;
     jac_phi_q_t_lambda_geometry[121] = t420;
     jac_phi_q_t_lambda_geometry[117] = A_ij_3 * t419 - A_ij_6 * t420;
     jac_phi_q_t_lambda_geometry[118] = A_ij_4 * t419 - A_ij_7 * t420;
     jac_phi_q_t_lambda_geometry[119] = A_ij_5 * t419 - A_ij_8 * t420;
     jac_phi_q_t_lambda_geometry[120] = -t419;
     jac_phi_q_t_lambda_geometry[122] = -(lambda[3] * f_star_in_j_0);
-    const jg_real t421 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[133] = t421;
     jac_phi_q_t_lambda_geometry[123] = A_ij_6 * t421 - A_ij_0 * t419;
     jac_phi_q_t_lambda_geometry[124] = A_ij_7 * t421 - A_ij_1 * t419;
@@ -2292,54 +2286,55 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
     jac_phi_q_t_lambda_geometry[129] = A_ij_0 * t420 - A_ij_3 * t421;
     jac_phi_q_t_lambda_geometry[130] = A_ij_1 * t420 - A_ij_4 * t421;
     jac_phi_q_t_lambda_geometry[131] = A_ij_2 * t420 - A_ij_5 * t421;
+    const jg_real t422 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    const jg_real t423 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    const jg_real t424 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_t_lambda_geometry[132] = -t420;
     jac_phi_q_t_lambda_geometry[134] = -(lambda[3] * f_star_in_j_2);
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[24] = JG_REAL(-1.0);
-    const jg_real t422 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = t422;
-    const jg_real t423 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = t423;
-    const jg_real t424 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_t_lambda_lambda[9] = t424;
-    jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t422 + A_ij_3 * t423 + A_ij_6 * t424);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t422 + A_ij_4 * t423 + A_ij_7 * t424 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real t427 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    const jg_real t428 = s_j[2] * A_ij_1 - A_ij_7 * s_j[0];
+    const jg_real t429 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t422 + A_ij_3 * t423 + A_ij_6 * t424);
+    jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t422 + A_ij_4 * t423 + A_ij_7 * t424 + v_0_in_i_2);
     jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ij_2 * t422 + A_ij_5 * t423 + A_ij_8 * t424);
     jac_phi_q_t_lambda_lambda[10] = -C_i[0];
     jac_phi_q_t_lambda_lambda[11] = -C_i[3];
-    const jg_real t427 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[19] = t427;
-    const jg_real t428 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[20] = t428;
-    const jg_real t429 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_t_lambda_lambda[21] = t429;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real t431 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    const jg_real t432 = A_ij_2 * s_j[2] - s_j[0] * A_ij_8;
+    const jg_real t433 = s_j[0] * A_ij_5 - A_ij_2 * s_j[1];
     jac_phi_q_t_lambda_lambda[13] = v_0_in_i_2 - (A_ij_0 * t427 + A_ij_3 * t428 + A_ij_6 * t429);
     jac_phi_q_t_lambda_lambda[14] = -(A_ij_1 * t427 + A_ij_4 * t428 + A_ij_7 * t429);
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[15] = -(A_ij_2 * t427 + A_ij_5 * t428 + A_ij_8 * t429 + v_0_in_i_0);
     jac_phi_q_t_lambda_lambda[22] = -C_i[1];
     jac_phi_q_t_lambda_lambda[23] = -C_i[4];
-    const jg_real t431 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[31] = t431;
-    const jg_real t432 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[32] = t432;
-    const jg_real t433 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_t_lambda_lambda[33] = t433;
+    const jg_real t434 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
+    const jg_real t435 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
+    const jg_real t436 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[25] = -(A_ij_0 * t431 + A_ij_3 * t432 + A_ij_6 * t433 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[26] = v_0_in_i_0 - (A_ij_1 * t431 + A_ij_4 * t432 + A_ij_7 * t433);
     jac_phi_q_t_lambda_lambda[27] = -(A_ij_2 * t431 + A_ij_5 * t432 + A_ij_8 * t433);
     jac_phi_q_t_lambda_lambda[34] = -C_i[2];
     jac_phi_q_t_lambda_lambda[35] = -C_i[5];
-    const jg_real t434 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
     jac_phi_q_t_lambda_lambda[39] = t434;
-    const jg_real t435 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
     jac_phi_q_t_lambda_lambda[40] = t435;
-    const jg_real t436 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[41] = t436;
+    const jg_real t437 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
     jac_phi_q_t_lambda_lambda[36] = -(A_ij_0 * t434 + A_ij_3 * t435 + A_ij_6 * t436);
     jac_phi_q_t_lambda_lambda[37] = -(A_ij_1 * t434 + A_ij_4 * t435 + A_ij_7 * t436);
     jac_phi_q_t_lambda_lambda[38] = -(A_ij_2 * t434 + A_ij_5 * t435 + A_ij_8 * t436);
@@ -2350,11 +2345,10 @@ static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTR
         f_j_cross_h_star_in_j_2);
     jac_phi_q_t_lambda_lambda[45] = -(A_ij_2 * f_j_cross_h_star_in_j_0 + A_ij_5 * f_j_cross_h_star_in_j_1 + A_ij_8 *
         f_j_cross_h_star_in_j_2);
-    const jg_real t437 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
     jac_phi_q_t_lambda_lambda[53] = t437;
     const jg_real t438 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
-    jac_phi_q_t_lambda_lambda[52] = t438;
     const jg_real t439 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
+    jac_phi_q_t_lambda_lambda[52] = t438;
     jac_phi_q_t_lambda_lambda[54] = t439;
     jac_phi_q_t_lambda_lambda[49] = -(A_ij_0 * t438 + A_ij_3 * t437 + A_ij_6 * t439);
     jac_phi_q_t_lambda_lambda[50] = -(A_ij_1 * t438 + A_ij_4 * t437 + A_ij_7 * t439);

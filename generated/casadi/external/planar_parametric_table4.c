@@ -46,45 +46,45 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[1] = C_i[0] * h_j_world_0;
     jac_phi_A_i[2] = C_i[3] * h_j_world_0;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[3] = C_i[0] * f_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    jac_phi_A_i[4] = e_ij_world_1;
-    jac_phi_A_i[16] = e_ij_world_1;
-    jac_phi_A_i[28] = e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[5] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[7] = C_i[0] * f_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[4] = e_ij_world_1;
+    jac_phi_A_i[16] = e_ij_world_1;
+    jac_phi_A_i[28] = e_ij_world_1;
+    jac_phi_A_i[5] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
+    jac_phi_A_i[7] = C_i[0] * f_j_world_1;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[9] = C_i[0] * h_j_world_2;
     jac_phi_A_i[10] = C_i[3] * h_j_world_2;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[11] = C_i[0] * f_j_world_2;
     jac_phi_A_i[13] = C_i[1] * h_j_world_0;
     jac_phi_A_i[14] = C_i[4] * h_j_world_0;
@@ -109,25 +109,25 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    jac_phi_A_j[3] = C_j[6] * f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    jac_phi_A_j[3] = C_j[6] * f_i_world_0;
     jac_phi_A_j[4] = C_j[6] * g_i_world_0;
     jac_phi_A_j[5] = f_i_world_0 * C_j[0];
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     jac_phi_A_j[9] = C_j[6] * f_i_world_1;
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     jac_phi_A_j[10] = C_j[6] * g_i_world_1;
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[11] = f_i_world_1 * C_j[0];
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_A_j[15] = C_j[6] * f_i_world_2;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[16] = C_j[6] * g_i_world_2;
     jac_phi_A_j[17] = f_i_world_2 * C_j[0];
     jac_phi_A_j[18] = s_j[1] * A_i[0];
@@ -171,28 +171,28 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_alpha[2] = -C_i[2];
     jac_phi_alpha[3] = -C_i[3];
     jac_phi_alpha[4] = -C_i[4];
+    const jg_real t21 = -alpha[0];
     jac_phi_alpha[5] = -C_i[5];
     jac_phi_alpha[6] = jg_sin(alpha[2]);
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    const jg_real t21 = -alpha[0];
     jac_phi_geometry[3] = t21;
     jac_phi_geometry[6] = t21;
     jac_phi_geometry[9] = t21;
     const jg_real t22 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    const jg_real t23 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    const jg_real t24 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[4] = t22;
     jac_phi_geometry[13] = t22;
     jac_phi_geometry[5] = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    const jg_real t23 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[7] = t23;
     jac_phi_geometry[15] = t23;
     jac_phi_geometry[8] = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    const jg_real t24 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[10] = t24;
     jac_phi_geometry[17] = t24;
-    jac_phi_geometry[11] = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     const jg_real t25 = -alpha[1];
+    jac_phi_geometry[11] = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[12] = t25;
     jac_phi_geometry[14] = t25;
     jac_phi_geometry[16] = t25;
@@ -200,15 +200,15 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[19] = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[20] = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_geometry[21] = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real t26 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t27 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[22] = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     jac_phi_geometry[23] = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[24] = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[25] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[26] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real t26 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[27] = t26;
     jac_phi_geometry[30] = t26;
-    const jg_real t27 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[28] = t27;
     jac_phi_geometry[32] = t27;
     const jg_real t28 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
@@ -219,13 +219,10 @@ static void jg_planar_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[35] = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
 }
 
-static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_alpha, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *jac_phi_q_v_r_i, jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j,
+    jg_real *jac_phi_q_v_alpha, jg_real *jac_phi_q_v_geometry, jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -237,63 +234,60 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real *const alphadot = velocity + 12;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[1] * A_ji_5 + omega_i[0] * A_ji_2 + omega_i[2] * A_ji_8;
     const jg_real A_ji_1 = A_ji_6 * A_ji_5 - A_ji_3 * A_ji_8;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real omega_i_in_j_1 = omega_i[1] * A_ji_4 + omega_i[0] * A_ji_1 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_7 * A_ji_5;
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real omega_i_in_j_0 = omega_i[1] * A_ji_3 + omega_i[0] * A_ji_0 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -309,15 +303,15 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[1] * A_ji_3 + v_i[0] * A_ji_0 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_3 * v_i[1] + v_i[0] * A_ji_0 + v_i[2] * A_ji_6;
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
     const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = C_i[1] * A_ji_3 + C_i[0] * A_ji_0 + C_i[2] * A_ji_6;
+    const jg_real f_i_in_j_0 = A_ji_3 * C_i[1] + C_i[0] * A_ji_0 + C_i[2] * A_ji_6;
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = C_i[4] * A_ji_3 + C_i[3] * A_ji_0 + C_i[5] * A_ji_6;
+    const jg_real g_i_in_j_0 = A_ji_3 * C_i[4] + C_i[3] * A_ji_0 + C_i[5] * A_ji_6;
     /* v_4_in_j = v_j - v_i - alphadot_0 f_i - alphadot_1 g_i + r_j x omega_i + s_j x omega_i - r_i x omega_i ... */
     const jg_real v_4_in_j_0 = v_3_in_j_0 - alphadot[0] * f_i_in_j_0 - alphadot[1] * g_i_in_j_0;
     const jg_real t45 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
@@ -331,49 +325,52 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         - alphadot[1] * t51;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[1] * A_ji_4 + v_i[0] * A_ji_1 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_4 * v_i[1] + v_i[0] * A_ji_1 + A_ji_7 * v_i[2];
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real f_i_in_j_1 = C_i[1] * A_ji_4 + C_i[0] * A_ji_1 + C_i[2] * A_ji_7;
-    const jg_real g_i_in_j_1 = C_i[4] * A_ji_4 + C_i[3] * A_ji_1 + C_i[5] * A_ji_7;
+    const jg_real f_i_in_j_1 = A_ji_4 * C_i[1] + C_i[0] * A_ji_1 + A_ji_7 * C_i[2];
+    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
     const jg_real v_4_in_j_1 = v_3_in_j_1 - alphadot[0] * f_i_in_j_1 - alphadot[1] * g_i_in_j_1;
     const jg_real t63 = A_j[0] * omega_i[1] + omega_i[0] * t45;
     const jg_real t64 = A_j[3] * C_i[1] + C_i[0] * t48;
-    const jg_real t65 = A_j[3] * C_i[4] + C_i[3] * t48;
-    const jg_real t66 = e_ij_in_j_2 * t63 - e_ij_in_j_0 * t47 - (A_j[3] * v_i[1] + v_i[0] * t48) - alphadot[0] * t64
+    const jg_real t65 = C_i[3] * t48 + A_j[3] * C_i[4];
+    const jg_real t66 = e_ij_in_j_2 * t63 - t47 * e_ij_in_j_0 - (A_j[3] * v_i[1] + v_i[0] * t48) - alphadot[0] * t64
         - alphadot[1] * t65;
-    const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
+    const jg_real v_1_in_j_2 = omega_i_in_j_1 * e_ij_in_j_0 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real f_i_in_j_2 = C_i[1] * A_ji_5 + C_i[0] * A_ji_2 + C_i[2] * A_ji_8;
+    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
     const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
     const jg_real v_4_in_j_2 = v_3_in_j_2 - alphadot[0] * f_i_in_j_2 - alphadot[1] * g_i_in_j_2;
-    const jg_real t75 = A_j[6] * C_i[1] + C_i[0] * t46;
+    const jg_real t75 = C_i[0] * t46 + A_j[6] * C_i[1];
     const jg_real t76 = C_i[3] * t46 + A_j[6] * C_i[4];
-    const jg_real t77 = e_ij_in_j_0 * t49 - e_ij_in_j_1 * t63 - (A_j[6] * v_i[1] + v_i[0] * t46) - alphadot[0] * t75
+    const jg_real t77 = t49 * e_ij_in_j_0 - e_ij_in_j_1 * t63 - (v_i[0] * t46 + A_j[6] * v_i[1]) - alphadot[0] * t75
         - alphadot[1] * t76;
-    jac_phi_q_v_A_i[0] = t46 * v_4_in_j_2 + A_ji_2 * t77 + (t45 * v_4_in_j_0 + A_ji_0 * t52 + (t48 * v_4_in_j_1 +
-        A_ji_1 * t66));
     const jg_real t78 = A_j[0] * v_4_in_j_0;
     const jg_real t79 = A_j[3] * v_4_in_j_1;
     const jg_real t80 = A_j[6] * v_4_in_j_2;
-    jac_phi_q_v_A_i[1] = t80 + A_ji_5 * t77 + (t78 + A_ji_3 * t52 + (t79 + A_ji_4 * t66));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t52 + A_ji_7 * t66 + A_ji_8 * t77;
     /* omega_i_cross_h_j_in_j = omega_i x h_j, axes of body j */
-    const jg_real omega_i_cross_h_j_in_j_0 = C_j[8] * omega_i_in_j_1 - C_j[7] * omega_i_in_j_2;
-    const jg_real t82 = C_j[8] * t49 - C_j[7] * t47;
-    const jg_real omega_i_cross_h_j_in_j_1 = C_j[6] * omega_i_in_j_2 - C_j[8] * omega_i_in_j_0;
-    const jg_real t84 = C_j[6] * t47 - C_j[8] * t63;
-    const jg_real omega_i_cross_h_j_in_j_2 = C_j[7] * omega_i_in_j_0 - C_j[6] * omega_i_in_j_1;
-    const jg_real t86 = C_j[7] * t63 - C_j[6] * t49;
+    const jg_real omega_i_cross_h_j_in_j_0 = omega_i_in_j_1 * C_j[8] - omega_i_in_j_2 * C_j[7];
+    const jg_real t82 = t49 * C_j[8] - t47 * C_j[7];
+    const jg_real omega_i_cross_h_j_in_j_1 = omega_i_in_j_2 * C_j[6] - omega_i_in_j_0 * C_j[8];
+    const jg_real t84 = t47 * C_j[6] - t63 * C_j[8];
+    const jg_real omega_i_cross_h_j_in_j_2 = omega_i_in_j_0 * C_j[7] - omega_i_in_j_1 * C_j[6];
+    const jg_real t86 = t63 * C_j[7] - t49 * C_j[6];
     /* omega_j_cross_h_j_in_j = omega_j x h_j, axes of body j */
     const jg_real omega_j_cross_h_j_in_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_in_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_in_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t46 * v_4_in_j_2 + A_ji_2 * t77 + (t45 * v_4_in_j_0 + A_ji_0 * t52 + (t48 * v_4_in_j_1 +
+        A_ji_1 * t66));
+    jac_phi_q_v_A_i[1] = t78 + A_ji_3 * t52 + (t79 + A_ji_4 * t66) + (t80 + A_ji_5 * t77);
+    jac_phi_q_v_A_i[2] = A_ji_6 * t52 + A_ji_7 * t66 + A_ji_8 * t77;
     jac_phi_q_v_A_i[3] = t50 * omega_j_cross_h_j_in_j_0 + t64 * omega_j_cross_h_j_in_j_1 + t75 *
         omega_j_cross_h_j_in_j_2 - (t75 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t86 + (t50 *
         omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t82 + (t64 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t84)));
@@ -381,15 +378,12 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         omega_j_cross_h_j_in_j_2 - (t76 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t86 + (t51 *
         omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t82 + (t65 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t84)));
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
-    const jg_real f_i_cross_f_j_in_j_0 = C_j[2] * f_i_in_j_1 - f_i_in_j_2 * C_j[1];
+    const jg_real f_i_cross_f_j_in_j_0 = f_i_in_j_1 * C_j[2] - f_i_in_j_2 * C_j[1];
     const jg_real t91 = t64 * C_j[2] - t75 * C_j[1];
     const jg_real f_i_cross_f_j_in_j_1 = f_i_in_j_2 * C_j[0] - f_i_in_j_0 * C_j[2];
     const jg_real t93 = t75 * C_j[0] - t50 * C_j[2];
-    const jg_real f_i_cross_f_j_in_j_2 = f_i_in_j_0 * C_j[1] - C_j[0] * f_i_in_j_1;
+    const jg_real f_i_cross_f_j_in_j_2 = f_i_in_j_0 * C_j[1] - f_i_in_j_1 * C_j[0];
     const jg_real t95 = t50 * C_j[1] - t64 * C_j[0];
-    jac_phi_q_v_A_i[5] = t47 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t95 + (t63 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t91 + (t49 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t93)) - (omega_j[0] * t91 + omega_j[1]
-        * t93 + omega_j[2] * t95);
     const jg_real t96 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t97 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
     const jg_real t98 = A_j[7] * omega_i[1] + omega_i[0] * t97;
@@ -401,35 +395,22 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         t101 - alphadot[1] * t102;
     const jg_real t104 = A_j[1] * omega_i[1] + omega_i[0] * t96;
     const jg_real t105 = A_j[4] * C_i[1] + C_i[0] * t99;
-    const jg_real t106 = A_j[4] * C_i[4] + C_i[3] * t99;
-    const jg_real t107 = e_ij_in_j_2 * t104 - e_ij_in_j_0 * t98 - (A_j[4] * v_i[1] + v_i[0] * t99) - alphadot[0] *
+    const jg_real t106 = C_i[3] * t99 + A_j[4] * C_i[4];
+    const jg_real t107 = e_ij_in_j_2 * t104 - t98 * e_ij_in_j_0 - (A_j[4] * v_i[1] + v_i[0] * t99) - alphadot[0] *
         t105 - alphadot[1] * t106;
-    const jg_real t108 = A_j[7] * C_i[1] + C_i[0] * t97;
+    const jg_real t108 = C_i[0] * t97 + A_j[7] * C_i[1];
     const jg_real t109 = C_i[3] * t97 + A_j[7] * C_i[4];
-    const jg_real t110 = e_ij_in_j_0 * t100 - e_ij_in_j_1 * t104 - (A_j[7] * v_i[1] + v_i[0] * t97) - alphadot[0] *
+    const jg_real t110 = t100 * e_ij_in_j_0 - e_ij_in_j_1 * t104 - (v_i[0] * t97 + A_j[7] * v_i[1]) - alphadot[0] *
         t108 - alphadot[1] * t109;
-    jac_phi_q_v_A_i[6] = t97 * v_4_in_j_2 + A_ji_2 * t110 + (t96 * v_4_in_j_0 + A_ji_0 * t103 + (t99 * v_4_in_j_1 +
-        A_ji_1 * t107));
     const jg_real t111 = A_j[1] * v_4_in_j_0;
     const jg_real t112 = A_j[4] * v_4_in_j_1;
     const jg_real t113 = A_j[7] * v_4_in_j_2;
-    jac_phi_q_v_A_i[7] = t113 + A_ji_5 * t110 + (t111 + A_ji_3 * t103 + (t112 + A_ji_4 * t107));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t103 + A_ji_7 * t107 + A_ji_8 * t110;
-    const jg_real t114 = C_j[8] * t100 - C_j[7] * t98;
-    const jg_real t115 = C_j[6] * t98 - C_j[8] * t104;
-    const jg_real t116 = C_j[7] * t104 - C_j[6] * t100;
-    jac_phi_q_v_A_i[9] = t101 * omega_j_cross_h_j_in_j_0 + t105 * omega_j_cross_h_j_in_j_1 + t108 *
-        omega_j_cross_h_j_in_j_2 - (t108 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t116 + (t101 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t114 + (t105 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t115)));
-    jac_phi_q_v_A_i[10] = t102 * omega_j_cross_h_j_in_j_0 + t106 * omega_j_cross_h_j_in_j_1 + t109 *
-        omega_j_cross_h_j_in_j_2 - (t109 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t116 + (t102 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t114 + (t106 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t115)));
+    const jg_real t114 = t100 * C_j[8] - t98 * C_j[7];
+    const jg_real t115 = t98 * C_j[6] - t104 * C_j[8];
+    const jg_real t116 = t104 * C_j[7] - t100 * C_j[6];
     const jg_real t117 = t105 * C_j[2] - t108 * C_j[1];
     const jg_real t118 = t108 * C_j[0] - t101 * C_j[2];
     const jg_real t119 = t101 * C_j[1] - t105 * C_j[0];
-    jac_phi_q_v_A_i[11] = t98 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t119 + (t104 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t117 + (t100 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t118)) - (omega_j[0] * t117 +
-        omega_j[1] * t118 + omega_j[2] * t119);
     const jg_real t120 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t121 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
     const jg_real t122 = A_j[8] * omega_i[1] + omega_i[0] * t121;
@@ -441,35 +422,40 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         t125 - alphadot[1] * t126;
     const jg_real t128 = A_j[2] * omega_i[1] + omega_i[0] * t120;
     const jg_real t129 = A_j[5] * C_i[1] + C_i[0] * t123;
-    const jg_real t130 = A_j[5] * C_i[4] + C_i[3] * t123;
-    const jg_real t131 = e_ij_in_j_2 * t128 - e_ij_in_j_0 * t122 - (A_j[5] * v_i[1] + v_i[0] * t123) - alphadot[0] *
+    const jg_real t130 = C_i[3] * t123 + A_j[5] * C_i[4];
+    const jg_real t131 = e_ij_in_j_2 * t128 - t122 * e_ij_in_j_0 - (A_j[5] * v_i[1] + v_i[0] * t123) - alphadot[0] *
         t129 - alphadot[1] * t130;
-    const jg_real t132 = A_j[8] * C_i[1] + C_i[0] * t121;
+    const jg_real t132 = C_i[0] * t121 + A_j[8] * C_i[1];
     const jg_real t133 = C_i[3] * t121 + A_j[8] * C_i[4];
-    const jg_real t134 = e_ij_in_j_0 * t124 - e_ij_in_j_1 * t128 - (A_j[8] * v_i[1] + v_i[0] * t121) - alphadot[0] *
+    const jg_real t134 = t124 * e_ij_in_j_0 - e_ij_in_j_1 * t128 - (v_i[0] * t121 + A_j[8] * v_i[1]) - alphadot[0] *
         t132 - alphadot[1] * t133;
+    jac_phi_q_v_A_i[5] = t47 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t95 + (t63 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t91 + (t49 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t93)) - (omega_j[0] * t91 + omega_j[1]
+        * t93 + omega_j[2] * t95);
+    jac_phi_q_v_A_i[6] = t97 * v_4_in_j_2 + A_ji_2 * t110 + (t96 * v_4_in_j_0 + A_ji_0 * t103 + (t99 * v_4_in_j_1 +
+        A_ji_1 * t107));
+    jac_phi_q_v_A_i[7] = t111 + A_ji_3 * t103 + (t112 + A_ji_4 * t107) + (t113 + A_ji_5 * t110);
+    jac_phi_q_v_A_i[8] = A_ji_6 * t103 + A_ji_7 * t107 + A_ji_8 * t110;
+    jac_phi_q_v_A_i[9] = t101 * omega_j_cross_h_j_in_j_0 + t105 * omega_j_cross_h_j_in_j_1 + t108 *
+        omega_j_cross_h_j_in_j_2 - (t108 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t116 + (t101 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t114 + (t105 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t115)));
+    jac_phi_q_v_A_i[10] = t102 * omega_j_cross_h_j_in_j_0 + t106 * omega_j_cross_h_j_in_j_1 + t109 *
+        omega_j_cross_h_j_in_j_2 - (t109 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t116 + (t102 *
+        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t114 + (t106 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t115)));
+    jac_phi_q_v_A_i[11] = t98 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t119 + (t104 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t117 + (t100 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t118)) - (omega_j[0] * t117 +
+        omega_j[1] * t118 + omega_j[2] * t119);
     jac_phi_q_v_A_i[12] = t121 * v_4_in_j_2 + A_ji_2 * t134 + (t120 * v_4_in_j_0 + A_ji_0 * t127 + (t123 *
         v_4_in_j_1 + A_ji_1 * t131));
     const jg_real t135 = A_j[2] * v_4_in_j_0;
     const jg_real t136 = A_j[5] * v_4_in_j_1;
     const jg_real t137 = A_j[8] * v_4_in_j_2;
-    jac_phi_q_v_A_i[13] = t137 + A_ji_5 * t134 + (t135 + A_ji_3 * t127 + (t136 + A_ji_4 * t131));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t127 + A_ji_7 * t131 + A_ji_8 * t134;
-    const jg_real t138 = C_j[8] * t124 - C_j[7] * t122;
-    const jg_real t139 = C_j[6] * t122 - C_j[8] * t128;
-    const jg_real t140 = C_j[7] * t128 - C_j[6] * t124;
-    jac_phi_q_v_A_i[15] = t125 * omega_j_cross_h_j_in_j_0 + t129 * omega_j_cross_h_j_in_j_1 + t132 *
-        omega_j_cross_h_j_in_j_2 - (t132 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t140 + (t125 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t138 + (t129 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t139)));
-    jac_phi_q_v_A_i[16] = t126 * omega_j_cross_h_j_in_j_0 + t130 * omega_j_cross_h_j_in_j_1 + t133 *
-        omega_j_cross_h_j_in_j_2 - (t133 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t140 + (t126 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t138 + (t130 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t139)));
+    const jg_real t138 = t124 * C_j[8] - t122 * C_j[7];
+    const jg_real t139 = t122 * C_j[6] - t128 * C_j[8];
+    const jg_real t140 = t128 * C_j[7] - t124 * C_j[6];
     const jg_real t141 = t129 * C_j[2] - t132 * C_j[1];
     const jg_real t142 = t132 * C_j[0] - t125 * C_j[2];
     const jg_real t143 = t125 * C_j[1] - t129 * C_j[0];
-    jac_phi_q_v_A_i[17] = t122 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t143 + (t128 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t141 + (t124 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t142)) - (omega_j[0] * t141 +
-        omega_j[1] * t142 + omega_j[2] * t143);
     const jg_real t144 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
     const jg_real t145 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
     const jg_real t146 = A_j[6] * omega_i[2] + omega_i[0] * t145;
@@ -481,32 +467,34 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         t149 - alphadot[1] * t150;
     const jg_real t152 = A_j[0] * omega_i[2] + omega_i[0] * t144;
     const jg_real t153 = A_j[3] * C_i[2] + C_i[0] * t147;
-    const jg_real t154 = A_j[3] * C_i[5] + C_i[3] * t147;
-    const jg_real t155 = e_ij_in_j_2 * t152 - e_ij_in_j_0 * t146 - (A_j[3] * v_i[2] + v_i[0] * t147) - alphadot[0] *
+    const jg_real t154 = C_i[3] * t147 + A_j[3] * C_i[5];
+    const jg_real t155 = e_ij_in_j_2 * t152 - t146 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[0] * t147) - alphadot[0] *
         t153 - alphadot[1] * t154;
     const jg_real t156 = C_i[0] * t145 + A_j[6] * C_i[2];
     const jg_real t157 = C_i[3] * t145 + A_j[6] * C_i[5];
-    const jg_real t158 = e_ij_in_j_0 * t148 - e_ij_in_j_1 * t152 - (A_j[6] * v_i[2] + v_i[0] * t145) - alphadot[0] *
+    const jg_real t158 = t148 * e_ij_in_j_0 - e_ij_in_j_1 * t152 - (v_i[0] * t145 + A_j[6] * v_i[2]) - alphadot[0] *
         t156 - alphadot[1] * t157;
+    jac_phi_q_v_A_i[13] = t135 + A_ji_3 * t127 + (t136 + A_ji_4 * t131) + (t137 + A_ji_5 * t134);
+    jac_phi_q_v_A_i[14] = A_ji_6 * t127 + A_ji_7 * t131 + A_ji_8 * t134;
+    jac_phi_q_v_A_i[15] = t125 * omega_j_cross_h_j_in_j_0 + t129 * omega_j_cross_h_j_in_j_1 + t132 *
+        omega_j_cross_h_j_in_j_2 - (t132 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t140 + (t125 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t138 + (t129 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t139)));
+    jac_phi_q_v_A_i[16] = t126 * omega_j_cross_h_j_in_j_0 + t130 * omega_j_cross_h_j_in_j_1 + t133 *
+        omega_j_cross_h_j_in_j_2 - (t133 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t140 + (t126 *
+        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t138 + (t130 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t139)));
+    jac_phi_q_v_A_i[17] = t122 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t143 + (t128 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t141 + (t124 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t142)) - (omega_j[0] * t141 +
+        omega_j[1] * t142 + omega_j[2] * t143);
     jac_phi_q_v_A_i[18] = t145 * v_4_in_j_2 + A_ji_2 * t158 + (t144 * v_4_in_j_0 + A_ji_0 * t151 + (t147 *
         v_4_in_j_1 + A_ji_1 * t155));
     jac_phi_q_v_A_i[19] = A_ji_3 * t151 + A_ji_4 * t155 + A_ji_5 * t158;
-    jac_phi_q_v_A_i[20] = t80 + A_ji_8 * t158 + (t78 + A_ji_6 * t151 + (t79 + A_ji_7 * t155));
-    const jg_real t159 = C_j[8] * t148 - C_j[7] * t146;
-    const jg_real t160 = C_j[6] * t146 - C_j[8] * t152;
-    const jg_real t161 = C_j[7] * t152 - C_j[6] * t148;
-    jac_phi_q_v_A_i[21] = omega_j_cross_h_j_in_j_0 * t149 + omega_j_cross_h_j_in_j_1 * t153 + t156 *
-        omega_j_cross_h_j_in_j_2 - (t156 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t161 + (t149 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t159 + (t153 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t160)));
-    jac_phi_q_v_A_i[22] = omega_j_cross_h_j_in_j_0 * t150 + omega_j_cross_h_j_in_j_1 * t154 + t157 *
-        omega_j_cross_h_j_in_j_2 - (t157 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t161 + (t150 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t159 + (t154 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t160)));
-    const jg_real t162 = C_j[2] * t153 - t156 * C_j[1];
+    jac_phi_q_v_A_i[20] = t78 + A_ji_6 * t151 + (t79 + A_ji_7 * t155) + (t80 + A_ji_8 * t158);
+    const jg_real t159 = t148 * C_j[8] - t146 * C_j[7];
+    const jg_real t160 = t146 * C_j[6] - t152 * C_j[8];
+    const jg_real t161 = t152 * C_j[7] - t148 * C_j[6];
+    const jg_real t162 = t153 * C_j[2] - t156 * C_j[1];
     const jg_real t163 = t156 * C_j[0] - t149 * C_j[2];
-    const jg_real t164 = t149 * C_j[1] - C_j[0] * t153;
-    jac_phi_q_v_A_i[23] = t146 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t164 + (t152 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t162 + (t148 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t163)) - (omega_j[0] * t162 +
-        omega_j[1] * t163 + omega_j[2] * t164);
+    const jg_real t164 = t149 * C_j[1] - t153 * C_j[0];
     const jg_real t165 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
     const jg_real t166 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
     const jg_real t167 = A_j[7] * omega_i[2] + omega_i[0] * t166;
@@ -518,32 +506,38 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         t170 - alphadot[1] * t171;
     const jg_real t173 = A_j[1] * omega_i[2] + omega_i[0] * t165;
     const jg_real t174 = A_j[4] * C_i[2] + C_i[0] * t168;
-    const jg_real t175 = A_j[4] * C_i[5] + C_i[3] * t168;
-    const jg_real t176 = e_ij_in_j_2 * t173 - e_ij_in_j_0 * t167 - (A_j[4] * v_i[2] + v_i[0] * t168) - alphadot[0] *
+    const jg_real t175 = C_i[3] * t168 + A_j[4] * C_i[5];
+    const jg_real t176 = e_ij_in_j_2 * t173 - t167 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[0] * t168) - alphadot[0] *
         t174 - alphadot[1] * t175;
     const jg_real t177 = C_i[0] * t166 + A_j[7] * C_i[2];
     const jg_real t178 = C_i[3] * t166 + A_j[7] * C_i[5];
-    const jg_real t179 = e_ij_in_j_0 * t169 - e_ij_in_j_1 * t173 - (A_j[7] * v_i[2] + v_i[0] * t166) - alphadot[0] *
+    const jg_real t179 = t169 * e_ij_in_j_0 - e_ij_in_j_1 * t173 - (v_i[0] * t166 + A_j[7] * v_i[2]) - alphadot[0] *
         t177 - alphadot[1] * t178;
+    const jg_real t180 = t169 * C_j[8] - t167 * C_j[7];
+    const jg_real t181 = t167 * C_j[6] - t173 * C_j[8];
+    const jg_real t182 = t173 * C_j[7] - t169 * C_j[6];
+    jac_phi_q_v_A_i[21] = t149 * omega_j_cross_h_j_in_j_0 + t153 * omega_j_cross_h_j_in_j_1 + t156 *
+        omega_j_cross_h_j_in_j_2 - (t156 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t161 + (t149 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t159 + (t153 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t160)));
+    jac_phi_q_v_A_i[22] = t150 * omega_j_cross_h_j_in_j_0 + t154 * omega_j_cross_h_j_in_j_1 + t157 *
+        omega_j_cross_h_j_in_j_2 - (t157 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t161 + (t150 *
+        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t159 + (t154 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t160)));
+    jac_phi_q_v_A_i[23] = t146 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t164 + (t152 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t162 + (t148 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t163)) - (omega_j[0] * t162 +
+        omega_j[1] * t163 + omega_j[2] * t164);
     jac_phi_q_v_A_i[24] = t166 * v_4_in_j_2 + A_ji_2 * t179 + (t165 * v_4_in_j_0 + A_ji_0 * t172 + (t168 *
         v_4_in_j_1 + A_ji_1 * t176));
     jac_phi_q_v_A_i[25] = A_ji_3 * t172 + A_ji_4 * t176 + A_ji_5 * t179;
-    jac_phi_q_v_A_i[26] = t113 + A_ji_8 * t179 + (t111 + A_ji_6 * t172 + (t112 + A_ji_7 * t176));
-    const jg_real t180 = C_j[8] * t169 - C_j[7] * t167;
-    const jg_real t181 = C_j[6] * t167 - C_j[8] * t173;
-    const jg_real t182 = C_j[7] * t173 - C_j[6] * t169;
-    jac_phi_q_v_A_i[27] = omega_j_cross_h_j_in_j_0 * t170 + omega_j_cross_h_j_in_j_1 * t174 + t177 *
+    jac_phi_q_v_A_i[26] = t111 + A_ji_6 * t172 + (t112 + A_ji_7 * t176) + (t113 + A_ji_8 * t179);
+    jac_phi_q_v_A_i[27] = t170 * omega_j_cross_h_j_in_j_0 + t174 * omega_j_cross_h_j_in_j_1 + t177 *
         omega_j_cross_h_j_in_j_2 - (t177 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t182 + (t170 *
         omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t180 + (t174 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t181)));
-    jac_phi_q_v_A_i[28] = omega_j_cross_h_j_in_j_0 * t171 + omega_j_cross_h_j_in_j_1 * t175 + t178 *
+    jac_phi_q_v_A_i[28] = t171 * omega_j_cross_h_j_in_j_0 + t175 * omega_j_cross_h_j_in_j_1 + t178 *
         omega_j_cross_h_j_in_j_2 - (t178 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t182 + (t171 *
         omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t180 + (t175 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t181)));
-    const jg_real t183 = C_j[2] * t174 - t177 * C_j[1];
+    const jg_real t183 = t174 * C_j[2] - t177 * C_j[1];
     const jg_real t184 = t177 * C_j[0] - t170 * C_j[2];
-    const jg_real t185 = t170 * C_j[1] - C_j[0] * t174;
-    jac_phi_q_v_A_i[29] = t167 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t185 + (t173 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t183 + (t169 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t184)) - (omega_j[0] * t183 +
-        omega_j[1] * t184 + omega_j[2] * t185);
+    const jg_real t185 = t170 * C_j[1] - t174 * C_j[0];
     const jg_real t186 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
     const jg_real t187 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
     const jg_real t188 = A_j[8] * omega_i[2] + omega_i[0] * t187;
@@ -555,32 +549,19 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
         t191 - alphadot[1] * t192;
     const jg_real t194 = A_j[2] * omega_i[2] + omega_i[0] * t186;
     const jg_real t195 = A_j[5] * C_i[2] + C_i[0] * t189;
-    const jg_real t196 = A_j[5] * C_i[5] + C_i[3] * t189;
-    const jg_real t197 = e_ij_in_j_2 * t194 - e_ij_in_j_0 * t188 - (A_j[5] * v_i[2] + v_i[0] * t189) - alphadot[0] *
+    const jg_real t196 = C_i[3] * t189 + A_j[5] * C_i[5];
+    const jg_real t197 = e_ij_in_j_2 * t194 - t188 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[0] * t189) - alphadot[0] *
         t195 - alphadot[1] * t196;
     const jg_real t198 = C_i[0] * t187 + A_j[8] * C_i[2];
     const jg_real t199 = C_i[3] * t187 + A_j[8] * C_i[5];
-    const jg_real t200 = e_ij_in_j_0 * t190 - e_ij_in_j_1 * t194 - (A_j[8] * v_i[2] + v_i[0] * t187) - alphadot[0] *
+    const jg_real t200 = t190 * e_ij_in_j_0 - e_ij_in_j_1 * t194 - (v_i[0] * t187 + A_j[8] * v_i[2]) - alphadot[0] *
         t198 - alphadot[1] * t199;
-    jac_phi_q_v_A_i[30] = t187 * v_4_in_j_2 + A_ji_2 * t200 + (t186 * v_4_in_j_0 + A_ji_0 * t193 + (t189 *
-        v_4_in_j_1 + A_ji_1 * t197));
-    jac_phi_q_v_A_i[31] = A_ji_3 * t193 + A_ji_4 * t197 + A_ji_5 * t200;
-    jac_phi_q_v_A_i[32] = t137 + A_ji_8 * t200 + (t135 + A_ji_6 * t193 + (t136 + A_ji_7 * t197));
-    const jg_real t201 = C_j[8] * t190 - C_j[7] * t188;
-    const jg_real t202 = C_j[6] * t188 - C_j[8] * t194;
-    const jg_real t203 = C_j[7] * t194 - C_j[6] * t190;
-    jac_phi_q_v_A_i[33] = omega_j_cross_h_j_in_j_0 * t191 + omega_j_cross_h_j_in_j_1 * t195 + t198 *
-        omega_j_cross_h_j_in_j_2 - (t198 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t203 + (t191 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t201 + (t195 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t202)));
-    jac_phi_q_v_A_i[34] = omega_j_cross_h_j_in_j_0 * t192 + omega_j_cross_h_j_in_j_1 * t196 + t199 *
-        omega_j_cross_h_j_in_j_2 - (t199 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t203 + (t192 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t201 + (t196 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t202)));
-    const jg_real t204 = C_j[2] * t195 - t198 * C_j[1];
+    const jg_real t201 = t190 * C_j[8] - t188 * C_j[7];
+    const jg_real t202 = t188 * C_j[6] - t194 * C_j[8];
+    const jg_real t203 = t194 * C_j[7] - t190 * C_j[6];
+    const jg_real t204 = t195 * C_j[2] - t198 * C_j[1];
     const jg_real t205 = t198 * C_j[0] - t191 * C_j[2];
-    const jg_real t206 = t191 * C_j[1] - C_j[0] * t195;
-    jac_phi_q_v_A_i[35] = t188 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t206 + (t194 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t204 + (t190 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t205)) - (omega_j[0] * t204 +
-        omega_j[1] * t205 + omega_j[2] * t206);
+    const jg_real t206 = t191 * C_j[1] - t195 * C_j[0];
     const jg_real t207 = A_i[3] * A_ji_7 - A_i[6] * A_ji_4;
     const jg_real t208 = v_0_world_0 * omega_i_in_j_1;
     const jg_real t209 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
@@ -602,7 +583,7 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t225 = C_i[3] * t209;
     const jg_real t226 = alphadot[1] * t225;
     const jg_real t227 = t221 - (t219 + t220 * e_ij_in_j_0) - t222 - t224 - t226;
-    const jg_real t228 = e_ij_in_j_1 * t220;
+    const jg_real t228 = t220 * e_ij_in_j_1;
     const jg_real t229 = e_ij_in_j_2 * t210;
     const jg_real t230 = A_i[3] * v_i[1] + A_i[6] * v_i[2];
     const jg_real t231 = A_i[3] * C_i[1] + A_i[6] * C_i[2];
@@ -610,22 +591,30 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t233 = A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t234 = alphadot[1] * t233;
     const jg_real t235 = t228 - t229 - t230 - t232 - t234;
+    jac_phi_q_v_A_i[29] = t167 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t185 + (t173 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t183 + (t169 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t184)) - (omega_j[0] * t183 +
+        omega_j[1] * t184 + omega_j[2] * t185);
+    jac_phi_q_v_A_i[30] = t187 * v_4_in_j_2 + A_ji_2 * t200 + (t186 * v_4_in_j_0 + A_ji_0 * t193 + (t189 *
+        v_4_in_j_1 + A_ji_1 * t197));
+    jac_phi_q_v_A_i[31] = A_ji_3 * t193 + A_ji_4 * t197 + A_ji_5 * t200;
+    jac_phi_q_v_A_i[32] = t135 + A_ji_6 * t193 + (t136 + A_ji_7 * t197) + (t137 + A_ji_8 * t200);
+    jac_phi_q_v_A_i[33] = t191 * omega_j_cross_h_j_in_j_0 + t195 * omega_j_cross_h_j_in_j_1 + t198 *
+        omega_j_cross_h_j_in_j_2 - (t198 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t203 + (t191 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t201 + (t195 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t202)));
+    jac_phi_q_v_A_i[34] = t192 * omega_j_cross_h_j_in_j_0 + t196 * omega_j_cross_h_j_in_j_1 + t199 *
+        omega_j_cross_h_j_in_j_2 - (t199 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t203 + (t192 *
+        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t201 + (t196 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t202)));
+    jac_phi_q_v_A_i[35] = t188 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t206 + (t194 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t204 + (t190 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t205)) - (omega_j[0] * t204 +
+        omega_j[1] * t205 + omega_j[2] * t206);
     jac_phi_q_v_A_j[0] = t207 * v_4_in_j_2 + A_ji_2 * t218 + (t209 * v_4_in_j_1 + A_ji_1 * t227 + A_ji_0 * t235);
-    jac_phi_q_v_A_j[1] = A_i[3] * v_4_in_j_0 + A_ji_3 * t235 + A_ji_4 * t227 + A_ji_5 * t218;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_4_in_j_0 + A_ji_6 * t235 + A_ji_7 * t227 + A_ji_8 * t218;
-    const jg_real t236 = C_j[8] * t210;
-    const jg_real t237 = C_j[7] * t220;
+    const jg_real t236 = t210 * C_j[8];
+    const jg_real t237 = t220 * C_j[7];
     const jg_real t238 = t236 - t237;
-    const jg_real t239 = C_j[8] * t211;
-    const jg_real t240 = C_j[6] * t220 - t239;
-    const jg_real t241 = C_j[7] * t211;
-    const jg_real t242 = t241 - C_j[6] * t210;
-    jac_phi_q_v_A_j[3] = t231 * omega_j_cross_h_j_in_j_0 + t223 * omega_j_cross_h_j_in_j_1 + t214 *
-        omega_j_cross_h_j_in_j_2 - (t214 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t242 + (t231 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t238 + (t223 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t240)));
-    jac_phi_q_v_A_j[4] = omega_j_cross_h_j_in_j_0 * t233 + t225 * omega_j_cross_h_j_in_j_1 + t216 *
-        omega_j_cross_h_j_in_j_2 - (t216 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t242 + (t233 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t238 + (t225 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t240)));
+    const jg_real t239 = t211 * C_j[8];
+    const jg_real t240 = t220 * C_j[6] - t239;
+    const jg_real t241 = t211 * C_j[7];
+    const jg_real t242 = t241 - t210 * C_j[6];
     const jg_real t243 = t223 * C_j[2];
     const jg_real t244 = t214 * C_j[1];
     const jg_real t245 = t243 - t244;
@@ -633,9 +622,6 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t247 = t214 * C_j[0] - t246;
     const jg_real t248 = t231 * C_j[1];
     const jg_real t249 = t248 - t223 * C_j[0];
-    jac_phi_q_v_A_j[5] = t220 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t249 + (t211 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t245 + (t210 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t247)) - (omega_j[0] * t245 +
-        omega_j[1] * t247 + omega_j[2] * t249);
     const jg_real t250 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
     const jg_real t251 = v_0_world_1 * omega_i_in_j_1;
     const jg_real t252 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
@@ -657,7 +643,7 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t268 = C_i[3] * t252;
     const jg_real t269 = alphadot[1] * t268;
     const jg_real t270 = t264 - (t262 + t263 * e_ij_in_j_0) - t265 - t267 - t269;
-    const jg_real t271 = e_ij_in_j_1 * t263;
+    const jg_real t271 = t263 * e_ij_in_j_1;
     const jg_real t272 = e_ij_in_j_2 * t253;
     const jg_real t273 = A_i[4] * v_i[1] + A_i[7] * v_i[2];
     const jg_real t274 = A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -665,22 +651,27 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t276 = A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t277 = alphadot[1] * t276;
     const jg_real t278 = t271 - t272 - t273 - t275 - t277;
+    jac_phi_q_v_A_j[1] = A_i[3] * v_4_in_j_0 + A_ji_3 * t235 + A_ji_4 * t227 + A_ji_5 * t218;
+    jac_phi_q_v_A_j[2] = A_i[6] * v_4_in_j_0 + A_ji_6 * t235 + A_ji_7 * t227 + A_ji_8 * t218;
+    jac_phi_q_v_A_j[3] = t231 * omega_j_cross_h_j_in_j_0 + t223 * omega_j_cross_h_j_in_j_1 + t214 *
+        omega_j_cross_h_j_in_j_2 - (t214 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t242 + (t231 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t238 + (t223 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t240)));
+    jac_phi_q_v_A_j[4] = t233 * omega_j_cross_h_j_in_j_0 + t225 * omega_j_cross_h_j_in_j_1 + t216 *
+        omega_j_cross_h_j_in_j_2 - (t216 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t242 + (t233 *
+        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t238 + (t225 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t240)));
+    jac_phi_q_v_A_j[5] = t220 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t249 + (t211 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t245 + (t210 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t247)) - (omega_j[0] * t245 +
+        omega_j[1] * t247 + omega_j[2] * t249);
     jac_phi_q_v_A_j[6] = t250 * v_4_in_j_2 + A_ji_2 * t261 + (t252 * v_4_in_j_1 + A_ji_1 * t270 + A_ji_0 * t278);
     jac_phi_q_v_A_j[7] = A_i[4] * v_4_in_j_0 + A_ji_3 * t278 + A_ji_4 * t270 + A_ji_5 * t261;
     jac_phi_q_v_A_j[8] = A_i[7] * v_4_in_j_0 + A_ji_6 * t278 + A_ji_7 * t270 + A_ji_8 * t261;
-    const jg_real t279 = C_j[8] * t253;
-    const jg_real t280 = C_j[7] * t263;
+    const jg_real t279 = t253 * C_j[8];
+    const jg_real t280 = t263 * C_j[7];
     const jg_real t281 = t279 - t280;
-    const jg_real t282 = C_j[8] * t254;
-    const jg_real t283 = C_j[6] * t263 - t282;
-    const jg_real t284 = C_j[7] * t254;
-    const jg_real t285 = t284 - C_j[6] * t253;
-    jac_phi_q_v_A_j[9] = t274 * omega_j_cross_h_j_in_j_0 + t266 * omega_j_cross_h_j_in_j_1 + t257 *
-        omega_j_cross_h_j_in_j_2 - (t257 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t285 + (t274 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t281 + (t266 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t283)));
-    jac_phi_q_v_A_j[10] = omega_j_cross_h_j_in_j_0 * t276 + t268 * omega_j_cross_h_j_in_j_1 + t259 *
-        omega_j_cross_h_j_in_j_2 - (t259 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t285 + (t276 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t281 + (t268 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t283)));
+    const jg_real t282 = t254 * C_j[8];
+    const jg_real t283 = t263 * C_j[6] - t282;
+    const jg_real t284 = t254 * C_j[7];
+    const jg_real t285 = t284 - t253 * C_j[6];
     const jg_real t286 = t266 * C_j[2];
     const jg_real t287 = t257 * C_j[1];
     const jg_real t288 = t286 - t287;
@@ -688,9 +679,6 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t290 = t257 * C_j[0] - t289;
     const jg_real t291 = t274 * C_j[1];
     const jg_real t292 = t291 - t266 * C_j[0];
-    jac_phi_q_v_A_j[11] = t263 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t292 + (t254 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t288 + (t253 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t290)) - (omega_j[0] * t288 +
-        omega_j[1] * t290 + omega_j[2] * t292);
     const jg_real t293 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
     const jg_real t294 = v_0_world_2 * omega_i_in_j_1;
     const jg_real t295 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
@@ -712,7 +700,7 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t311 = C_i[3] * t295;
     const jg_real t312 = alphadot[1] * t311;
     const jg_real t313 = t307 - (t305 + t306 * e_ij_in_j_0) - t308 - t310 - t312;
-    const jg_real t314 = e_ij_in_j_1 * t306;
+    const jg_real t314 = t306 * e_ij_in_j_1;
     const jg_real t315 = e_ij_in_j_2 * t296;
     const jg_real t316 = A_i[5] * v_i[1] + A_i[8] * v_i[2];
     const jg_real t317 = A_i[5] * C_i[1] + A_i[8] * C_i[2];
@@ -720,20 +708,29 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t319 = A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t320 = alphadot[1] * t319;
     const jg_real t321 = t314 - t315 - t316 - t318 - t320;
+    const jg_real t322 = t296 * C_j[8];
+    const jg_real t323 = t306 * C_j[7];
+    const jg_real t324 = t322 - t323;
+    const jg_real t325 = t297 * C_j[8];
+    const jg_real t326 = t306 * C_j[6] - t325;
+    const jg_real t327 = t297 * C_j[7];
+    const jg_real t328 = t327 - t296 * C_j[6];
+    jac_phi_q_v_A_j[9] = t274 * omega_j_cross_h_j_in_j_0 + t266 * omega_j_cross_h_j_in_j_1 + t257 *
+        omega_j_cross_h_j_in_j_2 - (t257 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t285 + (t274 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t281 + (t266 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t283)));
+    jac_phi_q_v_A_j[10] = t276 * omega_j_cross_h_j_in_j_0 + t268 * omega_j_cross_h_j_in_j_1 + t259 *
+        omega_j_cross_h_j_in_j_2 - (t259 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t285 + (t276 *
+        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t281 + (t268 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t283)));
+    jac_phi_q_v_A_j[11] = t263 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t292 + (t254 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t288 + (t253 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t290)) - (omega_j[0] * t288 +
+        omega_j[1] * t290 + omega_j[2] * t292);
     jac_phi_q_v_A_j[12] = t293 * v_4_in_j_2 + A_ji_2 * t304 + (t295 * v_4_in_j_1 + A_ji_1 * t313 + A_ji_0 * t321);
     jac_phi_q_v_A_j[13] = A_i[5] * v_4_in_j_0 + A_ji_3 * t321 + A_ji_4 * t313 + A_ji_5 * t304;
     jac_phi_q_v_A_j[14] = A_i[8] * v_4_in_j_0 + A_ji_6 * t321 + A_ji_7 * t313 + A_ji_8 * t304;
-    const jg_real t322 = C_j[8] * t296;
-    const jg_real t323 = C_j[7] * t306;
-    const jg_real t324 = t322 - t323;
-    const jg_real t325 = C_j[8] * t297;
-    const jg_real t326 = C_j[6] * t306 - t325;
-    const jg_real t327 = C_j[7] * t297;
-    const jg_real t328 = t327 - C_j[6] * t296;
     jac_phi_q_v_A_j[15] = t317 * omega_j_cross_h_j_in_j_0 + t309 * omega_j_cross_h_j_in_j_1 + t300 *
         omega_j_cross_h_j_in_j_2 - (t300 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t328 + (t317 *
         omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t324 + (t309 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t326)));
-    jac_phi_q_v_A_j[16] = omega_j_cross_h_j_in_j_0 * t319 + t311 * omega_j_cross_h_j_in_j_1 + t302 *
+    jac_phi_q_v_A_j[16] = t319 * omega_j_cross_h_j_in_j_0 + t311 * omega_j_cross_h_j_in_j_1 + t302 *
         omega_j_cross_h_j_in_j_2 - (t302 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t328 + (t319 *
         omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t324 + (t311 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t326)));
     const jg_real t329 = t309 * C_j[2];
@@ -743,12 +740,9 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t333 = t300 * C_j[0] - t332;
     const jg_real t334 = t317 * C_j[1];
     const jg_real t335 = t334 - t309 * C_j[0];
-    jac_phi_q_v_A_j[17] = t306 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t335 + (t297 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t331 + (t296 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t333)) - (omega_j[0] * t331 +
-        omega_j[1] * t333 + omega_j[2] * t335);
     const jg_real t336 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
     const jg_real t337 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t338 = e_ij_in_j_0 * t211;
+    const jg_real t338 = t211 * e_ij_in_j_0;
     const jg_real t339 = v_i[0] * t336;
     const jg_real t340 = C_i[0] * t336;
     const jg_real t341 = alphadot[0] * t340;
@@ -756,34 +750,22 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t343 = alphadot[1] * t342;
     const jg_real t344 = t338 - (t337 - e_ij_in_j_1 * t210) - t339 - t341 - t343;
     const jg_real t345 = omega_i[0] * t336;
-    const jg_real t346 = e_ij_in_j_1 * t345 + t219 - t221 + t222 + t224 + t226;
+    const jg_real t346 = t345 * e_ij_in_j_1 + t219 - t221 + t222 + t224 + t226;
     const jg_real t347 = t345 * e_ij_in_j_0;
-    const jg_real t348 = t347 + t229 + t230 + t232 + t234;
-    jac_phi_q_v_A_j[18] = t336 * v_4_in_j_2 + A_ji_2 * t344 + (A_ji_0 * t346 - t209 * v_4_in_j_0 - A_ji_1 * t348);
-    jac_phi_q_v_A_j[19] = A_i[3] * v_4_in_j_1 - A_ji_4 * t348 + A_ji_3 * t346 + A_ji_5 * t344;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_4_in_j_1 - A_ji_7 * t348 + A_ji_6 * t346 + A_ji_8 * t344;
-    const jg_real t349 = C_j[6] * t345;
-    const jg_real t350 = t349 + t236;
-    const jg_real t351 = t239 - C_j[7] * t345;
-    const jg_real t352 = C_j[6] * t211;
-    const jg_real t353 = t352 + C_j[7] * t210;
-    jac_phi_q_v_A_j[21] = t231 * omega_j_cross_h_j_in_j_1 - t223 * omega_j_cross_h_j_in_j_0 + t340 *
-        omega_j_cross_h_j_in_j_2 - (t340 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t353 + (f_i_in_j_0 * t351 - t223
-        * omega_i_cross_h_j_in_j_0 + (t231 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t350)));
-    jac_phi_q_v_A_j[22] = t233 * omega_j_cross_h_j_in_j_1 - t225 * omega_j_cross_h_j_in_j_0 + t342 *
-        omega_j_cross_h_j_in_j_2 - (t342 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t353 + (g_i_in_j_0 * t351 - t225
-        * omega_i_cross_h_j_in_j_0 + (t233 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t350)));
+    const jg_real t348 = t229 + t347 + t230 + t232 + t234;
+    const jg_real t349 = t345 * C_j[6];
+    const jg_real t350 = t236 + t349;
+    const jg_real t351 = t239 - t345 * C_j[7];
+    const jg_real t352 = t211 * C_j[6];
+    const jg_real t353 = t352 + t210 * C_j[7];
     const jg_real t354 = t340 * C_j[0];
     const jg_real t355 = t243 + t354;
     const jg_real t356 = t246 - t340 * C_j[1];
     const jg_real t357 = t231 * C_j[0];
     const jg_real t358 = t357 + t223 * C_j[1];
-    jac_phi_q_v_A_j[23] = t345 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t358 + (omega_i_in_j_0 * t356 - t210 *
-        f_i_cross_f_j_in_j_0 + (t211 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t355)) - (omega_j[0] * t356 +
-        omega_j[1] * t355 - omega_j[2] * t358);
     const jg_real t359 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
     const jg_real t360 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t361 = e_ij_in_j_0 * t254;
+    const jg_real t361 = t254 * e_ij_in_j_0;
     const jg_real t362 = v_i[0] * t359;
     const jg_real t363 = C_i[0] * t359;
     const jg_real t364 = alphadot[0] * t363;
@@ -791,34 +773,38 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t366 = alphadot[1] * t365;
     const jg_real t367 = t361 - (t360 - e_ij_in_j_1 * t253) - t362 - t364 - t366;
     const jg_real t368 = omega_i[0] * t359;
-    const jg_real t369 = e_ij_in_j_1 * t368 + t262 - t264 + t265 + t267 + t269;
+    const jg_real t369 = t368 * e_ij_in_j_1 + t262 - t264 + t265 + t267 + t269;
     const jg_real t370 = t368 * e_ij_in_j_0;
-    const jg_real t371 = t370 + t272 + t273 + t275 + t277;
+    const jg_real t371 = t272 + t370 + t273 + t275 + t277;
+    jac_phi_q_v_A_j[17] = t306 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t335 + (t297 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t331 + (t296 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t333)) - (omega_j[0] * t331 +
+        omega_j[1] * t333 + omega_j[2] * t335);
+    jac_phi_q_v_A_j[18] = t336 * v_4_in_j_2 + A_ji_2 * t344 + (A_ji_0 * t346 - t209 * v_4_in_j_0 - A_ji_1 * t348);
+    jac_phi_q_v_A_j[19] = A_i[3] * v_4_in_j_1 - A_ji_4 * t348 + A_ji_3 * t346 + A_ji_5 * t344;
+    jac_phi_q_v_A_j[20] = A_i[6] * v_4_in_j_1 - A_ji_7 * t348 + A_ji_6 * t346 + A_ji_8 * t344;
+    jac_phi_q_v_A_j[21] = t231 * omega_j_cross_h_j_in_j_1 - t223 * omega_j_cross_h_j_in_j_0 + t340 *
+        omega_j_cross_h_j_in_j_2 - (t340 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t353 + (f_i_in_j_0 * t351 - t223
+        * omega_i_cross_h_j_in_j_0 + (t231 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t350)));
+    jac_phi_q_v_A_j[22] = t233 * omega_j_cross_h_j_in_j_1 - t225 * omega_j_cross_h_j_in_j_0 + t342 *
+        omega_j_cross_h_j_in_j_2 - (t342 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t353 + (g_i_in_j_0 * t351 - t225
+        * omega_i_cross_h_j_in_j_0 + (t233 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t350)));
+    jac_phi_q_v_A_j[23] = t345 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t358 + (omega_i_in_j_0 * t356 - t210 *
+        f_i_cross_f_j_in_j_0 + (t211 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t355)) - (omega_j[0] * t356 +
+        omega_j[1] * t355 - omega_j[2] * t358);
     jac_phi_q_v_A_j[24] = t359 * v_4_in_j_2 + A_ji_2 * t367 + (A_ji_0 * t369 - t252 * v_4_in_j_0 - A_ji_1 * t371);
-    jac_phi_q_v_A_j[25] = A_i[4] * v_4_in_j_1 - A_ji_4 * t371 + A_ji_3 * t369 + A_ji_5 * t367;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_4_in_j_1 - A_ji_7 * t371 + A_ji_6 * t369 + A_ji_8 * t367;
-    const jg_real t372 = C_j[6] * t368;
-    const jg_real t373 = t372 + t279;
-    const jg_real t374 = t282 - C_j[7] * t368;
-    const jg_real t375 = C_j[6] * t254;
-    const jg_real t376 = t375 + C_j[7] * t253;
-    jac_phi_q_v_A_j[27] = t274 * omega_j_cross_h_j_in_j_1 - t266 * omega_j_cross_h_j_in_j_0 + t363 *
-        omega_j_cross_h_j_in_j_2 - (t363 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t376 + (f_i_in_j_0 * t374 - t266
-        * omega_i_cross_h_j_in_j_0 + (t274 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t373)));
-    jac_phi_q_v_A_j[28] = t276 * omega_j_cross_h_j_in_j_1 - t268 * omega_j_cross_h_j_in_j_0 + t365 *
-        omega_j_cross_h_j_in_j_2 - (t365 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t376 + (g_i_in_j_0 * t374 - t268
-        * omega_i_cross_h_j_in_j_0 + (t276 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t373)));
+    const jg_real t372 = t368 * C_j[6];
+    const jg_real t373 = t279 + t372;
+    const jg_real t374 = t282 - t368 * C_j[7];
+    const jg_real t375 = t254 * C_j[6];
+    const jg_real t376 = t375 + t253 * C_j[7];
     const jg_real t377 = t363 * C_j[0];
     const jg_real t378 = t286 + t377;
     const jg_real t379 = t289 - t363 * C_j[1];
     const jg_real t380 = t274 * C_j[0];
     const jg_real t381 = t380 + t266 * C_j[1];
-    jac_phi_q_v_A_j[29] = t368 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t381 + (omega_i_in_j_0 * t379 - t253 *
-        f_i_cross_f_j_in_j_0 + (t254 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t378)) - (omega_j[0] * t379 +
-        omega_j[1] * t378 - omega_j[2] * t381);
     const jg_real t382 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
     const jg_real t383 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t384 = e_ij_in_j_0 * t297;
+    const jg_real t384 = t297 * e_ij_in_j_0;
     const jg_real t385 = v_i[0] * t382;
     const jg_real t386 = C_i[0] * t382;
     const jg_real t387 = alphadot[0] * t386;
@@ -826,40 +812,51 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t389 = alphadot[1] * t388;
     const jg_real t390 = t384 - (t383 - e_ij_in_j_1 * t296) - t385 - t387 - t389;
     const jg_real t391 = omega_i[0] * t382;
-    const jg_real t392 = e_ij_in_j_1 * t391 + t305 - t307 + t308 + t310 + t312;
+    const jg_real t392 = t391 * e_ij_in_j_1 + t305 - t307 + t308 + t310 + t312;
     const jg_real t393 = t391 * e_ij_in_j_0;
-    const jg_real t394 = t393 + t315 + t316 + t318 + t320;
+    const jg_real t394 = t315 + t393 + t316 + t318 + t320;
+    jac_phi_q_v_A_j[25] = A_i[4] * v_4_in_j_1 - A_ji_4 * t371 + A_ji_3 * t369 + A_ji_5 * t367;
+    jac_phi_q_v_A_j[26] = A_i[7] * v_4_in_j_1 - A_ji_7 * t371 + A_ji_6 * t369 + A_ji_8 * t367;
+    jac_phi_q_v_A_j[27] = t274 * omega_j_cross_h_j_in_j_1 - t266 * omega_j_cross_h_j_in_j_0 + t363 *
+        omega_j_cross_h_j_in_j_2 - (t363 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t376 + (f_i_in_j_0 * t374 - t266
+        * omega_i_cross_h_j_in_j_0 + (t274 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t373)));
+    jac_phi_q_v_A_j[28] = t276 * omega_j_cross_h_j_in_j_1 - t268 * omega_j_cross_h_j_in_j_0 + t365 *
+        omega_j_cross_h_j_in_j_2 - (t365 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t376 + (g_i_in_j_0 * t374 - t268
+        * omega_i_cross_h_j_in_j_0 + (t276 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t373)));
+    jac_phi_q_v_A_j[29] = t368 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t381 + (omega_i_in_j_0 * t379 - t253 *
+        f_i_cross_f_j_in_j_0 + (t254 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t378)) - (omega_j[0] * t379 +
+        omega_j[1] * t378 - omega_j[2] * t381);
     jac_phi_q_v_A_j[30] = t382 * v_4_in_j_2 + A_ji_2 * t390 + (A_ji_0 * t392 - t295 * v_4_in_j_0 - A_ji_1 * t394);
     jac_phi_q_v_A_j[31] = A_i[5] * v_4_in_j_1 - A_ji_4 * t394 + A_ji_3 * t392 + A_ji_5 * t390;
     jac_phi_q_v_A_j[32] = A_i[8] * v_4_in_j_1 - A_ji_7 * t394 + A_ji_6 * t392 + A_ji_8 * t390;
-    const jg_real t395 = C_j[6] * t391;
-    const jg_real t396 = t395 + t322;
-    const jg_real t397 = t325 - C_j[7] * t391;
-    const jg_real t398 = C_j[6] * t297;
-    const jg_real t399 = t398 + C_j[7] * t296;
+    const jg_real t395 = t391 * C_j[6];
+    const jg_real t396 = t322 + t395;
+    const jg_real t397 = t325 - t391 * C_j[7];
+    const jg_real t398 = t297 * C_j[6];
+    const jg_real t399 = t398 + t296 * C_j[7];
+    const jg_real t400 = t386 * C_j[0];
+    const jg_real t401 = t329 + t400;
+    const jg_real t402 = t332 - t386 * C_j[1];
+    const jg_real t403 = t317 * C_j[0];
+    const jg_real t404 = t403 + t309 * C_j[1];
+    const jg_real t405 = t212 - (t208 - t345 * e_ij_in_j_2) + t213 + t215 + t217;
+    const jg_real t406 = t337 - t220 * e_ij_in_j_2 - t338 + t339 + t341 + t343;
+    const jg_real t407 = t228 - t347 - t230 - t232 - t234;
+    const jg_real t408 = t349 - t237;
+    const jg_real t409 = t352 + t220 * C_j[8];
+    const jg_real t410 = t345 * C_j[8] + t241;
     jac_phi_q_v_A_j[33] = t317 * omega_j_cross_h_j_in_j_1 - t309 * omega_j_cross_h_j_in_j_0 + t386 *
         omega_j_cross_h_j_in_j_2 - (t386 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t399 + (f_i_in_j_0 * t397 - t309
         * omega_i_cross_h_j_in_j_0 + (t317 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t396)));
     jac_phi_q_v_A_j[34] = t319 * omega_j_cross_h_j_in_j_1 - t311 * omega_j_cross_h_j_in_j_0 + t388 *
         omega_j_cross_h_j_in_j_2 - (t388 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t399 + (g_i_in_j_0 * t397 - t311
         * omega_i_cross_h_j_in_j_0 + (t319 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t396)));
-    const jg_real t400 = t386 * C_j[0];
-    const jg_real t401 = t329 + t400;
-    const jg_real t402 = t332 - t386 * C_j[1];
-    const jg_real t403 = t317 * C_j[0];
-    const jg_real t404 = t403 + t309 * C_j[1];
     jac_phi_q_v_A_j[35] = t391 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t404 + (omega_i_in_j_0 * t402 - t296 *
         f_i_cross_f_j_in_j_0 + (t297 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t401)) - (omega_j[0] * t402 +
         omega_j[1] * t401 - omega_j[2] * t404);
-    const jg_real t405 = t212 - (t208 - e_ij_in_j_2 * t345) + t213 + t215 + t217;
-    const jg_real t406 = t337 - e_ij_in_j_2 * t220 - t338 + t339 + t341 + t343;
-    const jg_real t407 = t228 - t347 - t230 - t232 - t234;
     jac_phi_q_v_A_j[36] = A_ji_0 * t405 - t207 * v_4_in_j_0 + (A_ji_1 * t406 - t336 * v_4_in_j_1) + A_ji_2 * t407;
-    jac_phi_q_v_A_j[37] = A_i[3] * v_4_in_j_2 + A_ji_5 * t407 + (A_ji_3 * t405 + A_ji_4 * t406);
-    jac_phi_q_v_A_j[38] = A_i[6] * v_4_in_j_2 + A_ji_8 * t407 + (A_ji_6 * t405 + A_ji_7 * t406);
-    const jg_real t408 = t349 - t237;
-    const jg_real t409 = t352 + C_j[8] * t220;
-    const jg_real t410 = t241 + C_j[8] * t345;
+    jac_phi_q_v_A_j[37] = A_ji_3 * t405 + A_ji_4 * t406 + (A_i[3] * v_4_in_j_2 + A_ji_5 * t407);
+    jac_phi_q_v_A_j[38] = A_ji_6 * t405 + A_ji_7 * t406 + (A_i[6] * v_4_in_j_2 + A_ji_8 * t407);
     jac_phi_q_v_A_j[39] = t231 * omega_j_cross_h_j_in_j_2 - (t214 * omega_j_cross_h_j_in_j_0 + t340 *
         omega_j_cross_h_j_in_j_1) - (t231 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t408 + (f_i_in_j_1 * t409 - t340
         * omega_i_cross_h_j_in_j_1 - (t214 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t410)));
@@ -869,198 +866,198 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t411 = t354 - t244;
     const jg_real t412 = t357 + t214 * C_j[2];
     const jg_real t413 = t340 * C_j[2] + t248;
+    const jg_real t414 = t255 - (t251 - t368 * e_ij_in_j_2) + t256 + t258 + t260;
+    const jg_real t415 = t360 - t263 * e_ij_in_j_2 - t361 + t362 + t364 + t366;
+    const jg_real t416 = t271 - t370 - t273 - t275 - t277;
+    const jg_real t417 = t372 - t280;
+    const jg_real t418 = t375 + t263 * C_j[8];
+    const jg_real t419 = t368 * C_j[8] + t284;
+    const jg_real t420 = t377 - t287;
+    const jg_real t421 = t380 + t257 * C_j[2];
+    const jg_real t422 = t363 * C_j[2] + t291;
+    const jg_real t423 = t298 - (t294 - t391 * e_ij_in_j_2) + t299 + t301 + t303;
+    const jg_real t424 = t383 - t306 * e_ij_in_j_2 - t384 + t385 + t387 + t389;
+    const jg_real t425 = t314 - t393 - t316 - t318 - t320;
     jac_phi_q_v_A_j[41] = t211 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t411 + (omega_i_in_j_1 * t412 - t345 *
         f_i_cross_f_j_in_j_1 - (t220 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t413)) - (omega_j[1] * t412 -
         omega_j[0] * t413 + omega_j[2] * t411);
-    const jg_real t414 = t255 - (t251 - e_ij_in_j_2 * t368) + t256 + t258 + t260;
-    const jg_real t415 = t360 - e_ij_in_j_2 * t263 - t361 + t362 + t364 + t366;
-    const jg_real t416 = t271 - t370 - t273 - t275 - t277;
     jac_phi_q_v_A_j[42] = A_ji_0 * t414 - t250 * v_4_in_j_0 + (A_ji_1 * t415 - t359 * v_4_in_j_1) + A_ji_2 * t416;
-    jac_phi_q_v_A_j[43] = A_i[4] * v_4_in_j_2 + A_ji_5 * t416 + (A_ji_3 * t414 + A_ji_4 * t415);
-    jac_phi_q_v_A_j[44] = A_i[7] * v_4_in_j_2 + A_ji_8 * t416 + (A_ji_6 * t414 + A_ji_7 * t415);
-    const jg_real t417 = t372 - t280;
-    const jg_real t418 = t375 + C_j[8] * t263;
-    const jg_real t419 = t284 + C_j[8] * t368;
+    jac_phi_q_v_A_j[43] = A_ji_3 * t414 + A_ji_4 * t415 + (A_i[4] * v_4_in_j_2 + A_ji_5 * t416);
+    jac_phi_q_v_A_j[44] = A_ji_6 * t414 + A_ji_7 * t415 + (A_i[7] * v_4_in_j_2 + A_ji_8 * t416);
     jac_phi_q_v_A_j[45] = t274 * omega_j_cross_h_j_in_j_2 - (t257 * omega_j_cross_h_j_in_j_0 + t363 *
         omega_j_cross_h_j_in_j_1) - (t274 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t417 + (f_i_in_j_1 * t418 - t363
         * omega_i_cross_h_j_in_j_1 - (t257 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t419)));
     jac_phi_q_v_A_j[46] = t276 * omega_j_cross_h_j_in_j_2 - (t259 * omega_j_cross_h_j_in_j_0 + t365 *
         omega_j_cross_h_j_in_j_1) - (t276 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t417 + (g_i_in_j_1 * t418 - t365
         * omega_i_cross_h_j_in_j_1 - (t259 * omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t419)));
-    const jg_real t420 = t377 - t287;
-    const jg_real t421 = t380 + t257 * C_j[2];
-    const jg_real t422 = t363 * C_j[2] + t291;
     jac_phi_q_v_A_j[47] = t254 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t420 + (omega_i_in_j_1 * t421 - t368 *
         f_i_cross_f_j_in_j_1 - (t263 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t422)) - (omega_j[1] * t421 -
         omega_j[0] * t422 + omega_j[2] * t420);
-    const jg_real t423 = t298 - (t294 - e_ij_in_j_2 * t391) + t299 + t301 + t303;
-    const jg_real t424 = t383 - e_ij_in_j_2 * t306 - t384 + t385 + t387 + t389;
-    const jg_real t425 = t314 - t393 - t316 - t318 - t320;
     jac_phi_q_v_A_j[48] = A_ji_0 * t423 - t293 * v_4_in_j_0 + (A_ji_1 * t424 - t382 * v_4_in_j_1) + A_ji_2 * t425;
-    jac_phi_q_v_A_j[49] = A_i[5] * v_4_in_j_2 + A_ji_5 * t425 + (A_ji_3 * t423 + A_ji_4 * t424);
-    jac_phi_q_v_A_j[50] = A_i[8] * v_4_in_j_2 + A_ji_8 * t425 + (A_ji_6 * t423 + A_ji_7 * t424);
     const jg_real t426 = t395 - t323;
-    const jg_real t427 = t398 + C_j[8] * t306;
-    const jg_real t428 = t327 + C_j[8] * t391;
+    const jg_real t427 = t398 + t306 * C_j[8];
+    const jg_real t428 = t391 * C_j[8] + t327;
+    const jg_real t429 = t400 - t330;
+    const jg_real t430 = t403 + t300 * C_j[2];
+    const jg_real t431 = t386 * C_j[2] + t334;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[2], &sine_0, &cosine_0);
+    const jg_real t434 = alphadot[0] * A_ji_0;
+    const jg_real t435 = alphadot[0] * A_ji_1;
+    const jg_real t436 = alphadot[0] * A_ji_2;
+    jac_phi_q_v_A_j[49] = A_ji_3 * t423 + A_ji_4 * t424 + (A_i[5] * v_4_in_j_2 + A_ji_5 * t425);
+    jac_phi_q_v_A_j[50] = A_ji_6 * t423 + A_ji_7 * t424 + (A_i[8] * v_4_in_j_2 + A_ji_8 * t425);
     jac_phi_q_v_A_j[51] = t317 * omega_j_cross_h_j_in_j_2 - (t300 * omega_j_cross_h_j_in_j_0 + t386 *
         omega_j_cross_h_j_in_j_1) - (t317 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t426 + (f_i_in_j_1 * t427 - t386
         * omega_i_cross_h_j_in_j_1 - (t300 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t428)));
     jac_phi_q_v_A_j[52] = t319 * omega_j_cross_h_j_in_j_2 - (t302 * omega_j_cross_h_j_in_j_0 + t388 *
         omega_j_cross_h_j_in_j_1) - (t319 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t426 + (g_i_in_j_1 * t427 - t388
         * omega_i_cross_h_j_in_j_1 - (t302 * omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t428)));
-    const jg_real t429 = t400 - t330;
-    const jg_real t430 = t403 + t300 * C_j[2];
-    const jg_real t431 = t386 * C_j[2] + t334;
     jac_phi_q_v_A_j[53] = t297 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t429 + (omega_i_in_j_1 * t430 - t391 *
         f_i_cross_f_j_in_j_1 - (t306 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t431)) - (omega_j[1] * t430 -
         omega_j[0] * t431 + omega_j[2] * t429);
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[2], &sine_0, &cosine_0);
     jac_phi_q_v_alpha[0] = cosine_0 * alphadot[2];
-    const jg_real t434 = alphadot[0] * A_ji_0;
-    const jg_real t435 = alphadot[0] * A_ji_1;
-    const jg_real t436 = alphadot[0] * A_ji_2;
     jac_phi_q_v_geometry[0] = -(A_ji_0 * t434 + A_ji_1 * t435 + A_ji_2 * t436);
     jac_phi_q_v_geometry[1] = -(A_ji_3 * t434 + A_ji_4 * t435 + A_ji_5 * t436);
-    jac_phi_q_v_geometry[2] = -(A_ji_6 * t434 + A_ji_7 * t435 + A_ji_8 * t436);
     const jg_real t437 = A_ji_0 * omega_j_cross_h_j_in_j_0 + A_ji_1 * omega_j_cross_h_j_in_j_1 + A_ji_2 *
         omega_j_cross_h_j_in_j_2 - (A_ji_0 * omega_i_cross_h_j_in_j_0 + A_ji_1 * omega_i_cross_h_j_in_j_1 + A_ji_2 *
         omega_i_cross_h_j_in_j_2);
-    jac_phi_q_v_geometry[3] = t437;
-    jac_phi_q_v_geometry[18] = t437;
     const jg_real t438 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
     const jg_real t439 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
     const jg_real t440 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t438 + omega_i_in_j_1 * t439 + omega_i_in_j_2 * t440 - (omega_j[0] *
-        t438 + omega_j[1] * t439 + omega_j[2] * t440);
-    const jg_real t441 = alphadot[0] * A_ji_3;
-    const jg_real t442 = alphadot[0] * A_ji_4;
+    const jg_real t441 = A_ji_3 * alphadot[0];
+    const jg_real t442 = A_ji_4 * alphadot[0];
     const jg_real t443 = alphadot[0] * A_ji_5;
-    jac_phi_q_v_geometry[5] = -(A_ji_0 * t441 + A_ji_1 * t442 + A_ji_2 * t443);
-    jac_phi_q_v_geometry[6] = -(A_ji_3 * t441 + A_ji_4 * t442 + A_ji_5 * t443);
-    jac_phi_q_v_geometry[7] = -(A_ji_6 * t441 + A_ji_7 * t442 + A_ji_8 * t443);
     const jg_real t444 = A_ji_3 * omega_j_cross_h_j_in_j_0 + A_ji_4 * omega_j_cross_h_j_in_j_1 + A_ji_5 *
         omega_j_cross_h_j_in_j_2 - (A_ji_3 * omega_i_cross_h_j_in_j_0 + A_ji_4 * omega_i_cross_h_j_in_j_1 + A_ji_5 *
         omega_i_cross_h_j_in_j_2);
+    jac_phi_q_v_geometry[2] = -(A_ji_6 * t434 + A_ji_7 * t435 + A_ji_8 * t436);
+    jac_phi_q_v_geometry[3] = t437;
+    jac_phi_q_v_geometry[18] = t437;
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t438 + omega_i_in_j_1 * t439 + omega_i_in_j_2 * t440 - (omega_j[0] *
+        t438 + omega_j[1] * t439 + omega_j[2] * t440);
+    jac_phi_q_v_geometry[5] = -(A_ji_0 * t441 + A_ji_1 * t442 + A_ji_2 * t443);
+    jac_phi_q_v_geometry[6] = -(A_ji_3 * t441 + A_ji_4 * t442 + A_ji_5 * t443);
+    jac_phi_q_v_geometry[7] = -(A_ji_6 * t441 + A_ji_7 * t442 + A_ji_8 * t443);
     jac_phi_q_v_geometry[8] = t444;
     jac_phi_q_v_geometry[22] = t444;
     const jg_real t445 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
     const jg_real t446 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
     const jg_real t447 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t445 + omega_i_in_j_1 * t446 + omega_i_in_j_2 * t447 - (omega_j[0] *
-        t445 + omega_j[1] * t446 + omega_j[2] * t447);
     const jg_real t448 = alphadot[0] * A_ji_6;
-    const jg_real t449 = alphadot[0] * A_ji_7;
+    const jg_real t449 = A_ji_7 * alphadot[0];
     const jg_real t450 = alphadot[0] * A_ji_8;
-    jac_phi_q_v_geometry[10] = -(A_ji_0 * t448 + A_ji_1 * t449 + A_ji_2 * t450);
-    jac_phi_q_v_geometry[11] = -(A_ji_3 * t448 + A_ji_4 * t449 + A_ji_5 * t450);
-    jac_phi_q_v_geometry[12] = -(A_ji_6 * t448 + A_ji_7 * t449 + A_ji_8 * t450);
     const jg_real t451 = A_ji_6 * omega_j_cross_h_j_in_j_0 + A_ji_7 * omega_j_cross_h_j_in_j_1 + A_ji_8 *
         omega_j_cross_h_j_in_j_2 - (A_ji_6 * omega_i_cross_h_j_in_j_0 + A_ji_7 * omega_i_cross_h_j_in_j_1 + A_ji_8 *
         omega_i_cross_h_j_in_j_2);
-    jac_phi_q_v_geometry[13] = t451;
-    jac_phi_q_v_geometry[26] = t451;
     const jg_real t452 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
     const jg_real t453 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
     const jg_real t454 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453 + omega_i_in_j_2 * t454 - (omega_j[0] *
-        t452 + omega_j[1] * t453 + omega_j[2] * t454);
     const jg_real t455 = alphadot[1] * A_ji_0;
     const jg_real t456 = alphadot[1] * A_ji_1;
     const jg_real t457 = alphadot[1] * A_ji_2;
+    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t445 + omega_i_in_j_1 * t446 + omega_i_in_j_2 * t447 - (omega_j[0] *
+        t445 + omega_j[1] * t446 + omega_j[2] * t447);
+    jac_phi_q_v_geometry[10] = -(A_ji_0 * t448 + A_ji_1 * t449 + A_ji_2 * t450);
+    jac_phi_q_v_geometry[11] = -(A_ji_3 * t448 + A_ji_4 * t449 + A_ji_5 * t450);
+    jac_phi_q_v_geometry[12] = -(A_ji_6 * t448 + A_ji_7 * t449 + A_ji_8 * t450);
+    jac_phi_q_v_geometry[13] = t451;
+    jac_phi_q_v_geometry[26] = t451;
+    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453 + omega_i_in_j_2 * t454 - (omega_j[0] *
+        t452 + omega_j[1] * t453 + omega_j[2] * t454);
     jac_phi_q_v_geometry[15] = -(A_ji_0 * t455 + A_ji_1 * t456 + A_ji_2 * t457);
+    const jg_real t458 = A_ji_3 * alphadot[1];
+    const jg_real t459 = A_ji_4 * alphadot[1];
+    const jg_real t460 = alphadot[1] * A_ji_5;
+    const jg_real t461 = alphadot[1] * A_ji_6;
+    const jg_real t462 = A_ji_7 * alphadot[1];
+    const jg_real t463 = alphadot[1] * A_ji_8;
     jac_phi_q_v_geometry[16] = -(A_ji_3 * t455 + A_ji_4 * t456 + A_ji_5 * t457);
     jac_phi_q_v_geometry[17] = -(A_ji_6 * t455 + A_ji_7 * t456 + A_ji_8 * t457);
-    const jg_real t458 = alphadot[1] * A_ji_3;
-    const jg_real t459 = alphadot[1] * A_ji_4;
-    const jg_real t460 = alphadot[1] * A_ji_5;
     jac_phi_q_v_geometry[19] = -(A_ji_0 * t458 + A_ji_1 * t459 + A_ji_2 * t460);
     jac_phi_q_v_geometry[20] = -(A_ji_3 * t458 + A_ji_4 * t459 + A_ji_5 * t460);
     jac_phi_q_v_geometry[21] = -(A_ji_6 * t458 + A_ji_7 * t459 + A_ji_8 * t460);
-    const jg_real t461 = alphadot[1] * A_ji_6;
-    const jg_real t462 = alphadot[1] * A_ji_7;
-    const jg_real t463 = alphadot[1] * A_ji_8;
     jac_phi_q_v_geometry[23] = -(A_ji_0 * t461 + A_ji_1 * t462 + A_ji_2 * t463);
     jac_phi_q_v_geometry[24] = -(A_ji_3 * t461 + A_ji_4 * t462 + A_ji_5 * t463);
     jac_phi_q_v_geometry[25] = -(A_ji_6 * t461 + A_ji_7 * t462 + A_ji_8 * t463);
     const jg_real t464 = omega_i_in_j_2 - omega_j[2];
     const jg_real t465 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t466 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[27] = -(A_ji_1 * t464 + A_ji_2 * t465);
     jac_phi_q_v_geometry[28] = -(A_ji_4 * t464 + A_ji_5 * t465);
     jac_phi_q_v_geometry[29] = -(A_ji_7 * t464 + A_ji_8 * t465);
-    const jg_real t466 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[30] = A_ji_0 * t464 - A_ji_2 * t466;
     jac_phi_q_v_geometry[31] = A_ji_3 * t464 - A_ji_5 * t466;
     jac_phi_q_v_geometry[32] = A_ji_6 * t464 - A_ji_8 * t466;
     jac_phi_q_v_geometry[33] = A_ji_0 * t465 + A_ji_1 * t466;
     jac_phi_q_v_geometry[34] = A_ji_3 * t465 + A_ji_4 * t466;
-    jac_phi_q_v_geometry[35] = A_ji_6 * t465 + A_ji_7 * t466;
     const jg_real t467 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2 - (omega_i_in_j_2 * f_i_in_j_1 -
-        f_i_in_j_2 * omega_i_in_j_1);
-    jac_phi_q_v_geometry[36] = t467;
-    jac_phi_q_v_geometry[39] = t467;
-    const jg_real t468 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (f_i_in_j_2 * omega_i_in_j_0 -
+        omega_i_in_j_1 * f_i_in_j_2);
+    const jg_real t468 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (omega_i_in_j_0 * f_i_in_j_2 -
         omega_i_in_j_2 * f_i_in_j_0);
-    jac_phi_q_v_geometry[37] = t468;
-    jac_phi_q_v_geometry[41] = t468;
     const jg_real t469 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1 - (omega_i_in_j_1 * f_i_in_j_0 -
         omega_i_in_j_0 * f_i_in_j_1);
+    jac_phi_q_v_geometry[35] = A_ji_6 * t465 + A_ji_7 * t466;
+    jac_phi_q_v_geometry[36] = t467;
+    jac_phi_q_v_geometry[39] = t467;
+    jac_phi_q_v_geometry[37] = t468;
+    jac_phi_q_v_geometry[41] = t468;
     jac_phi_q_v_geometry[38] = t469;
     jac_phi_q_v_geometry[43] = t469;
     jac_phi_q_v_geometry[40] = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2 - (omega_i_in_j_2 * g_i_in_j_1 -
-        g_i_in_j_2 * omega_i_in_j_1);
-    jac_phi_q_v_geometry[42] = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0 - (g_i_in_j_2 * omega_i_in_j_0 -
+        omega_i_in_j_1 * g_i_in_j_2);
+    const jg_real t470 = -(A_ji_3 * A_ji_0 + A_ji_4 * A_ji_1 + A_ji_5 * A_ji_2);
+    const jg_real t471 = -(A_ji_6 * A_ji_0 + A_ji_7 * A_ji_1 + A_ji_8 * A_ji_2);
+    jac_phi_q_v_geometry[42] = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0 - (omega_i_in_j_0 * g_i_in_j_2 -
         omega_i_in_j_2 * g_i_in_j_0);
     jac_phi_q_v_geometry[44] = omega_j[1] * g_i_in_j_0 - omega_j[0] * g_i_in_j_1 - (omega_i_in_j_1 * g_i_in_j_0 -
         omega_i_in_j_0 * g_i_in_j_1);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t470 = -(A_ji_3 * A_ji_0 + A_ji_4 * A_ji_1 + A_ji_5 * A_ji_2);
     jac_phi_q_v_velocity[1] = t470;
     jac_phi_q_v_velocity[3] = t470;
-    const jg_real t471 = -(A_ji_6 * A_ji_0 + A_ji_7 * A_ji_1 + A_ji_8 * A_ji_2);
     jac_phi_q_v_velocity[2] = t471;
     jac_phi_q_v_velocity[6] = t471;
     jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
     const jg_real t472 = -(A_ji_3 * A_ji_6 + A_ji_7 * A_ji_4 + A_ji_5 * A_ji_8);
-    jac_phi_q_v_velocity[5] = t472;
-    jac_phi_q_v_velocity[7] = t472;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t473 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t474 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t475 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t476 = A_ji_1 * C_j[8] - A_ji_2 * C_j[7];
+    const jg_real t477 = A_ji_2 * C_j[6] - A_ji_0 * C_j[8];
+    const jg_real t478 = A_ji_0 * C_j[7] - A_ji_1 * C_j[6];
+    jac_phi_q_v_velocity[5] = t472;
+    jac_phi_q_v_velocity[7] = t472;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t473 + A_ji_1 * t474 + A_ji_2 * t475;
     jac_phi_q_v_velocity[10] = A_ji_3 * t473 + A_ji_4 * t474 + A_ji_5 * t475;
     jac_phi_q_v_velocity[11] = A_ji_6 * t473 + A_ji_7 * t474 + A_ji_8 * t475;
-    const jg_real t476 = C_j[8] * A_ji_1 - C_j[7] * A_ji_2;
-    const jg_real t477 = C_j[6] * A_ji_2 - C_j[8] * A_ji_0;
-    const jg_real t478 = C_j[7] * A_ji_0 - C_j[6] * A_ji_1;
     jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t476 + f_i_in_j_1 * t477 + f_i_in_j_2 * t478);
     jac_phi_q_v_velocity[13] = -(g_i_in_j_0 * t476 + g_i_in_j_1 * t477 + g_i_in_j_2 * t478);
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
-        f_i_cross_f_j_in_j_2;
     const jg_real t479 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
     const jg_real t480 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
     const jg_real t481 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    const jg_real t482 = A_ji_4 * C_j[8] - A_ji_5 * C_j[7];
+    const jg_real t483 = A_ji_5 * C_j[6] - A_ji_3 * C_j[8];
+    const jg_real t484 = A_ji_3 * C_j[7] - A_ji_4 * C_j[6];
+    const jg_real t485 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t486 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t487 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
+        f_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[15] = A_ji_0 * t479 + A_ji_1 * t480 + A_ji_2 * t481;
     jac_phi_q_v_velocity[16] = A_ji_3 * t479 + A_ji_4 * t480 + A_ji_5 * t481;
     jac_phi_q_v_velocity[17] = A_ji_6 * t479 + A_ji_7 * t480 + A_ji_8 * t481;
-    const jg_real t482 = C_j[8] * A_ji_4 - C_j[7] * A_ji_5;
-    const jg_real t483 = C_j[6] * A_ji_5 - A_ji_3 * C_j[8];
-    const jg_real t484 = A_ji_3 * C_j[7] - C_j[6] * A_ji_4;
     jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t482 + f_i_in_j_1 * t483 + f_i_in_j_2 * t484);
     jac_phi_q_v_velocity[19] = -(g_i_in_j_0 * t482 + g_i_in_j_1 * t483 + g_i_in_j_2 * t484);
     jac_phi_q_v_velocity[20] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
         f_i_cross_f_j_in_j_2;
-    const jg_real t485 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t486 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t487 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
     jac_phi_q_v_velocity[21] = A_ji_0 * t485 + A_ji_1 * t486 + A_ji_2 * t487;
+    const jg_real t488 = A_ji_7 * C_j[8] - A_ji_8 * C_j[7];
+    const jg_real t489 = A_ji_8 * C_j[6] - A_ji_6 * C_j[8];
+    const jg_real t490 = A_ji_6 * C_j[7] - A_ji_7 * C_j[6];
     jac_phi_q_v_velocity[22] = A_ji_3 * t485 + A_ji_4 * t486 + A_ji_5 * t487;
     jac_phi_q_v_velocity[23] = A_ji_6 * t485 + A_ji_7 * t486 + A_ji_8 * t487;
-    const jg_real t488 = C_j[8] * A_ji_7 - C_j[7] * A_ji_8;
-    const jg_real t489 = C_j[6] * A_ji_8 - C_j[8] * A_ji_6;
-    const jg_real t490 = C_j[7] * A_ji_6 - C_j[6] * A_ji_7;
     jac_phi_q_v_velocity[24] = -(f_i_in_j_0 * t488 + f_i_in_j_1 * t489 + f_i_in_j_2 * t490);
     jac_phi_q_v_velocity[25] = -(g_i_in_j_0 * t488 + g_i_in_j_1 * t489 + g_i_in_j_2 * t490);
     jac_phi_q_v_velocity[26] = A_ji_6 * f_i_cross_f_j_in_j_0 + A_ji_7 * f_i_cross_f_j_in_j_1 + A_ji_8 *
@@ -1068,20 +1065,20 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
-    jac_phi_q_v_velocity[40] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    jac_phi_q_v_velocity[39] = C_j[7] * f_i_in_j_2 - f_i_in_j_1 * C_j[8];
+    jac_phi_q_v_velocity[40] = C_j[7] * g_i_in_j_2 - g_i_in_j_1 * C_j[8];
     jac_phi_q_v_velocity[41] = -f_i_cross_f_j_in_j_0;
     jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[43] = A_ji_3 * s_j[2] - s_j[0] * A_ji_5;
     jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
-    jac_phi_q_v_velocity[46] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    jac_phi_q_v_velocity[45] = f_i_in_j_0 * C_j[8] - C_j[6] * f_i_in_j_2;
+    jac_phi_q_v_velocity[46] = g_i_in_j_0 * C_j[8] - C_j[6] * g_i_in_j_2;
     jac_phi_q_v_velocity[47] = -f_i_cross_f_j_in_j_1;
     jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
-    jac_phi_q_v_velocity[52] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    jac_phi_q_v_velocity[49] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    jac_phi_q_v_velocity[50] = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[51] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
+    jac_phi_q_v_velocity[52] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
     jac_phi_q_v_velocity[53] = -f_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[54] = -(A_ji_0 * f_i_in_j_0 + A_ji_1 * f_i_in_j_1 + A_ji_2 * f_i_in_j_2);
     jac_phi_q_v_velocity[55] = -(A_ji_3 * f_i_in_j_0 + A_ji_4 * f_i_in_j_1 + A_ji_5 * f_i_in_j_2);
@@ -1104,56 +1101,51 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[28] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_t_lambda_lambda[29] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[18] = A_ji_5;
     /* v_2_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
     const jg_real v_2_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
     const jg_real v_2_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real v_2_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_lambda[28] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_lambda[29] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[18] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     jac_phi_q_t_lambda_lambda[30] = A_ji_8;
     /* v_2_in_j = lambda_3 f_i + lambda_4 g_i, axes of body j */
     const jg_real v_2_in_j_2 = v_2_in_i_0 * A_ji_2 + v_2_in_i_1 * A_ji_5 + v_2_in_i_2 * A_ji_8;
-    jac_phi_q_t_lambda_geometry[80] = v_2_in_j_2;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_t_lambda_lambda[17] = A_ji_4;
-    const jg_real v_2_in_j_1 = v_2_in_i_0 * A_ji_1 + v_2_in_i_1 * A_ji_4 + v_2_in_i_2 * A_ji_7;
-    jac_phi_q_t_lambda_geometry[76] = v_2_in_j_1;
+    const jg_real v_2_in_j_1 = A_ji_1 * v_2_in_i_0 + v_2_in_i_1 * A_ji_4 + A_ji_7 * v_2_in_i_2;
     /* v_3_in_j = lambda_4 h_j x g_i + lambda_3 h_j x f_i, axes of body j */
     const jg_real v_3_in_j_0 = C_j[7] * v_2_in_j_2 - C_j[8] * v_2_in_j_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[46] = lambda_0_1_2_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* f_i_in_j = f_i, axes of body j */
@@ -1161,7 +1153,6 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
     /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
     const jg_real f_j_cross_f_i_in_j_0 = C_j[1] * f_i_in_j_2 - C_j[2] * f_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[51] = f_j_cross_f_i_in_j_0;
     /* v_4_in_j = lambda_5 f_j x f_i, axes of body j */
     const jg_real v_4_in_j_0 = lambda[5] * f_j_cross_f_i_in_j_0;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_4 h_j x g_i + lambda_5 f_j x f_i + lambda_3 h_j x f_i, axes of ... */
@@ -1172,210 +1163,216 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t34 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
     const jg_real t35 = A_j[3] * v_2_in_i_0 + v_2_in_i_1 * t34;
     const jg_real t36 = lambda[0] * A_j[6] + lambda[1] * t32;
-    jac_phi_q_t_lambda_A_i[5] = t36;
     const jg_real t37 = lambda[0] * A_j[3] + lambda[1] * t34;
+    jac_phi_q_t_lambda_geometry[80] = v_2_in_j_2;
+    jac_phi_q_t_lambda_lambda[17] = A_ji_4;
+    jac_phi_q_t_lambda_geometry[76] = v_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[46] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[51] = f_j_cross_f_i_in_j_0;
+    jac_phi_q_t_lambda_A_i[5] = t36;
     jac_phi_q_t_lambda_A_i[4] = t37;
     const jg_real t38 = C_i[0] * A_j[6] + C_i[1] * t32;
     const jg_real t39 = A_j[3] * C_i[0] + C_i[1] * t34;
     const jg_real t40 = C_j[7] * t33 - C_j[8] * t35 + (s_j[1] * t36 - s_j[2] * t37) + lambda[5] * (C_j[1] * t38 -
         C_j[2] * t39);
-    jac_phi_q_t_lambda_A_i[6] = t40;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[16] = A_ji_3;
     const jg_real v_2_in_j_0 = v_2_in_i_0 * A_ji_0 + v_2_in_i_1 * A_ji_3 + A_ji_6 * v_2_in_i_2;
-    jac_phi_q_t_lambda_geometry[86] = v_2_in_j_0;
     const jg_real v_3_in_j_1 = C_j[8] * v_2_in_j_0 - C_j[6] * v_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[56] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
     const jg_real f_j_cross_f_i_in_j_1 = C_j[2] * f_i_in_j_0 - C_j[0] * f_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[52] = f_j_cross_f_i_in_j_1;
     const jg_real v_4_in_j_1 = lambda[5] * f_j_cross_f_i_in_j_1;
     const jg_real v_5_in_j_1 = v_3_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 + v_4_in_j_1;
     const jg_real t50 = A_j[3] * v_5_in_j_1;
     const jg_real t51 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     const jg_real t52 = A_j[0] * v_2_in_i_0 + v_2_in_i_1 * t51;
     const jg_real t53 = lambda[0] * A_j[0] + lambda[1] * t51;
-    jac_phi_q_t_lambda_A_i[3] = t53;
     const jg_real t54 = A_j[0] * C_i[0] + C_i[1] * t51;
     const jg_real t55 = C_j[8] * t52 - C_j[6] * t33 + (s_j[2] * t53 - s_j[0] * t36) + lambda[5] * (C_j[2] * t54 -
         C_j[0] * t38);
-    jac_phi_q_t_lambda_A_i[7] = t55;
     const jg_real v_3_in_j_2 = C_j[6] * v_2_in_j_1 - C_j[7] * v_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_f_i_in_j_2 = C_j[0] * f_i_in_j_1 - C_j[1] * f_i_in_j_0;
+    jac_phi_q_t_lambda_A_i[6] = t40;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_3;
+    jac_phi_q_t_lambda_geometry[86] = v_2_in_j_0;
+    jac_phi_q_t_lambda_geometry[56] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_lambda[52] = f_j_cross_f_i_in_j_1;
+    jac_phi_q_t_lambda_A_i[3] = t53;
+    jac_phi_q_t_lambda_A_i[7] = t55;
     jac_phi_q_t_lambda_lambda[53] = f_j_cross_f_i_in_j_2;
     const jg_real v_4_in_j_2 = lambda[5] * f_j_cross_f_i_in_j_2;
     const jg_real v_5_in_j_2 = v_3_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 + v_4_in_j_2;
     const jg_real t61 = A_j[6] * v_5_in_j_2;
     const jg_real t62 = C_j[6] * t35 - C_j[7] * t52 + (s_j[0] * t37 - s_j[1] * t53) + lambda[5] * (C_j[0] * t39 -
         C_j[1] * t54);
-    jac_phi_q_t_lambda_A_i[8] = t62;
-    jac_phi_q_t_lambda_A_i[0] = -(t61 + A_ji_2 * t62 + (t31 + A_ji_0 * t40 + (t50 + A_ji_1 * t55)));
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t64 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = t64 - (t32 * v_5_in_j_2 + A_ji_5 * t62 + (t51 * v_5_in_j_0 + A_ji_3 * t40 + (t34 *
-        v_5_in_j_1 + A_ji_4 * t55)));
     const jg_real t65 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t40 + A_ji_7 * t55 + A_ji_8 * t62 + t65);
     const jg_real t66 = A_j[1] * v_5_in_j_0;
     const jg_real t67 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t68 = A_j[7] * v_2_in_i_0 + v_2_in_i_1 * t67;
     const jg_real t69 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t70 = A_j[4] * v_2_in_i_0 + v_2_in_i_1 * t69;
     const jg_real t71 = lambda[0] * A_j[7] + lambda[1] * t67;
-    jac_phi_q_t_lambda_A_i[14] = t71;
     const jg_real t72 = lambda[0] * A_j[4] + lambda[1] * t69;
-    jac_phi_q_t_lambda_A_i[13] = t72;
     const jg_real t73 = C_i[0] * A_j[7] + C_i[1] * t67;
     const jg_real t74 = A_j[4] * C_i[0] + C_i[1] * t69;
     const jg_real t75 = C_j[7] * t68 - C_j[8] * t70 + (s_j[1] * t71 - s_j[2] * t72) + lambda[5] * (C_j[1] * t73 -
         C_j[2] * t74);
-    jac_phi_q_t_lambda_A_i[15] = t75;
     const jg_real t76 = A_j[4] * v_5_in_j_1;
     const jg_real t77 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t78 = A_j[1] * v_2_in_i_0 + v_2_in_i_1 * t77;
     const jg_real t79 = lambda[0] * A_j[1] + lambda[1] * t77;
+    jac_phi_q_t_lambda_A_i[8] = t62;
+    jac_phi_q_t_lambda_A_i[0] = -(t61 + A_ji_2 * t62 + (t31 + A_ji_0 * t40 + (t50 + A_ji_1 * t55)));
+    jac_phi_q_t_lambda_A_i[1] = t64 - (t32 * v_5_in_j_2 + A_ji_5 * t62 + (t51 * v_5_in_j_0 + A_ji_3 * t40 + (t34 *
+        v_5_in_j_1 + A_ji_4 * t55)));
+    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t40 + A_ji_7 * t55 + A_ji_8 * t62 + t65);
+    jac_phi_q_t_lambda_A_i[14] = t71;
+    jac_phi_q_t_lambda_A_i[13] = t72;
+    jac_phi_q_t_lambda_A_i[15] = t75;
     jac_phi_q_t_lambda_A_i[12] = t79;
     const jg_real t80 = A_j[1] * C_i[0] + C_i[1] * t77;
     const jg_real t81 = C_j[8] * t78 - C_j[6] * t68 + (s_j[2] * t79 - s_j[0] * t71) + lambda[5] * (C_j[2] * t80 -
         C_j[0] * t73);
-    jac_phi_q_t_lambda_A_i[16] = t81;
     const jg_real t82 = A_j[7] * v_5_in_j_2;
     const jg_real t83 = C_j[6] * t70 - C_j[7] * t78 + (s_j[0] * t72 - s_j[1] * t79) + lambda[5] * (C_j[0] * t74 -
         C_j[1] * t80);
-    jac_phi_q_t_lambda_A_i[17] = t83;
-    jac_phi_q_t_lambda_A_i[9] = -(t82 + A_ji_2 * t83 + (t66 + A_ji_0 * t75 + (t76 + A_ji_1 * t81)));
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t85 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[10] = t85 - (t67 * v_5_in_j_2 + A_ji_5 * t83 + (t77 * v_5_in_j_0 + A_ji_3 * t75 + (t69 *
-        v_5_in_j_1 + A_ji_4 * t81)));
     const jg_real t86 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[11] = -(A_ji_6 * t75 + A_ji_7 * t81 + A_ji_8 * t83 + t86);
     const jg_real t87 = A_j[2] * v_5_in_j_0;
     const jg_real t88 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t89 = A_j[8] * v_2_in_i_0 + v_2_in_i_1 * t88;
     const jg_real t90 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t91 = A_j[5] * v_2_in_i_0 + v_2_in_i_1 * t90;
     const jg_real t92 = lambda[0] * A_j[8] + lambda[1] * t88;
-    jac_phi_q_t_lambda_A_i[23] = t92;
     const jg_real t93 = lambda[0] * A_j[5] + lambda[1] * t90;
-    jac_phi_q_t_lambda_A_i[22] = t93;
     const jg_real t94 = C_i[0] * A_j[8] + C_i[1] * t88;
     const jg_real t95 = A_j[5] * C_i[0] + C_i[1] * t90;
     const jg_real t96 = C_j[7] * t89 - C_j[8] * t91 + (s_j[1] * t92 - s_j[2] * t93) + lambda[5] * (C_j[1] * t94 -
         C_j[2] * t95);
+    jac_phi_q_t_lambda_A_i[16] = t81;
+    jac_phi_q_t_lambda_A_i[17] = t83;
+    jac_phi_q_t_lambda_A_i[9] = -(t82 + A_ji_2 * t83 + (t66 + A_ji_0 * t75 + (t76 + A_ji_1 * t81)));
+    jac_phi_q_t_lambda_A_i[10] = t85 - (t67 * v_5_in_j_2 + A_ji_5 * t83 + (t77 * v_5_in_j_0 + A_ji_3 * t75 + (t69 *
+        v_5_in_j_1 + A_ji_4 * t81)));
+    jac_phi_q_t_lambda_A_i[11] = -(A_ji_6 * t75 + A_ji_7 * t81 + A_ji_8 * t83 + t86);
+    jac_phi_q_t_lambda_A_i[23] = t92;
+    jac_phi_q_t_lambda_A_i[22] = t93;
     jac_phi_q_t_lambda_A_i[24] = t96;
     const jg_real t97 = A_j[5] * v_5_in_j_1;
     const jg_real t98 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t99 = A_j[2] * v_2_in_i_0 + v_2_in_i_1 * t98;
     const jg_real t100 = lambda[0] * A_j[2] + lambda[1] * t98;
-    jac_phi_q_t_lambda_A_i[21] = t100;
     const jg_real t101 = A_j[2] * C_i[0] + C_i[1] * t98;
     const jg_real t102 = C_j[8] * t99 - C_j[6] * t89 + (s_j[2] * t100 - s_j[0] * t92) + lambda[5] * (C_j[2] * t101 -
         C_j[0] * t94);
-    jac_phi_q_t_lambda_A_i[25] = t102;
     const jg_real t103 = A_j[8] * v_5_in_j_2;
     const jg_real t104 = C_j[6] * t91 - C_j[7] * t99 + (s_j[0] * t93 - s_j[1] * t100) + lambda[5] * (C_j[0] * t95 -
         C_j[1] * t101);
-    jac_phi_q_t_lambda_A_i[26] = t104;
-    jac_phi_q_t_lambda_A_i[18] = -(t103 + A_ji_2 * t104 + (t87 + A_ji_0 * t96 + (t97 + A_ji_1 * t102)));
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t106 = lambda[2] * v_0_world_2;
+    const jg_real t107 = lambda[1] * v_0_world_2;
+    const jg_real t108 = lambda[0] * v_0_world_0;
+    jac_phi_q_t_lambda_A_i[21] = t100;
+    jac_phi_q_t_lambda_A_i[25] = t102;
+    jac_phi_q_t_lambda_A_i[26] = t104;
+    jac_phi_q_t_lambda_A_i[18] = -(t103 + A_ji_2 * t104 + (t87 + A_ji_0 * t96 + (t97 + A_ji_1 * t102)));
     jac_phi_q_t_lambda_A_i[19] = t106 - (t88 * v_5_in_j_2 + A_ji_5 * t104 + (t98 * v_5_in_j_0 + A_ji_3 * t96 + (t90
         * v_5_in_j_1 + A_ji_4 * t102)));
-    const jg_real t107 = lambda[1] * v_0_world_2;
     jac_phi_q_t_lambda_A_i[20] = -(A_ji_6 * t96 + A_ji_7 * t102 + A_ji_8 * t104 + t107);
     jac_phi_q_t_lambda_A_i[27] = -t64;
-    const jg_real t108 = lambda[0] * v_0_world_0;
     jac_phi_q_t_lambda_A_i[28] = t108;
-    jac_phi_q_t_lambda_A_i[29] = -t85;
     const jg_real t109 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[30] = t109;
-    jac_phi_q_t_lambda_A_i[31] = -t106;
     const jg_real t110 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[32] = t110;
     const jg_real t111 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t112 = A_j[6] * v_2_in_i_2 + v_2_in_i_1 * t111;
     const jg_real t113 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t114 = A_j[3] * v_2_in_i_2 + v_2_in_i_1 * t113;
     const jg_real t115 = lambda[2] * A_j[6] + lambda[1] * t111;
-    jac_phi_q_t_lambda_A_i[38] = t115;
     const jg_real t116 = lambda[2] * A_j[3] + lambda[1] * t113;
-    jac_phi_q_t_lambda_A_i[37] = t116;
     const jg_real t117 = A_j[6] * C_i[2] + C_i[1] * t111;
     const jg_real t118 = A_j[3] * C_i[2] + C_i[1] * t113;
     const jg_real t119 = C_j[7] * t112 - C_j[8] * t114 + (s_j[1] * t115 - s_j[2] * t116) + lambda[5] * (C_j[1] *
         t117 - C_j[2] * t118);
-    jac_phi_q_t_lambda_A_i[39] = t119;
     const jg_real t120 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t121 = A_j[0] * v_2_in_i_2 + v_2_in_i_1 * t120;
     const jg_real t122 = lambda[2] * A_j[0] + lambda[1] * t120;
+    jac_phi_q_t_lambda_A_i[29] = -t85;
+    jac_phi_q_t_lambda_A_i[30] = t109;
+    jac_phi_q_t_lambda_A_i[31] = -t106;
+    jac_phi_q_t_lambda_A_i[32] = t110;
+    jac_phi_q_t_lambda_A_i[38] = t115;
+    jac_phi_q_t_lambda_A_i[37] = t116;
+    jac_phi_q_t_lambda_A_i[39] = t119;
     jac_phi_q_t_lambda_A_i[36] = t122;
     const jg_real t123 = A_j[0] * C_i[2] + C_i[1] * t120;
     const jg_real t124 = C_j[8] * t121 - C_j[6] * t112 + (s_j[2] * t122 - s_j[0] * t115) + lambda[5] * (C_j[2] *
         t123 - C_j[0] * t117);
-    jac_phi_q_t_lambda_A_i[40] = t124;
     const jg_real t125 = C_j[6] * t114 - C_j[7] * t121 + (s_j[0] * t116 - s_j[1] * t122) + lambda[5] * (C_j[0] *
         t118 - C_j[1] * t123);
-    jac_phi_q_t_lambda_A_i[41] = t125;
-    jac_phi_q_t_lambda_A_i[33] = t65 - (A_ji_0 * t119 + A_ji_1 * t124 + A_ji_2 * t125);
-    jac_phi_q_t_lambda_A_i[34] = -(t111 * v_5_in_j_2 + A_ji_5 * t125 + (t120 * v_5_in_j_0 + A_ji_3 * t119 + (t113 *
-        v_5_in_j_1 + A_ji_4 * t124)) + t108);
-    jac_phi_q_t_lambda_A_i[35] = -(t61 + A_ji_8 * t125 + (t31 + A_ji_6 * t119 + (t50 + A_ji_7 * t124)));
     const jg_real t126 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t127 = A_j[7] * v_2_in_i_2 + v_2_in_i_1 * t126;
     const jg_real t128 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t129 = A_j[4] * v_2_in_i_2 + v_2_in_i_1 * t128;
     const jg_real t130 = lambda[2] * A_j[7] + lambda[1] * t126;
-    jac_phi_q_t_lambda_A_i[47] = t130;
     const jg_real t131 = lambda[2] * A_j[4] + lambda[1] * t128;
-    jac_phi_q_t_lambda_A_i[46] = t131;
     const jg_real t132 = A_j[7] * C_i[2] + C_i[1] * t126;
     const jg_real t133 = A_j[4] * C_i[2] + C_i[1] * t128;
     const jg_real t134 = C_j[7] * t127 - C_j[8] * t129 + (s_j[1] * t130 - s_j[2] * t131) + lambda[5] * (C_j[1] *
         t132 - C_j[2] * t133);
+    jac_phi_q_t_lambda_A_i[40] = t124;
+    jac_phi_q_t_lambda_A_i[41] = t125;
+    jac_phi_q_t_lambda_A_i[33] = t65 - (A_ji_0 * t119 + A_ji_1 * t124 + A_ji_2 * t125);
+    jac_phi_q_t_lambda_A_i[34] = -(t111 * v_5_in_j_2 + A_ji_5 * t125 + (t120 * v_5_in_j_0 + A_ji_3 * t119 + (t113 *
+        v_5_in_j_1 + A_ji_4 * t124)) + t108);
+    jac_phi_q_t_lambda_A_i[35] = -(t61 + A_ji_8 * t125 + (t31 + A_ji_6 * t119 + (t50 + A_ji_7 * t124)));
+    jac_phi_q_t_lambda_A_i[47] = t130;
+    jac_phi_q_t_lambda_A_i[46] = t131;
     jac_phi_q_t_lambda_A_i[48] = t134;
     const jg_real t135 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t136 = A_j[1] * v_2_in_i_2 + v_2_in_i_1 * t135;
     const jg_real t137 = lambda[2] * A_j[1] + lambda[1] * t135;
-    jac_phi_q_t_lambda_A_i[45] = t137;
     const jg_real t138 = A_j[1] * C_i[2] + C_i[1] * t135;
     const jg_real t139 = C_j[8] * t136 - C_j[6] * t127 + (s_j[2] * t137 - s_j[0] * t130) + lambda[5] * (C_j[2] *
         t138 - C_j[0] * t132);
-    jac_phi_q_t_lambda_A_i[49] = t139;
     const jg_real t140 = C_j[6] * t129 - C_j[7] * t136 + (s_j[0] * t131 - s_j[1] * t137) + lambda[5] * (C_j[0] *
         t133 - C_j[1] * t138);
-    jac_phi_q_t_lambda_A_i[50] = t140;
-    jac_phi_q_t_lambda_A_i[42] = t86 - (A_ji_0 * t134 + A_ji_1 * t139 + A_ji_2 * t140);
-    jac_phi_q_t_lambda_A_i[43] = -(t126 * v_5_in_j_2 + A_ji_5 * t140 + (t135 * v_5_in_j_0 + A_ji_3 * t134 + (t128 *
-        v_5_in_j_1 + A_ji_4 * t139)) + t109);
-    jac_phi_q_t_lambda_A_i[44] = -(t82 + A_ji_8 * t140 + (t66 + A_ji_6 * t134 + (t76 + A_ji_7 * t139)));
     const jg_real t141 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t142 = A_j[8] * v_2_in_i_2 + v_2_in_i_1 * t141;
     const jg_real t143 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t144 = A_j[5] * v_2_in_i_2 + v_2_in_i_1 * t143;
     const jg_real t145 = lambda[2] * A_j[8] + lambda[1] * t141;
-    jac_phi_q_t_lambda_A_i[56] = t145;
     const jg_real t146 = lambda[2] * A_j[5] + lambda[1] * t143;
+    jac_phi_q_t_lambda_A_i[45] = t137;
+    jac_phi_q_t_lambda_A_i[49] = t139;
+    jac_phi_q_t_lambda_A_i[50] = t140;
+    jac_phi_q_t_lambda_A_i[42] = t86 - (A_ji_0 * t134 + A_ji_1 * t139 + A_ji_2 * t140);
+    jac_phi_q_t_lambda_A_i[43] = -(t126 * v_5_in_j_2 + A_ji_5 * t140 + (t135 * v_5_in_j_0 + A_ji_3 * t134 + (t128 *
+        v_5_in_j_1 + A_ji_4 * t139)) + t109);
+    jac_phi_q_t_lambda_A_i[44] = -(t82 + A_ji_8 * t140 + (t66 + A_ji_6 * t134 + (t76 + A_ji_7 * t139)));
+    jac_phi_q_t_lambda_A_i[56] = t145;
     jac_phi_q_t_lambda_A_i[55] = t146;
     const jg_real t147 = A_j[8] * C_i[2] + C_i[1] * t141;
     const jg_real t148 = A_j[5] * C_i[2] + C_i[1] * t143;
     const jg_real t149 = C_j[7] * t142 - C_j[8] * t144 + (s_j[1] * t145 - s_j[2] * t146) + lambda[5] * (C_j[1] *
         t147 - C_j[2] * t148);
-    jac_phi_q_t_lambda_A_i[57] = t149;
     const jg_real t150 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t151 = A_j[2] * v_2_in_i_2 + v_2_in_i_1 * t150;
     const jg_real t152 = lambda[2] * A_j[2] + lambda[1] * t150;
-    jac_phi_q_t_lambda_A_i[54] = t152;
     const jg_real t153 = A_j[2] * C_i[2] + C_i[1] * t150;
     const jg_real t154 = C_j[8] * t151 - C_j[6] * t142 + (s_j[2] * t152 - s_j[0] * t145) + lambda[5] * (C_j[2] *
         t153 - C_j[0] * t147);
-    jac_phi_q_t_lambda_A_i[58] = t154;
     const jg_real t155 = C_j[6] * t144 - C_j[7] * t151 + (s_j[0] * t146 - s_j[1] * t152) + lambda[5] * (C_j[0] *
         t148 - C_j[1] * t153);
+    jac_phi_q_t_lambda_A_i[57] = t149;
+    jac_phi_q_t_lambda_A_i[54] = t152;
+    jac_phi_q_t_lambda_A_i[58] = t154;
     jac_phi_q_t_lambda_A_i[59] = t155;
     jac_phi_q_t_lambda_A_i[51] = t107 - (A_ji_0 * t149 + A_ji_1 * t154 + A_ji_2 * t155);
     jac_phi_q_t_lambda_A_i[52] = -(t141 * v_5_in_j_2 + A_ji_5 * t155 + (t150 * v_5_in_j_0 + A_ji_3 * t149 + (t143 *
@@ -1397,37 +1394,33 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t160 = v_2_in_i_1 * t159;
     const jg_real t161 = C_j[8] * t160;
     const jg_real t162 = lambda[1] * t156;
-    jac_phi_q_t_lambda_A_j[5] = t162;
     const jg_real t163 = s_j[1] * t162;
     const jg_real t164 = lambda[1] * t159;
-    jac_phi_q_t_lambda_A_j[4] = t164;
     const jg_real t165 = s_j[2] * t164;
     const jg_real t166 = C_i[1] * t156;
     const jg_real t167 = C_j[1] * t166;
     const jg_real t168 = C_i[1] * t159;
     const jg_real t169 = C_j[2] * t168;
     const jg_real t170 = t158 - t161 + (t163 - t165) + lambda[5] * (t167 - t169);
-    jac_phi_q_t_lambda_A_j[6] = t170;
     const jg_real t171 = A_i[0] * v_2_in_i_0 + A_i[6] * v_2_in_i_2;
     const jg_real t172 = C_j[8] * t171;
     const jg_real t173 = lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t173;
-    jac_phi_q_t_lambda_A_j[31] = t173;
-    jac_phi_q_t_lambda_A_j[59] = t173;
     const jg_real t174 = s_j[2] * t173;
     const jg_real t175 = A_i[0] * C_i[0] + A_i[6] * C_i[2];
     const jg_real t176 = C_j[2] * t175;
     const jg_real t177 = t172 - C_j[6] * t157 + (t174 - s_j[0] * t162) + lambda[5] * (t176 - C_j[0] * t166);
-    jac_phi_q_t_lambda_A_j[7] = t177;
     const jg_real t178 = C_j[7] * t171;
     const jg_real t179 = s_j[1] * t173;
     const jg_real t180 = C_j[1] * t175;
     const jg_real t181 = C_j[6] * t160 - t178 + (s_j[0] * t164 - t179) + lambda[5] * (C_j[0] * t168 - t180);
+    jac_phi_q_t_lambda_A_j[5] = t162;
+    jac_phi_q_t_lambda_A_j[4] = t164;
+    jac_phi_q_t_lambda_A_j[6] = t170;
+    jac_phi_q_t_lambda_A_j[3] = t173;
+    jac_phi_q_t_lambda_A_j[31] = t173;
+    jac_phi_q_t_lambda_A_j[59] = t173;
+    jac_phi_q_t_lambda_A_j[7] = t177;
     jac_phi_q_t_lambda_A_j[8] = t181;
-    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_5_in_j_0 + A_ji_0 * t170 + A_ji_1 * t177 + A_ji_2 * t181);
-    jac_phi_q_t_lambda_A_j[1] = -(t156 * v_5_in_j_2 + A_ji_5 * t181 + (t159 * v_5_in_j_1 + A_ji_4 * t177 + A_ji_3 *
-        t170));
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ji_6 * t170 + A_ji_7 * t177 + A_ji_8 * t181);
     const jg_real t182 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t183 = v_2_in_i_1 * t182;
     const jg_real t184 = C_j[7] * t183;
@@ -1435,20 +1428,24 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t186 = v_2_in_i_1 * t185;
     const jg_real t187 = C_j[8] * t186;
     const jg_real t188 = lambda[1] * t182;
-    jac_phi_q_t_lambda_A_j[14] = t188;
     const jg_real t189 = s_j[1] * t188;
     const jg_real t190 = lambda[1] * t185;
-    jac_phi_q_t_lambda_A_j[13] = t190;
     const jg_real t191 = s_j[2] * t190;
     const jg_real t192 = C_i[1] * t182;
     const jg_real t193 = C_j[1] * t192;
     const jg_real t194 = C_i[1] * t185;
     const jg_real t195 = C_j[2] * t194;
     const jg_real t196 = t184 - t187 + (t189 - t191) + lambda[5] * (t193 - t195);
-    jac_phi_q_t_lambda_A_j[15] = t196;
     const jg_real t197 = A_i[1] * v_2_in_i_0 + A_i[7] * v_2_in_i_2;
     const jg_real t198 = C_j[8] * t197;
     const jg_real t199 = lambda[0] * A_i[1] + lambda[2] * A_i[7];
+    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_5_in_j_0 + A_ji_0 * t170 + A_ji_1 * t177 + A_ji_2 * t181);
+    jac_phi_q_t_lambda_A_j[1] = -(t156 * v_5_in_j_2 + A_ji_5 * t181 + (t159 * v_5_in_j_1 + A_ji_4 * t177 + A_ji_3 *
+        t170));
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ji_6 * t170 + A_ji_7 * t177 + A_ji_8 * t181);
+    jac_phi_q_t_lambda_A_j[14] = t188;
+    jac_phi_q_t_lambda_A_j[13] = t190;
+    jac_phi_q_t_lambda_A_j[15] = t196;
     jac_phi_q_t_lambda_A_j[12] = t199;
     jac_phi_q_t_lambda_A_j[40] = t199;
     jac_phi_q_t_lambda_A_j[68] = t199;
@@ -1456,16 +1453,10 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t201 = A_i[1] * C_i[0] + A_i[7] * C_i[2];
     const jg_real t202 = C_j[2] * t201;
     const jg_real t203 = t198 - C_j[6] * t183 + (t200 - s_j[0] * t188) + lambda[5] * (t202 - C_j[0] * t192);
-    jac_phi_q_t_lambda_A_j[16] = t203;
     const jg_real t204 = C_j[7] * t197;
     const jg_real t205 = s_j[1] * t199;
     const jg_real t206 = C_j[1] * t201;
     const jg_real t207 = C_j[6] * t186 - t204 + (s_j[0] * t190 - t205) + lambda[5] * (C_j[0] * t194 - t206);
-    jac_phi_q_t_lambda_A_j[17] = t207;
-    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_5_in_j_0 + A_ji_0 * t196 + A_ji_1 * t203 + A_ji_2 * t207);
-    jac_phi_q_t_lambda_A_j[10] = -(t182 * v_5_in_j_2 + A_ji_5 * t207 + (t185 * v_5_in_j_1 + A_ji_4 * t203 + A_ji_3 *
-        t196));
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_5_in_j_0 + A_ji_6 * t196 + A_ji_7 * t203 + A_ji_8 * t207);
     const jg_real t208 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t209 = v_2_in_i_1 * t208;
     const jg_real t210 = C_j[7] * t209;
@@ -1473,32 +1464,38 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t212 = v_2_in_i_1 * t211;
     const jg_real t213 = C_j[8] * t212;
     const jg_real t214 = lambda[1] * t208;
-    jac_phi_q_t_lambda_A_j[23] = t214;
     const jg_real t215 = s_j[1] * t214;
     const jg_real t216 = lambda[1] * t211;
-    jac_phi_q_t_lambda_A_j[22] = t216;
     const jg_real t217 = s_j[2] * t216;
     const jg_real t218 = C_i[1] * t208;
     const jg_real t219 = C_j[1] * t218;
     const jg_real t220 = C_i[1] * t211;
     const jg_real t221 = C_j[2] * t220;
     const jg_real t222 = t210 - t213 + (t215 - t217) + lambda[5] * (t219 - t221);
+    jac_phi_q_t_lambda_A_j[16] = t203;
+    jac_phi_q_t_lambda_A_j[17] = t207;
+    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_5_in_j_0 + A_ji_0 * t196 + A_ji_1 * t203 + A_ji_2 * t207);
+    jac_phi_q_t_lambda_A_j[10] = -(t182 * v_5_in_j_2 + A_ji_5 * t207 + (t185 * v_5_in_j_1 + A_ji_4 * t203 + A_ji_3 *
+        t196));
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_5_in_j_0 + A_ji_6 * t196 + A_ji_7 * t203 + A_ji_8 * t207);
+    jac_phi_q_t_lambda_A_j[23] = t214;
+    jac_phi_q_t_lambda_A_j[22] = t216;
     jac_phi_q_t_lambda_A_j[24] = t222;
     const jg_real t223 = A_i[2] * v_2_in_i_0 + A_i[8] * v_2_in_i_2;
     const jg_real t224 = C_j[8] * t223;
     const jg_real t225 = lambda[0] * A_i[2] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[21] = t225;
-    jac_phi_q_t_lambda_A_j[49] = t225;
-    jac_phi_q_t_lambda_A_j[77] = t225;
     const jg_real t226 = s_j[2] * t225;
     const jg_real t227 = A_i[2] * C_i[0] + A_i[8] * C_i[2];
     const jg_real t228 = C_j[2] * t227;
     const jg_real t229 = t224 - C_j[6] * t209 + (t226 - s_j[0] * t214) + lambda[5] * (t228 - C_j[0] * t218);
-    jac_phi_q_t_lambda_A_j[25] = t229;
     const jg_real t230 = C_j[7] * t223;
     const jg_real t231 = s_j[1] * t225;
     const jg_real t232 = C_j[1] * t227;
     const jg_real t233 = C_j[6] * t212 - t230 + (s_j[0] * t216 - t231) + lambda[5] * (C_j[0] * t220 - t232);
+    jac_phi_q_t_lambda_A_j[21] = t225;
+    jac_phi_q_t_lambda_A_j[49] = t225;
+    jac_phi_q_t_lambda_A_j[77] = t225;
+    jac_phi_q_t_lambda_A_j[25] = t229;
     jac_phi_q_t_lambda_A_j[26] = t233;
     jac_phi_q_t_lambda_A_j[18] = -(A_i[2] * v_5_in_j_0 + A_ji_0 * t222 + A_ji_1 * t229 + A_ji_2 * t233);
     jac_phi_q_t_lambda_A_j[19] = -(t208 * v_5_in_j_2 + A_ji_5 * t233 + (t211 * v_5_in_j_1 + A_ji_4 * t229 + A_ji_3 *
@@ -1508,17 +1505,17 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t235 = v_2_in_i_1 * t234;
     const jg_real t236 = C_j[6] * t235;
     const jg_real t237 = lambda[1] * t234;
-    jac_phi_q_t_lambda_A_j[32] = t237;
     const jg_real t238 = s_j[0] * t237;
     const jg_real t239 = C_i[1] * t234;
     const jg_real t240 = C_j[0] * t239;
     const jg_real t241 = t236 + t161 + (t238 + t165) + lambda[5] * (t240 + t169);
     const jg_real t242 = C_j[7] * t235 - t172 + (s_j[1] * t237 - t174) + lambda[5] * (C_j[1] * t239 - t176);
-    jac_phi_q_t_lambda_A_j[33] = t242;
     const jg_real t243 = C_j[6] * t171;
     const jg_real t244 = s_j[0] * t173;
     const jg_real t245 = C_j[0] * t175;
     const jg_real t246 = t243 + C_j[7] * t160 + (t244 + s_j[1] * t164) + lambda[5] * (t245 + C_j[1] * t168);
+    jac_phi_q_t_lambda_A_j[32] = t237;
+    jac_phi_q_t_lambda_A_j[33] = t242;
     jac_phi_q_t_lambda_A_j[35] = t246;
     jac_phi_q_t_lambda_A_j[27] = -(A_i[0] * v_5_in_j_1 - A_ji_1 * t241 + A_ji_0 * t242 + A_ji_2 * t246);
     jac_phi_q_t_lambda_A_j[28] = -(t234 * v_5_in_j_2 + A_ji_5 * t246 + (A_ji_3 * t242 - t159 * v_5_in_j_0 - A_ji_4 *
@@ -1530,17 +1527,17 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t248 = v_2_in_i_1 * t247;
     const jg_real t249 = C_j[6] * t248;
     const jg_real t250 = lambda[1] * t247;
-    jac_phi_q_t_lambda_A_j[41] = t250;
     const jg_real t251 = s_j[0] * t250;
     const jg_real t252 = C_i[1] * t247;
     const jg_real t253 = C_j[0] * t252;
     const jg_real t254 = t249 + t187 + (t251 + t191) + lambda[5] * (t253 + t195);
     const jg_real t255 = C_j[7] * t248 - t198 + (s_j[1] * t250 - t200) + lambda[5] * (C_j[1] * t252 - t202);
-    jac_phi_q_t_lambda_A_j[42] = t255;
     const jg_real t256 = C_j[6] * t197;
     const jg_real t257 = s_j[0] * t199;
     const jg_real t258 = C_j[0] * t201;
     const jg_real t259 = t256 + C_j[7] * t186 + (t257 + s_j[1] * t190) + lambda[5] * (t258 + C_j[1] * t194);
+    jac_phi_q_t_lambda_A_j[41] = t250;
+    jac_phi_q_t_lambda_A_j[42] = t255;
     jac_phi_q_t_lambda_A_j[44] = t259;
     jac_phi_q_t_lambda_A_j[36] = -(A_i[1] * v_5_in_j_1 - A_ji_1 * t254 + A_ji_0 * t255 + A_ji_2 * t259);
     jac_phi_q_t_lambda_A_j[37] = -(t247 * v_5_in_j_2 + A_ji_5 * t259 + (A_ji_3 * t255 - t185 * v_5_in_j_0 - A_ji_4 *
@@ -1552,17 +1549,17 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t261 = v_2_in_i_1 * t260;
     const jg_real t262 = C_j[6] * t261;
     const jg_real t263 = lambda[1] * t260;
-    jac_phi_q_t_lambda_A_j[50] = t263;
     const jg_real t264 = s_j[0] * t263;
     const jg_real t265 = C_i[1] * t260;
     const jg_real t266 = C_j[0] * t265;
     const jg_real t267 = t262 + t213 + (t264 + t217) + lambda[5] * (t266 + t221);
     const jg_real t268 = C_j[7] * t261 - t224 + (s_j[1] * t263 - t226) + lambda[5] * (C_j[1] * t265 - t228);
-    jac_phi_q_t_lambda_A_j[51] = t268;
     const jg_real t269 = C_j[6] * t223;
     const jg_real t270 = s_j[0] * t225;
     const jg_real t271 = C_j[0] * t227;
     const jg_real t272 = t269 + C_j[7] * t212 + (t270 + s_j[1] * t216) + lambda[5] * (t271 + C_j[1] * t220);
+    jac_phi_q_t_lambda_A_j[50] = t263;
+    jac_phi_q_t_lambda_A_j[51] = t268;
     jac_phi_q_t_lambda_A_j[53] = t272;
     jac_phi_q_t_lambda_A_j[45] = -(A_i[2] * v_5_in_j_1 - A_ji_1 * t267 + A_ji_0 * t268 + A_ji_2 * t272);
     jac_phi_q_t_lambda_A_j[46] = -(t260 * v_5_in_j_2 + A_ji_5 * t272 + (A_ji_3 * t268 - t211 * v_5_in_j_0 - A_ji_4 *
@@ -1571,10 +1568,10 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_j[48] = -t216;
     jac_phi_q_t_lambda_A_j[52] = -t267;
     const jg_real t273 = t158 - t236 + (t163 - t238) + lambda[5] * (t167 - t240);
-    jac_phi_q_t_lambda_A_j[62] = t273;
     const jg_real t274 = t178 + C_j[8] * t235 + (t179 + s_j[2] * t237) + lambda[5] * (t180 + C_j[2] * t239);
-    jac_phi_q_t_lambda_A_j[60] = t274;
     const jg_real t275 = t243 + C_j[8] * t157 + (t244 + s_j[2] * t162) + lambda[5] * (t245 + C_j[2] * t166);
+    jac_phi_q_t_lambda_A_j[62] = t273;
+    jac_phi_q_t_lambda_A_j[60] = t274;
     jac_phi_q_t_lambda_A_j[54] = -(A_i[0] * v_5_in_j_2 + A_ji_2 * t273 + (A_ji_0 * t274 - A_ji_1 * t275));
     jac_phi_q_t_lambda_A_j[55] = -(A_ji_3 * t274 - t156 * v_5_in_j_0 - (t234 * v_5_in_j_1 + A_ji_4 * t275) + A_ji_5
         * t273);
@@ -1583,10 +1580,10 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_j[58] = -t237;
     jac_phi_q_t_lambda_A_j[61] = -t275;
     const jg_real t276 = t184 - t249 + (t189 - t251) + lambda[5] * (t193 - t253);
-    jac_phi_q_t_lambda_A_j[71] = t276;
     const jg_real t277 = t204 + C_j[8] * t248 + (t205 + s_j[2] * t250) + lambda[5] * (t206 + C_j[2] * t252);
-    jac_phi_q_t_lambda_A_j[69] = t277;
     const jg_real t278 = t256 + C_j[8] * t183 + (t257 + s_j[2] * t188) + lambda[5] * (t258 + C_j[2] * t192);
+    jac_phi_q_t_lambda_A_j[71] = t276;
+    jac_phi_q_t_lambda_A_j[69] = t277;
     jac_phi_q_t_lambda_A_j[63] = -(A_i[1] * v_5_in_j_2 + A_ji_2 * t276 + (A_ji_0 * t277 - A_ji_1 * t278));
     jac_phi_q_t_lambda_A_j[64] = -(A_ji_3 * t277 - t182 * v_5_in_j_0 - (t247 * v_5_in_j_1 + A_ji_4 * t278) + A_ji_5
         * t276);
@@ -1595,10 +1592,10 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_A_j[67] = -t250;
     jac_phi_q_t_lambda_A_j[70] = -t278;
     const jg_real t279 = t210 - t262 + (t215 - t264) + lambda[5] * (t219 - t266);
-    jac_phi_q_t_lambda_A_j[80] = t279;
     const jg_real t280 = t230 + C_j[8] * t261 + (t231 + s_j[2] * t263) + lambda[5] * (t232 + C_j[2] * t265);
-    jac_phi_q_t_lambda_A_j[78] = t280;
     const jg_real t281 = t269 + C_j[8] * t209 + (t270 + s_j[2] * t214) + lambda[5] * (t271 + C_j[2] * t218);
+    jac_phi_q_t_lambda_A_j[80] = t279;
+    jac_phi_q_t_lambda_A_j[78] = t280;
     jac_phi_q_t_lambda_A_j[72] = -(A_i[2] * v_5_in_j_2 + A_ji_2 * t279 + (A_ji_0 * t280 - A_ji_1 * t281));
     jac_phi_q_t_lambda_A_j[73] = -(A_ji_3 * t280 - t208 * v_5_in_j_0 - (t260 * v_5_in_j_1 + A_ji_4 * t281) + A_ji_5
         * t279);
@@ -1609,84 +1606,84 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    jac_phi_q_t_lambda_alpha[0] = lambda[5] * cosine_0;
     const jg_real t284 = lambda[3] * A_ji_2;
     const jg_real t285 = lambda[3] * A_ji_1;
-    const jg_real t286 = C_j[7] * t284 - C_j[8] * t285 + lambda[5] * (C_j[1] * A_ji_2 - C_j[2] * A_ji_1);
-    jac_phi_q_t_lambda_geometry[3] = t286;
+    const jg_real t286 = C_j[7] * t284 - C_j[8] * t285 + lambda[5] * (C_j[1] * A_ji_2 - A_ji_1 * C_j[2]);
     const jg_real t287 = lambda[3] * A_ji_0;
-    const jg_real t288 = C_j[8] * t287 - C_j[6] * t284 + lambda[5] * (C_j[2] * A_ji_0 - C_j[0] * A_ji_2);
+    const jg_real t288 = C_j[8] * t287 - C_j[6] * t284 + lambda[5] * (A_ji_0 * C_j[2] - C_j[0] * A_ji_2);
+    const jg_real t289 = C_j[6] * t285 - C_j[7] * t287 + lambda[5] * (A_ji_1 * C_j[0] - A_ji_0 * C_j[1]);
+    const jg_real t290 = -lambda[0];
+    jac_phi_q_t_lambda_alpha[0] = lambda[5] * cosine_0;
+    jac_phi_q_t_lambda_geometry[3] = t286;
     jac_phi_q_t_lambda_geometry[4] = t288;
-    const jg_real t289 = C_j[6] * t285 - C_j[7] * t287 + lambda[5] * (C_j[0] * A_ji_1 - C_j[1] * A_ji_0);
     jac_phi_q_t_lambda_geometry[5] = t289;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t286 + A_ji_1 * t288 + A_ji_2 * t289);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t286 + A_ji_4 * t288 + A_ji_5 * t289);
     jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t286 + A_ji_7 * t288 + A_ji_8 * t289);
-    const jg_real t290 = -lambda[0];
     jac_phi_q_t_lambda_geometry[6] = t290;
     jac_phi_q_t_lambda_geometry[27] = t290;
     const jg_real t291 = lambda[3] * A_ji_5;
     const jg_real t292 = lambda[3] * A_ji_4;
     const jg_real t293 = C_j[7] * t291 - C_j[8] * t292 + lambda[5] * (C_j[1] * A_ji_5 - C_j[2] * A_ji_4);
-    jac_phi_q_t_lambda_geometry[10] = t293;
     const jg_real t294 = lambda[3] * A_ji_3;
     const jg_real t295 = C_j[8] * t294 - C_j[6] * t291 + lambda[5] * (C_j[2] * A_ji_3 - C_j[0] * A_ji_5);
-    jac_phi_q_t_lambda_geometry[11] = t295;
     const jg_real t296 = C_j[6] * t292 - C_j[7] * t294 + lambda[5] * (C_j[0] * A_ji_4 - C_j[1] * A_ji_3);
+    const jg_real t297 = -lambda[1];
+    jac_phi_q_t_lambda_geometry[10] = t293;
+    jac_phi_q_t_lambda_geometry[11] = t295;
     jac_phi_q_t_lambda_geometry[12] = t296;
     jac_phi_q_t_lambda_geometry[7] = -(A_ji_0 * t293 + A_ji_1 * t295 + A_ji_2 * t296);
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_3 * t293 + A_ji_4 * t295 + A_ji_5 * t296);
     jac_phi_q_t_lambda_geometry[9] = -(A_ji_6 * t293 + A_ji_7 * t295 + A_ji_8 * t296);
-    const jg_real t297 = -lambda[1];
     jac_phi_q_t_lambda_geometry[13] = t297;
     jac_phi_q_t_lambda_geometry[34] = t297;
     const jg_real t298 = lambda[3] * A_ji_8;
     const jg_real t299 = lambda[3] * A_ji_7;
-    const jg_real t300 = C_j[7] * t298 - C_j[8] * t299 + lambda[5] * (C_j[1] * A_ji_8 - C_j[2] * A_ji_7);
-    jac_phi_q_t_lambda_geometry[17] = t300;
+    const jg_real t300 = C_j[7] * t298 - C_j[8] * t299 + lambda[5] * (C_j[1] * A_ji_8 - A_ji_7 * C_j[2]);
     const jg_real t301 = lambda[3] * A_ji_6;
-    const jg_real t302 = C_j[8] * t301 - C_j[6] * t298 + lambda[5] * (C_j[2] * A_ji_6 - C_j[0] * A_ji_8);
+    const jg_real t302 = C_j[8] * t301 - C_j[6] * t298 + lambda[5] * (A_ji_6 * C_j[2] - C_j[0] * A_ji_8);
+    const jg_real t303 = C_j[6] * t299 - C_j[7] * t301 + lambda[5] * (A_ji_7 * C_j[0] - A_ji_6 * C_j[1]);
+    const jg_real t304 = -lambda[2];
+    jac_phi_q_t_lambda_geometry[17] = t300;
     jac_phi_q_t_lambda_geometry[18] = t302;
-    const jg_real t303 = C_j[6] * t299 - C_j[7] * t301 + lambda[5] * (C_j[0] * A_ji_7 - C_j[1] * A_ji_6);
     jac_phi_q_t_lambda_geometry[19] = t303;
     jac_phi_q_t_lambda_geometry[14] = -(A_ji_0 * t300 + A_ji_1 * t302 + A_ji_2 * t303);
     jac_phi_q_t_lambda_geometry[15] = -(A_ji_3 * t300 + A_ji_4 * t302 + A_ji_5 * t303);
     jac_phi_q_t_lambda_geometry[16] = -(A_ji_6 * t300 + A_ji_7 * t302 + A_ji_8 * t303);
-    const jg_real t304 = -lambda[2];
     jac_phi_q_t_lambda_geometry[20] = t304;
     jac_phi_q_t_lambda_geometry[41] = t304;
     const jg_real t305 = lambda[4] * A_ji_2;
     const jg_real t306 = lambda[4] * A_ji_1;
     const jg_real t307 = C_j[7] * t305 - C_j[8] * t306;
-    jac_phi_q_t_lambda_geometry[24] = t307;
     const jg_real t308 = lambda[4] * A_ji_0;
     const jg_real t309 = C_j[8] * t308 - C_j[6] * t305;
-    jac_phi_q_t_lambda_geometry[25] = t309;
     const jg_real t310 = C_j[6] * t306 - C_j[7] * t308;
+    const jg_real t311 = lambda[4] * A_ji_5;
+    const jg_real t312 = lambda[4] * A_ji_4;
+    const jg_real t313 = C_j[7] * t311 - C_j[8] * t312;
+    const jg_real t314 = lambda[4] * A_ji_3;
+    const jg_real t315 = C_j[8] * t314 - C_j[6] * t311;
+    jac_phi_q_t_lambda_geometry[24] = t307;
+    jac_phi_q_t_lambda_geometry[25] = t309;
     jac_phi_q_t_lambda_geometry[26] = t310;
     jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t307 + A_ji_1 * t309 + A_ji_2 * t310);
     jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t307 + A_ji_4 * t309 + A_ji_5 * t310);
     jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t307 + A_ji_7 * t309 + A_ji_8 * t310);
-    const jg_real t311 = lambda[4] * A_ji_5;
-    const jg_real t312 = lambda[4] * A_ji_4;
-    const jg_real t313 = C_j[7] * t311 - C_j[8] * t312;
     jac_phi_q_t_lambda_geometry[31] = t313;
-    const jg_real t314 = lambda[4] * A_ji_3;
-    const jg_real t315 = C_j[8] * t314 - C_j[6] * t311;
     jac_phi_q_t_lambda_geometry[32] = t315;
     const jg_real t316 = C_j[6] * t312 - C_j[7] * t314;
+    const jg_real t317 = lambda[4] * A_ji_8;
+    const jg_real t318 = lambda[4] * A_ji_7;
+    const jg_real t319 = C_j[7] * t317 - C_j[8] * t318;
+    const jg_real t320 = lambda[4] * A_ji_6;
+    const jg_real t321 = C_j[8] * t320 - C_j[6] * t317;
+    const jg_real t322 = C_j[6] * t318 - C_j[7] * t320;
     jac_phi_q_t_lambda_geometry[33] = t316;
     jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t313 + A_ji_1 * t315 + A_ji_2 * t316);
     jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t313 + A_ji_4 * t315 + A_ji_5 * t316);
     jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t313 + A_ji_7 * t315 + A_ji_8 * t316);
-    const jg_real t317 = lambda[4] * A_ji_8;
-    const jg_real t318 = lambda[4] * A_ji_7;
-    const jg_real t319 = C_j[7] * t317 - C_j[8] * t318;
     jac_phi_q_t_lambda_geometry[38] = t319;
-    const jg_real t320 = lambda[4] * A_ji_6;
-    const jg_real t321 = C_j[8] * t320 - C_j[6] * t317;
     jac_phi_q_t_lambda_geometry[39] = t321;
-    const jg_real t322 = C_j[6] * t318 - C_j[7] * t320;
     jac_phi_q_t_lambda_geometry[40] = t322;
     jac_phi_q_t_lambda_geometry[35] = -(A_ji_0 * t319 + A_ji_1 * t321 + A_ji_2 * t322);
     jac_phi_q_t_lambda_geometry[36] = -(A_ji_3 * t319 + A_ji_4 * t321 + A_ji_5 * t322);
@@ -1697,21 +1694,21 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[45] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[47] = A_ji_2 * lambda_0_1_2_in_j_0 - A_ji_0 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[48] = A_ji_5 * lambda_0_1_2_in_j_0 - A_ji_3 * lambda_0_1_2_in_j_2;
+    const jg_real t323 = lambda[5] * f_i_in_j_2;
+    const jg_real t324 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[49] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[51] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[52] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[53] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[54] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[55] = -lambda_0_1_2_in_j_1;
-    const jg_real t323 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[65] = t323;
-    const jg_real t324 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[61] = t324;
+    const jg_real t325 = lambda[5] * f_i_in_j_0;
     jac_phi_q_t_lambda_geometry[57] = A_ji_1 * t323 - A_ji_2 * t324;
     jac_phi_q_t_lambda_geometry[58] = A_ji_4 * t323 - A_ji_5 * t324;
     jac_phi_q_t_lambda_geometry[59] = A_ji_7 * t323 - A_ji_8 * t324;
     jac_phi_q_t_lambda_geometry[60] = -t323;
-    const jg_real t325 = lambda[5] * f_i_in_j_0;
     jac_phi_q_t_lambda_geometry[71] = t325;
     jac_phi_q_t_lambda_geometry[62] = A_ji_2 * t325 - A_ji_0 * t323;
     jac_phi_q_t_lambda_geometry[63] = A_ji_5 * t325 - A_ji_3 * t323;
@@ -1732,64 +1729,64 @@ static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[82] = A_ji_0 * v_2_in_j_1 - A_ji_1 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[83] = A_ji_3 * v_2_in_j_1 - A_ji_4 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[84] = A_ji_6 * v_2_in_j_1 - A_ji_7 * v_2_in_j_0;
+    const jg_real t326 = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    const jg_real t327 = A_ji_0 * s_j[2] - s_j[0] * A_ji_2;
+    const jg_real t328 = A_ji_1 * s_j[0] - A_ji_0 * s_j[1];
     jac_phi_q_t_lambda_geometry[85] = -v_2_in_j_1;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[24] = JG_REAL(-1.0);
-    const jg_real t326 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t326;
-    const jg_real t327 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t327;
-    const jg_real t328 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t328;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t326 + A_ji_1 * t327 + A_ji_2 * t328);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t326 + A_ji_4 * t327 + A_ji_5 * t328 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real t331 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    const jg_real t332 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    const jg_real t333 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t326 + A_ji_4 * t327 + A_ji_5 * t328 + v_0_in_i_2);
     jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t326 + A_ji_7 * t327 + A_ji_8 * t328);
     jac_phi_q_t_lambda_lambda[10] = -C_i[0];
     jac_phi_q_t_lambda_lambda[11] = -C_i[3];
-    const jg_real t331 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_t_lambda_lambda[19] = t331;
-    const jg_real t332 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     jac_phi_q_t_lambda_lambda[20] = t332;
-    const jg_real t333 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_t_lambda_lambda[21] = t333;
     jac_phi_q_t_lambda_lambda[13] = v_0_in_i_2 - (A_ji_0 * t331 + A_ji_1 * t332 + A_ji_2 * t333);
-    jac_phi_q_t_lambda_lambda[14] = -(A_ji_3 * t331 + A_ji_4 * t332 + A_ji_5 * t333);
     const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real t335 = s_j[1] * A_ji_8 - A_ji_7 * s_j[2];
+    const jg_real t336 = A_ji_6 * s_j[2] - s_j[0] * A_ji_8;
+    const jg_real t337 = A_ji_7 * s_j[0] - A_ji_6 * s_j[1];
+    jac_phi_q_t_lambda_lambda[14] = -(A_ji_3 * t331 + A_ji_4 * t332 + A_ji_5 * t333);
     jac_phi_q_t_lambda_lambda[15] = -(A_ji_6 * t331 + A_ji_7 * t332 + A_ji_8 * t333 + v_0_in_i_0);
     jac_phi_q_t_lambda_lambda[22] = -C_i[1];
     jac_phi_q_t_lambda_lambda[23] = -C_i[4];
-    const jg_real t335 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_t_lambda_lambda[31] = t335;
-    const jg_real t336 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_t_lambda_lambda[32] = t336;
-    const jg_real t337 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_t_lambda_lambda[33] = t337;
     jac_phi_q_t_lambda_lambda[25] = -(A_ji_0 * t335 + A_ji_1 * t336 + A_ji_2 * t337 + v_0_in_i_1);
+    const jg_real t338 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    const jg_real t339 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
+    const jg_real t340 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
     jac_phi_q_t_lambda_lambda[26] = v_0_in_i_0 - (A_ji_3 * t335 + A_ji_4 * t336 + A_ji_5 * t337);
     jac_phi_q_t_lambda_lambda[27] = -(A_ji_6 * t335 + A_ji_7 * t336 + A_ji_8 * t337);
     jac_phi_q_t_lambda_lambda[34] = -C_i[2];
     jac_phi_q_t_lambda_lambda[35] = -C_i[5];
-    const jg_real t338 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
     jac_phi_q_t_lambda_lambda[39] = t338;
-    const jg_real t339 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     jac_phi_q_t_lambda_lambda[40] = t339;
-    const jg_real t340 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
     jac_phi_q_t_lambda_lambda[41] = t340;
     jac_phi_q_t_lambda_lambda[36] = -(A_ji_0 * t338 + A_ji_1 * t339 + A_ji_2 * t340);
-    jac_phi_q_t_lambda_lambda[37] = -(A_ji_3 * t338 + A_ji_4 * t339 + A_ji_5 * t340);
-    jac_phi_q_t_lambda_lambda[38] = -(A_ji_6 * t338 + A_ji_7 * t339 + A_ji_8 * t340);
     const jg_real t341 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
     const jg_real t342 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
     const jg_real t343 = C_j[7] * t341 - C_j[8] * t342;
-    jac_phi_q_t_lambda_lambda[45] = t343;
     const jg_real t344 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
     const jg_real t345 = C_j[8] * t344 - C_j[6] * t341;
-    jac_phi_q_t_lambda_lambda[46] = t345;
     const jg_real t346 = C_j[6] * t342 - C_j[7] * t344;
+    jac_phi_q_t_lambda_lambda[37] = -(A_ji_3 * t338 + A_ji_4 * t339 + A_ji_5 * t340);
+    jac_phi_q_t_lambda_lambda[38] = -(A_ji_6 * t338 + A_ji_7 * t339 + A_ji_8 * t340);
+    jac_phi_q_t_lambda_lambda[45] = t343;
+    jac_phi_q_t_lambda_lambda[46] = t345;
     jac_phi_q_t_lambda_lambda[47] = t346;
     jac_phi_q_t_lambda_lambda[42] = -(A_ji_0 * t343 + A_ji_1 * t345 + A_ji_2 * t346);
     jac_phi_q_t_lambda_lambda[43] = -(A_ji_3 * t343 + A_ji_4 * t345 + A_ji_5 * t346);

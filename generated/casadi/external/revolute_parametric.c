@@ -46,15 +46,10 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -63,11 +58,9 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t5 = A_j[0] * g_star_in_i_0;
     const jg_real t6 = A_j[3] * g_star_in_i_0;
     const jg_real t7 = A_j[6] * g_star_in_i_0;
-    jac_phi_A_i[1] = C_j[6] * t5 + C_j[7] * t6 + C_j[8] * t7;
     const jg_real t8 = A_j[0] * C_i[6];
     const jg_real t9 = A_j[3] * C_i[6];
     const jg_real t10 = A_j[6] * C_i[6];
-    jac_phi_A_i[2] = C_j[0] * t8 + C_j[1] * t9 + C_j[2] * t10;
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_world = g_star, world axes */
@@ -76,6 +69,13 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_A_i[1] = C_j[6] * t5 + C_j[7] * t6 + C_j[8] * t7;
+    jac_phi_A_i[2] = C_j[0] * t8 + C_j[1] * t9 + C_j[2] * t10;
     jac_phi_geometry[37] = g_star_in_j_1;
     /* h_star_world = h_star, world axes */
     const jg_real h_star_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
@@ -83,107 +83,107 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real h_star_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_2 = A_j[6] * h_star_world_0 + A_j[7] * h_star_world_1 + A_j[8] * h_star_world_2;
-    jac_phi_geometry[32] = h_star_in_j_2;
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
-    jac_phi_geometry[38] = g_star_in_j_2;
     const jg_real h_star_in_j_1 = A_j[3] * h_star_world_0 + A_j[4] * h_star_world_1 + A_j[5] * h_star_world_2;
-    jac_phi_geometry[31] = h_star_in_j_1;
     const jg_real h_star_in_j_0 = A_j[0] * h_star_world_0 + A_j[1] * h_star_world_1 + A_j[2] * h_star_world_2;
-    jac_phi_geometry[30] = h_star_in_j_0;
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    jac_phi_geometry[32] = h_star_in_j_2;
+    jac_phi_geometry[38] = g_star_in_j_2;
+    jac_phi_geometry[31] = h_star_in_j_1;
+    jac_phi_geometry[30] = h_star_in_j_0;
     jac_phi_geometry[36] = g_star_in_j_0;
     jac_phi_A_i[3] = C_j[3] * (h_star_in_j_2 * t6 + t10 * g_star_in_j_1 - (h_star_in_j_1 * t7 + t9 * g_star_in_j_2))
         + C_j[4] * (h_star_in_j_0 * t7 + t8 * g_star_in_j_2 - (h_star_in_j_2 * t5 + t10 * g_star_in_j_0)) + C_j[5] *
         (h_star_in_j_1 * t5 + t9 * g_star_in_j_0 - (h_star_in_j_0 * t6 + t8 * g_star_in_j_1));
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t27 = A_j[1] * g_star_in_i_0;
     const jg_real t28 = A_j[4] * g_star_in_i_0;
     const jg_real t29 = A_j[7] * g_star_in_i_0;
-    jac_phi_A_i[5] = C_j[6] * t27 + C_j[7] * t28 + C_j[8] * t29;
     const jg_real t30 = A_j[1] * C_i[6];
     const jg_real t31 = A_j[4] * C_i[6];
     const jg_real t32 = A_j[7] * C_i[6];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real t35 = A_j[2] * g_star_in_i_0;
+    const jg_real t36 = A_j[5] * g_star_in_i_0;
+    const jg_real t37 = A_j[8] * g_star_in_i_0;
+    const jg_real t38 = A_j[2] * C_i[6];
+    const jg_real t39 = A_j[5] * C_i[6];
+    const jg_real t40 = A_j[8] * C_i[6];
+    jac_phi_A_i[5] = C_j[6] * t27 + C_j[7] * t28 + C_j[8] * t29;
     jac_phi_A_i[6] = C_j[0] * t30 + C_j[1] * t31 + C_j[2] * t32;
     jac_phi_A_i[7] = C_j[3] * (h_star_in_j_2 * t28 + t32 * g_star_in_j_1 - (h_star_in_j_1 * t29 + t31 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t29 + t30 * g_star_in_j_2 - (h_star_in_j_2 * t27 + t32 *
         g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t27 + t31 * g_star_in_j_0 - (h_star_in_j_0 * t28 + t30 *
         g_star_in_j_1));
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t35 = A_j[2] * g_star_in_i_0;
-    const jg_real t36 = A_j[5] * g_star_in_i_0;
-    const jg_real t37 = A_j[8] * g_star_in_i_0;
     jac_phi_A_i[9] = C_j[6] * t35 + C_j[7] * t36 + C_j[8] * t37;
-    const jg_real t38 = A_j[2] * C_i[6];
-    const jg_real t39 = A_j[5] * C_i[6];
-    const jg_real t40 = A_j[8] * C_i[6];
     jac_phi_A_i[10] = C_j[0] * t38 + C_j[1] * t39 + C_j[2] * t40;
+    const jg_real t41 = A_j[0] * g_star_in_i_1;
+    const jg_real t42 = A_j[3] * g_star_in_i_1;
+    const jg_real t43 = A_j[6] * g_star_in_i_1;
+    const jg_real t44 = A_j[0] * C_i[7];
+    const jg_real t45 = A_j[3] * C_i[7];
+    const jg_real t46 = A_j[6] * C_i[7];
+    const jg_real t47 = A_j[1] * g_star_in_i_1;
+    const jg_real t48 = A_j[4] * g_star_in_i_1;
+    const jg_real t49 = A_j[7] * g_star_in_i_1;
+    const jg_real t50 = A_j[1] * C_i[7];
+    const jg_real t51 = A_j[4] * C_i[7];
+    const jg_real t52 = A_j[7] * C_i[7];
+    const jg_real t53 = A_j[2] * g_star_in_i_1;
+    const jg_real t54 = A_j[5] * g_star_in_i_1;
+    const jg_real t55 = A_j[8] * g_star_in_i_1;
     jac_phi_A_i[11] = C_j[3] * (h_star_in_j_2 * t36 + t40 * g_star_in_j_1 - (h_star_in_j_1 * t37 + t39 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t37 + t38 * g_star_in_j_2 - (h_star_in_j_2 * t35 + t40 *
         g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t35 + t39 * g_star_in_j_0 - (h_star_in_j_0 * t36 + t38 *
         g_star_in_j_1));
-    const jg_real t41 = A_j[0] * g_star_in_i_1;
-    const jg_real t42 = A_j[3] * g_star_in_i_1;
-    const jg_real t43 = A_j[6] * g_star_in_i_1;
     jac_phi_A_i[13] = C_j[6] * t41 + C_j[7] * t42 + C_j[8] * t43;
-    const jg_real t44 = A_j[0] * C_i[7];
-    const jg_real t45 = A_j[3] * C_i[7];
-    const jg_real t46 = A_j[6] * C_i[7];
     jac_phi_A_i[14] = C_j[0] * t44 + C_j[1] * t45 + C_j[2] * t46;
     jac_phi_A_i[15] = C_j[3] * (h_star_in_j_2 * t42 + t46 * g_star_in_j_1 - (h_star_in_j_1 * t43 + t45 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t43 + t44 * g_star_in_j_2 - (h_star_in_j_2 * t41 + t46 *
         g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t41 + t45 * g_star_in_j_0 - (h_star_in_j_0 * t42 + t44 *
         g_star_in_j_1));
-    const jg_real t47 = A_j[1] * g_star_in_i_1;
-    const jg_real t48 = A_j[4] * g_star_in_i_1;
-    const jg_real t49 = A_j[7] * g_star_in_i_1;
     jac_phi_A_i[17] = C_j[6] * t47 + C_j[7] * t48 + C_j[8] * t49;
-    const jg_real t50 = A_j[1] * C_i[7];
-    const jg_real t51 = A_j[4] * C_i[7];
-    const jg_real t52 = A_j[7] * C_i[7];
     jac_phi_A_i[18] = C_j[0] * t50 + C_j[1] * t51 + C_j[2] * t52;
     jac_phi_A_i[19] = C_j[3] * (h_star_in_j_2 * t48 + t52 * g_star_in_j_1 - (h_star_in_j_1 * t49 + t51 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t49 + t50 * g_star_in_j_2 - (h_star_in_j_2 * t47 + t52 *
         g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t47 + t51 * g_star_in_j_0 - (h_star_in_j_0 * t48 + t50 *
         g_star_in_j_1));
-    const jg_real t53 = A_j[2] * g_star_in_i_1;
-    const jg_real t54 = A_j[5] * g_star_in_i_1;
-    const jg_real t55 = A_j[8] * g_star_in_i_1;
     jac_phi_A_i[21] = C_j[6] * t53 + C_j[7] * t54 + C_j[8] * t55;
     const jg_real t56 = A_j[2] * C_i[7];
     const jg_real t57 = A_j[5] * C_i[7];
     const jg_real t58 = A_j[8] * C_i[7];
+    const jg_real t59 = A_j[0] * g_star_in_i_2;
+    const jg_real t60 = A_j[3] * g_star_in_i_2;
+    const jg_real t61 = A_j[6] * g_star_in_i_2;
+    const jg_real t62 = A_j[0] * C_i[8];
+    const jg_real t63 = A_j[3] * C_i[8];
+    const jg_real t64 = A_j[6] * C_i[8];
+    const jg_real t65 = A_j[1] * g_star_in_i_2;
+    const jg_real t66 = A_j[4] * g_star_in_i_2;
+    const jg_real t67 = A_j[7] * g_star_in_i_2;
+    const jg_real t68 = A_j[1] * C_i[8];
+    const jg_real t69 = A_j[4] * C_i[8];
+    const jg_real t70 = A_j[7] * C_i[8];
     jac_phi_A_i[22] = C_j[0] * t56 + C_j[1] * t57 + C_j[2] * t58;
     jac_phi_A_i[23] = C_j[3] * (h_star_in_j_2 * t54 + t58 * g_star_in_j_1 - (h_star_in_j_1 * t55 + t57 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t55 + t56 * g_star_in_j_2 - (h_star_in_j_2 * t53 + t58 *
         g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t53 + t57 * g_star_in_j_0 - (h_star_in_j_0 * t54 + t56 *
         g_star_in_j_1));
-    const jg_real t59 = A_j[0] * g_star_in_i_2;
-    const jg_real t60 = A_j[3] * g_star_in_i_2;
-    const jg_real t61 = A_j[6] * g_star_in_i_2;
     jac_phi_A_i[25] = C_j[6] * t59 + C_j[7] * t60 + C_j[8] * t61;
-    const jg_real t62 = A_j[0] * C_i[8];
-    const jg_real t63 = A_j[3] * C_i[8];
-    const jg_real t64 = A_j[6] * C_i[8];
     jac_phi_A_i[26] = C_j[0] * t62 + C_j[1] * t63 + C_j[2] * t64;
     jac_phi_A_i[27] = C_j[3] * (h_star_in_j_2 * t60 + t64 * g_star_in_j_1 - (h_star_in_j_1 * t61 + t63 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t61 + t62 * g_star_in_j_2 - (h_star_in_j_2 * t59 + t64 *
         g_star_in_j_0)) + C_j[5] * (h_star_in_j_1 * t59 + t63 * g_star_in_j_0 - (h_star_in_j_0 * t60 + t62 *
         g_star_in_j_1));
-    const jg_real t65 = A_j[1] * g_star_in_i_2;
-    const jg_real t66 = A_j[4] * g_star_in_i_2;
-    const jg_real t67 = A_j[7] * g_star_in_i_2;
     jac_phi_A_i[29] = C_j[6] * t65 + C_j[7] * t66 + C_j[8] * t67;
-    const jg_real t68 = A_j[1] * C_i[8];
-    const jg_real t69 = A_j[4] * C_i[8];
-    const jg_real t70 = A_j[7] * C_i[8];
     jac_phi_A_i[30] = C_j[0] * t68 + C_j[1] * t69 + C_j[2] * t70;
     jac_phi_A_i[31] = C_j[3] * (h_star_in_j_2 * t66 + t70 * g_star_in_j_1 - (h_star_in_j_1 * t67 + t69 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t67 + t68 * g_star_in_j_2 - (h_star_in_j_2 * t65 + t70 *
@@ -192,10 +192,10 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t71 = A_j[2] * g_star_in_i_2;
     const jg_real t72 = A_j[5] * g_star_in_i_2;
     const jg_real t73 = A_j[8] * g_star_in_i_2;
-    jac_phi_A_i[33] = C_j[6] * t71 + C_j[7] * t72 + C_j[8] * t73;
     const jg_real t74 = A_j[2] * C_i[8];
     const jg_real t75 = A_j[5] * C_i[8];
     const jg_real t76 = A_j[8] * C_i[8];
+    jac_phi_A_i[33] = C_j[6] * t71 + C_j[7] * t72 + C_j[8] * t73;
     jac_phi_A_i[34] = C_j[0] * t74 + C_j[1] * t75 + C_j[2] * t76;
     jac_phi_A_i[35] = C_j[3] * (h_star_in_j_2 * t72 + t76 * g_star_in_j_1 - (h_star_in_j_1 * t73 + t75 *
         g_star_in_j_2)) + C_j[4] * (h_star_in_j_0 * t73 + t74 * g_star_in_j_2 - (h_star_in_j_2 * t71 + t76 *
@@ -208,29 +208,29 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_A_j[4] = C_j[0] * h_star_world_0;
     const jg_real t77 = h_star_in_j_1 * g_star_world_0 - h_star_world_0 * g_star_in_j_1;
     const jg_real t78 = h_star_in_j_2 * g_star_world_0 - h_star_world_0 * g_star_in_j_2;
+    const jg_real t79 = h_star_in_j_1 * g_star_world_1 - h_star_world_1 * g_star_in_j_1;
+    const jg_real t80 = h_star_in_j_2 * g_star_world_1 - h_star_world_1 * g_star_in_j_2;
     jac_phi_A_j[5] = C_j[5] * t77 - C_j[4] * t78;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_j[6] * g_star_world_1;
     jac_phi_A_j[10] = C_j[0] * h_star_world_1;
-    const jg_real t79 = h_star_in_j_1 * g_star_world_1 - h_star_world_1 * g_star_in_j_1;
-    const jg_real t80 = h_star_in_j_2 * g_star_world_1 - h_star_world_1 * g_star_in_j_2;
     jac_phi_A_j[11] = C_j[5] * t79 - C_j[4] * t80;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
+    const jg_real t81 = h_star_in_j_1 * g_star_world_2 - h_star_world_2 * g_star_in_j_1;
+    const jg_real t82 = h_star_in_j_2 * g_star_world_2 - h_star_world_2 * g_star_in_j_2;
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = C_j[6] * g_star_world_2;
     jac_phi_A_j[16] = C_j[0] * h_star_world_2;
-    const jg_real t81 = h_star_in_j_1 * g_star_world_2 - h_star_world_2 * g_star_in_j_1;
-    const jg_real t82 = h_star_in_j_2 * g_star_world_2 - h_star_world_2 * g_star_in_j_2;
     jac_phi_A_j[17] = C_j[5] * t81 - C_j[4] * t82;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
+    const jg_real t83 = h_star_world_0 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_0;
     jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     jac_phi_A_j[22] = C_j[1] * h_star_world_0;
-    const jg_real t83 = h_star_world_0 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_0;
     jac_phi_A_j[23] = C_j[5] * t83 + C_j[3] * t78;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
@@ -238,13 +238,13 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_A_j[27] = C_j[7] * g_star_world_1;
     jac_phi_A_j[28] = C_j[1] * h_star_world_1;
     const jg_real t84 = h_star_world_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_1;
+    const jg_real t85 = h_star_world_2 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_2;
     jac_phi_A_j[29] = C_j[5] * t84 + C_j[3] * t80;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
     jac_phi_A_j[33] = C_j[7] * g_star_world_2;
     jac_phi_A_j[34] = C_j[1] * h_star_world_2;
-    const jg_real t85 = h_star_world_2 * g_star_in_j_0 - h_star_in_j_0 * g_star_world_2;
     jac_phi_A_j[35] = C_j[5] * t85 + C_j[3] * t82;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
     jac_phi_A_j[37] = s_j[2] * A_i[3];
@@ -263,7 +263,6 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_A_j[50] = s_j[2] * A_i[8];
     jac_phi_A_j[51] = C_j[8] * g_star_world_2;
     jac_phi_A_j[52] = C_j[2] * h_star_world_2;
-    jac_phi_A_j[53] = -(C_j[3] * t81 + C_j[4] * t85);
     const jg_real t86 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t87 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t88 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -273,18 +272,19 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t92 = A_j[0] * t89 + A_j[1] * t90 + A_j[2] * t91;
     const jg_real t93 = A_j[3] * t89 + A_j[4] * t90 + A_j[5] * t91;
     const jg_real t94 = A_j[6] * t89 + A_j[7] * t90 + A_j[8] * t91;
-    jac_phi_alpha[0] = -(C_j[6] * t92 + C_j[7] * t93 + C_j[8] * t94);
-    jac_phi_alpha[1] = C_j[3] * (h_star_in_j_1 * t94 - h_star_in_j_2 * t93) + C_j[4] * (h_star_in_j_2 * t92 -
-        h_star_in_j_0 * t94) + C_j[5] * (h_star_in_j_0 * t93 - h_star_in_j_1 * t92);
-    jac_phi_geometry[0] = JG_REAL(-1.0);
-    jac_phi_geometry[1] = JG_REAL(-1.0);
-    jac_phi_geometry[2] = JG_REAL(-1.0);
     const jg_real t95 = A_i[0] * sine_0;
     const jg_real t96 = A_i[1] * sine_0;
     const jg_real t97 = A_i[2] * sine_0;
     const jg_real t98 = A_j[0] * t95 + A_j[1] * t96 + A_j[2] * t97;
     const jg_real t99 = A_j[3] * t95 + A_j[4] * t96 + A_j[5] * t97;
     const jg_real t100 = A_j[6] * t95 + A_j[7] * t96 + A_j[8] * t97;
+    jac_phi_A_j[53] = -(C_j[3] * t81 + C_j[4] * t85);
+    jac_phi_alpha[0] = -(C_j[6] * t92 + C_j[7] * t93 + C_j[8] * t94);
+    jac_phi_alpha[1] = C_j[3] * (h_star_in_j_1 * t94 - h_star_in_j_2 * t93) + C_j[4] * (h_star_in_j_2 * t92 -
+        h_star_in_j_0 * t94) + C_j[5] * (h_star_in_j_0 * t93 - h_star_in_j_1 * t92);
+    jac_phi_geometry[0] = JG_REAL(-1.0);
+    jac_phi_geometry[1] = JG_REAL(-1.0);
+    jac_phi_geometry[2] = JG_REAL(-1.0);
     jac_phi_geometry[3] = -(C_j[6] * t98 + C_j[7] * t99 + C_j[8] * t100);
     jac_phi_geometry[4] = C_j[3] * (h_star_in_j_1 * t100 - h_star_in_j_2 * t99) + C_j[4] * (h_star_in_j_2 * t98 -
         h_star_in_j_0 * t100) + C_j[5] * (h_star_in_j_0 * t99 - h_star_in_j_1 * t98);
@@ -294,33 +294,33 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t104 = A_j[0] * t101 + A_j[1] * t102 + A_j[2] * t103;
     const jg_real t105 = A_j[3] * t101 + A_j[4] * t102 + A_j[5] * t103;
     const jg_real t106 = A_j[6] * t101 + A_j[7] * t102 + A_j[8] * t103;
-    jac_phi_geometry[5] = -(C_j[6] * t104 + C_j[7] * t105 + C_j[8] * t106);
-    jac_phi_geometry[6] = C_j[3] * (h_star_in_j_1 * t106 - h_star_in_j_2 * t105) + C_j[4] * (h_star_in_j_2 * t104 -
-        h_star_in_j_0 * t106) + C_j[5] * (h_star_in_j_0 * t105 - h_star_in_j_1 * t104);
     const jg_real t107 = A_i[6] * sine_0;
     const jg_real t108 = A_i[7] * sine_0;
     const jg_real t109 = A_i[8] * sine_0;
     const jg_real t110 = A_j[0] * t107 + A_j[1] * t108 + A_j[2] * t109;
     const jg_real t111 = A_j[3] * t107 + A_j[4] * t108 + A_j[5] * t109;
     const jg_real t112 = A_j[6] * t107 + A_j[7] * t108 + A_j[8] * t109;
-    jac_phi_geometry[7] = -(C_j[6] * t110 + C_j[7] * t111 + C_j[8] * t112);
-    jac_phi_geometry[8] = C_j[3] * (h_star_in_j_1 * t112 - h_star_in_j_2 * t111) + C_j[4] * (h_star_in_j_2 * t110 -
-        h_star_in_j_0 * t112) + C_j[5] * (h_star_in_j_0 * t111 - h_star_in_j_1 * t110);
     const jg_real t113 = A_i[0] * cosine_0;
     const jg_real t114 = A_i[1] * cosine_0;
     const jg_real t115 = A_i[2] * cosine_0;
     const jg_real t116 = A_j[0] * t113 + A_j[1] * t114 + A_j[2] * t115;
     const jg_real t117 = A_j[3] * t113 + A_j[4] * t114 + A_j[5] * t115;
     const jg_real t118 = A_j[6] * t113 + A_j[7] * t114 + A_j[8] * t115;
-    jac_phi_geometry[9] = C_j[6] * t116 + C_j[7] * t117 + C_j[8] * t118;
-    jac_phi_geometry[10] = C_j[3] * (h_star_in_j_2 * t117 - h_star_in_j_1 * t118) + C_j[4] * (h_star_in_j_0 * t118 -
-        h_star_in_j_2 * t116) + C_j[5] * (h_star_in_j_1 * t116 - h_star_in_j_0 * t117);
     const jg_real t119 = A_i[3] * cosine_0;
     const jg_real t120 = A_i[4] * cosine_0;
     const jg_real t121 = A_i[5] * cosine_0;
     const jg_real t122 = A_j[0] * t119 + A_j[1] * t120 + A_j[2] * t121;
     const jg_real t123 = A_j[3] * t119 + A_j[4] * t120 + A_j[5] * t121;
     const jg_real t124 = A_j[6] * t119 + A_j[7] * t120 + A_j[8] * t121;
+    jac_phi_geometry[5] = -(C_j[6] * t104 + C_j[7] * t105 + C_j[8] * t106);
+    jac_phi_geometry[6] = C_j[3] * (h_star_in_j_1 * t106 - h_star_in_j_2 * t105) + C_j[4] * (h_star_in_j_2 * t104 -
+        h_star_in_j_0 * t106) + C_j[5] * (h_star_in_j_0 * t105 - h_star_in_j_1 * t104);
+    jac_phi_geometry[7] = -(C_j[6] * t110 + C_j[7] * t111 + C_j[8] * t112);
+    jac_phi_geometry[8] = C_j[3] * (h_star_in_j_1 * t112 - h_star_in_j_2 * t111) + C_j[4] * (h_star_in_j_2 * t110 -
+        h_star_in_j_0 * t112) + C_j[5] * (h_star_in_j_0 * t111 - h_star_in_j_1 * t110);
+    jac_phi_geometry[9] = C_j[6] * t116 + C_j[7] * t117 + C_j[8] * t118;
+    jac_phi_geometry[10] = C_j[3] * (h_star_in_j_2 * t117 - h_star_in_j_1 * t118) + C_j[4] * (h_star_in_j_0 * t118 -
+        h_star_in_j_2 * t116) + C_j[5] * (h_star_in_j_1 * t116 - h_star_in_j_0 * t117);
     jac_phi_geometry[11] = C_j[6] * t122 + C_j[7] * t123 + C_j[8] * t124;
     jac_phi_geometry[12] = C_j[3] * (h_star_in_j_2 * t123 - h_star_in_j_1 * t124) + C_j[4] * (h_star_in_j_0 * t124 -
         h_star_in_j_2 * t122) + C_j[5] * (h_star_in_j_1 * t122 - h_star_in_j_0 * t123);
@@ -330,51 +330,49 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t128 = A_j[0] * t125 + A_j[1] * t126 + A_j[2] * t127;
     const jg_real t129 = A_j[3] * t125 + A_j[4] * t126 + A_j[5] * t127;
     const jg_real t130 = A_j[6] * t125 + A_j[7] * t126 + A_j[8] * t127;
+    const jg_real t131 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t132 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
+    const jg_real t133 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real t134 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[13] = C_j[6] * t128 + C_j[7] * t129 + C_j[8] * t130;
     jac_phi_geometry[14] = C_j[3] * (h_star_in_j_2 * t129 - h_star_in_j_1 * t130) + C_j[4] * (h_star_in_j_0 * t130 -
         h_star_in_j_2 * t128) + C_j[5] * (h_star_in_j_1 * t128 - h_star_in_j_0 * t129);
-    const jg_real t131 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[21] = t131;
-    const jg_real t132 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     jac_phi_geometry[24] = t132;
-    const jg_real t133 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[27] = t133;
     jac_phi_geometry[15] = C_j[0] * t131 + C_j[1] * t132 + C_j[2] * t133;
     jac_phi_geometry[16] = C_j[3] * (t133 * g_star_in_j_1 - t132 * g_star_in_j_2) + C_j[4] * (t131 * g_star_in_j_2 -
         t133 * g_star_in_j_0) + C_j[5] * (t132 * g_star_in_j_0 - t131 * g_star_in_j_1);
-    const jg_real t134 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[22] = t134;
     const jg_real t135 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_geometry[25] = t135;
     const jg_real t136 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real t137 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real t138 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real t139 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[25] = t135;
     jac_phi_geometry[28] = t136;
     jac_phi_geometry[17] = C_j[0] * t134 + C_j[1] * t135 + C_j[2] * t136;
     jac_phi_geometry[18] = C_j[3] * (t136 * g_star_in_j_1 - t135 * g_star_in_j_2) + C_j[4] * (t134 * g_star_in_j_2 -
         t136 * g_star_in_j_0) + C_j[5] * (t135 * g_star_in_j_0 - t134 * g_star_in_j_1);
-    const jg_real t137 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
     jac_phi_geometry[23] = t137;
-    const jg_real t138 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[26] = t138;
-    const jg_real t139 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[29] = t139;
     jac_phi_geometry[19] = C_j[0] * t137 + C_j[1] * t138 + C_j[2] * t139;
-    jac_phi_geometry[20] = C_j[3] * (t139 * g_star_in_j_1 - t138 * g_star_in_j_2) + C_j[4] * (t137 * g_star_in_j_2 -
-        t139 * g_star_in_j_0) + C_j[5] * (t138 * g_star_in_j_0 - t137 * g_star_in_j_1);
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
-    jac_phi_geometry[33] = f_star_in_j_0;
     const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
-    jac_phi_geometry[34] = f_star_in_j_1;
     const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
+    jac_phi_geometry[20] = C_j[3] * (t139 * g_star_in_j_1 - t138 * g_star_in_j_2) + C_j[4] * (t137 * g_star_in_j_2 -
+        t139 * g_star_in_j_0) + C_j[5] * (t138 * g_star_in_j_0 - t137 * g_star_in_j_1);
+    jac_phi_geometry[33] = f_star_in_j_0;
+    jac_phi_geometry[34] = f_star_in_j_1;
     jac_phi_geometry[35] = f_star_in_j_2;
 }
 
-static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_alpha,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *jac_phi_q_v_r_i, jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j,
+    jg_real *jac_phi_q_v_alpha, jg_real *jac_phi_q_v_geometry, jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -384,40 +382,35 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
     const jg_real t0 = omega_i[2] * A_i[3] - A_i[6] * omega_i[1];
+    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
+    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
+    const jg_real t3 = omega_i[2] * A_i[4] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     jac_phi_q_v_r_j[1] = t1;
     jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
     jac_phi_q_v_r_j[2] = t2;
     jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = omega_i[2] * A_i[4] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[3] = t3;
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
+    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
+    const jg_real t6 = omega_i[2] * A_i[5] - A_i[8] * omega_i[1];
+    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
     jac_phi_q_v_r_j[5] = t5;
     jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = omega_i[2] * A_i[5] - A_i[8] * omega_i[1];
     jac_phi_q_v_r_j[6] = t6;
     jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_v_velocity[26] = A_ji_8;
     const jg_real t11 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_v_velocity[20] = A_ji_6;
     const jg_real t13 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
     const jg_real t14 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
     const jg_real t15 = s_j[0] * t11 + s_j[1] * t13 + s_j[2] * t14;
@@ -430,28 +423,26 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     const jg_real t22 = A_j[0] * v_0_in_j_0 + A_j[3] * v_0_in_j_1 + A_j[6] * v_0_in_j_2;
-    jac_phi_q_v_A_i[0] = t22 + omega_i[2] * t15;
     /* v_1_world = r_j - r_i, world axes */
     const jg_real v_1_world_0 = r_j[0] - r_i[0];
     const jg_real t24 = omega_i[2] * v_1_world_0;
-    jac_phi_q_v_A_i[18] = t24;
     const jg_real t25 = A_j[3] * s_j[1] + s_j[0] * A_j[0] + A_j[6] * s_j[2];
+    jac_phi_q_v_r_j[8] = t8;
+    jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_velocity[23] = A_ji_7;
+    jac_phi_q_v_velocity[26] = A_ji_8;
+    jac_phi_q_v_velocity[20] = A_ji_6;
+    jac_phi_q_v_A_i[0] = t22 + omega_i[2] * t15;
+    jac_phi_q_v_A_i[18] = t24;
     jac_phi_q_v_A_i[1] = v_0_in_j_0 * t11 + v_0_in_j_1 * t13 + v_0_in_j_2 * t14 - t24 - omega_i[2] * t25;
     const jg_real t26 = omega_i[1] * t25;
     const jg_real t27 = omega_i[1] * v_1_world_0;
-    jac_phi_q_v_A_i[2] = t26 - omega_i[0] * t15 + t27;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_v_velocity[24] = A_ji_2;
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[21] = A_ji_1;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[19] = A_ji_3;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[18] = A_ji_0;
     const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
-    jac_phi_q_v_velocity[22] = A_ji_4;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
-    jac_phi_q_v_velocity[25] = A_ji_5;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
@@ -464,25 +455,25 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real g_j_in_joint_i_1 = C_i[4] * g_j_in_i_1 + C_i[3] * g_j_in_i_0 + C_i[5] * g_j_in_i_2;
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_joint_i_0 * cosine_0 + g_j_in_joint_i_1 * sine_0;
-    const jg_real t42 = C_j[6] * t11 + C_j[7] * t13 + C_j[8] * t14;
+    const jg_real t42 = t11 * C_j[6] + t13 * C_j[7] + t14 * C_j[8];
     const jg_real t43 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t44 = C_i[6] * t43 + C_i[7] * t42;
+    const jg_real t44 = t42 * C_i[7] + C_i[6] * t43;
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
-    const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + A_ji_2 * C_j[8];
-    const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
+    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
+    const jg_real h_j_in_joint_i_2 = h_j_in_i_1 * C_i[7] + C_i[6] * h_j_in_i_0 + C_i[8] * h_j_in_i_2;
     const jg_real t49 = t11 * C_j[3] + t13 * C_j[4] + t14 * C_j[5];
     const jg_real t50 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real t51 = C_i[1] * t49 + C_i[0] * t50;
     const jg_real t52 = C_i[4] * t49 + C_i[3] * t50;
     const jg_real g_j_in_joint_i_2 = C_i[7] * g_j_in_i_1 + C_i[6] * g_j_in_i_0 + C_i[8] * g_j_in_i_2;
-    const jg_real t54 = C_i[0] * t43 + C_i[1] * t42;
-    const jg_real t55 = C_i[3] * t43 + C_i[4] * t42;
+    const jg_real t54 = C_i[1] * t42 + C_i[0] * t43;
+    const jg_real t55 = t42 * C_i[4] + C_i[3] * t43;
     const jg_real t56 = t54 * cosine_0 + t55 * sine_0;
-    const jg_real h_j_in_joint_i_0 = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
-    const jg_real h_j_in_joint_i_1 = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
+    const jg_real h_j_in_joint_i_0 = C_i[1] * h_j_in_i_1 + C_i[0] * h_j_in_i_0 + C_i[2] * h_j_in_i_2;
+    const jg_real h_j_in_joint_i_1 = h_j_in_i_1 * C_i[4] + C_i[3] * h_j_in_i_0 + C_i[5] * h_j_in_i_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = h_j_in_joint_i_0 * cosine_0 + h_j_in_joint_i_1 * sine_0;
     const jg_real t60 = C_i[7] * t49 + C_i[6] * t50;
@@ -498,149 +489,156 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real omega_i_in_joint_i_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     /* omega_i_in_star = omega_i, axes of body star */
     const jg_real omega_i_in_star_0 = omega_i_in_joint_i_0 * cosine_0 + omega_i_in_joint_i_1 * sine_0;
+    jac_phi_q_v_A_i[2] = t26 - omega_i[0] * t15 + t27;
+    jac_phi_q_v_velocity[24] = A_ji_2;
+    jac_phi_q_v_velocity[21] = A_ji_1;
+    jac_phi_q_v_velocity[19] = A_ji_3;
+    jac_phi_q_v_velocity[18] = A_ji_0;
+    jac_phi_q_v_velocity[22] = A_ji_4;
+    jac_phi_q_v_velocity[25] = A_ji_5;
     jac_phi_q_v_A_i[3] = t44 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t56 - alphadot * t56 -
         (omega_j_in_joint_j_0 * t63 + omega_j_in_joint_j_1 * t61);
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = g_j_in_joint_i_1 * cosine_0 - g_j_in_joint_i_0 * sine_0;
-    jac_phi_q_v_velocity[46] = g_star_dot_g_j;
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = h_j_in_joint_i_1 * cosine_0 - h_j_in_joint_i_0 * sine_0;
     const jg_real t71 = t44 * g_star_dot_g_j + h_j_in_joint_i_2 * t63 - (g_j_in_joint_i_2 * (t55 * cosine_0 - t54 *
         sine_0) + t60 * g_star_dot_h_j);
     const jg_real omega_i_in_star_1 = omega_i_in_joint_i_1 * cosine_0 - omega_i_in_joint_i_0 * sine_0;
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    jac_phi_q_v_A_i[4] = omega_i_in_star_0 * t61 + omega_i_in_star_1 * t71 - (t44 * omega_j_in_joint_j_1 - t60 *
-        omega_j_in_joint_j_2);
-    jac_phi_q_v_A_i[5] = omega_i_in_joint_i_2 * t63 - t60 * omega_i_in_star_1 + alphadot * t63 -
-        (omega_j_in_joint_j_2 * t71 - omega_j_in_joint_j_0 * t56);
     const jg_real t74 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t75 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t76 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t77 = s_j[0] * t74 + s_j[1] * t75 + s_j[2] * t76;
     const jg_real t78 = A_j[1] * v_0_in_j_0 + A_j[4] * v_0_in_j_1 + A_j[7] * v_0_in_j_2;
-    jac_phi_q_v_A_i[6] = t78 + omega_i[2] * t77;
     const jg_real v_1_world_1 = r_j[1] - r_i[1];
     const jg_real t80 = omega_i[2] * v_1_world_1;
-    jac_phi_q_v_A_i[20] = t80;
     const jg_real t81 = A_j[4] * s_j[1] + s_j[0] * A_j[1] + A_j[7] * s_j[2];
-    jac_phi_q_v_A_i[7] = v_0_in_j_0 * t74 + v_0_in_j_1 * t75 + v_0_in_j_2 * t76 - t80 - omega_i[2] * t81;
     const jg_real t82 = omega_i[1] * t81;
     const jg_real t83 = omega_i[1] * v_1_world_1;
-    jac_phi_q_v_A_i[8] = t82 - omega_i[0] * t77 + t83;
-    const jg_real t84 = C_j[6] * t74 + C_j[7] * t75 + C_j[8] * t76;
+    const jg_real t84 = t74 * C_j[6] + t75 * C_j[7] + t76 * C_j[8];
     const jg_real t85 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t86 = C_i[6] * t85 + C_i[7] * t84;
+    const jg_real t86 = t84 * C_i[7] + C_i[6] * t85;
     const jg_real t87 = t74 * C_j[3] + t75 * C_j[4] + t76 * C_j[5];
     const jg_real t88 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real t89 = C_i[1] * t87 + C_i[0] * t88;
     const jg_real t90 = C_i[4] * t87 + C_i[3] * t88;
-    const jg_real t91 = C_i[0] * t85 + C_i[1] * t84;
-    const jg_real t92 = C_i[3] * t85 + C_i[4] * t84;
+    const jg_real t91 = C_i[1] * t84 + C_i[0] * t85;
+    const jg_real t92 = t84 * C_i[4] + C_i[3] * t85;
     const jg_real t93 = t91 * cosine_0 + t92 * sine_0;
     const jg_real t94 = C_i[7] * t87 + C_i[6] * t88;
     const jg_real t95 = t86 * f_star_dot_g_j + h_j_in_joint_i_2 * (t89 * cosine_0 + t90 * sine_0) -
         (g_j_in_joint_i_2 * t93 + t94 * f_star_dot_h_j);
     const jg_real t96 = t90 * cosine_0 - t89 * sine_0;
+    jac_phi_q_v_velocity[46] = g_star_dot_g_j;
+    jac_phi_q_v_A_i[4] = omega_i_in_star_0 * t61 + omega_i_in_star_1 * t71 - (t44 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t60);
+    jac_phi_q_v_A_i[5] = omega_i_in_joint_i_2 * t63 - t60 * omega_i_in_star_1 + alphadot * t63 -
+        (omega_j_in_joint_j_2 * t71 - omega_j_in_joint_j_0 * t56);
+    jac_phi_q_v_A_i[6] = t78 + omega_i[2] * t77;
+    jac_phi_q_v_A_i[20] = t80;
+    jac_phi_q_v_A_i[7] = v_0_in_j_0 * t74 + v_0_in_j_1 * t75 + v_0_in_j_2 * t76 - t80 - omega_i[2] * t81;
+    jac_phi_q_v_A_i[8] = t82 - omega_i[0] * t77 + t83;
     jac_phi_q_v_A_i[9] = t86 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t93 - alphadot * t93 -
         (omega_j_in_joint_j_0 * t96 + omega_j_in_joint_j_1 * t95);
     const jg_real t97 = t86 * g_star_dot_g_j + h_j_in_joint_i_2 * t96 - (g_j_in_joint_i_2 * (t92 * cosine_0 - t91 *
         sine_0) + t94 * g_star_dot_h_j);
-    jac_phi_q_v_A_i[10] = omega_i_in_star_0 * t95 + omega_i_in_star_1 * t97 - (t86 * omega_j_in_joint_j_1 - t94 *
-        omega_j_in_joint_j_2);
-    jac_phi_q_v_A_i[11] = omega_i_in_joint_i_2 * t96 - t94 * omega_i_in_star_1 + alphadot * t96 -
-        (omega_j_in_joint_j_2 * t97 - omega_j_in_joint_j_0 * t93);
     const jg_real t98 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t99 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t100 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t101 = s_j[0] * t98 + s_j[1] * t99 + s_j[2] * t100;
     const jg_real t102 = A_j[2] * v_0_in_j_0 + A_j[5] * v_0_in_j_1 + A_j[8] * v_0_in_j_2;
-    jac_phi_q_v_A_i[12] = t102 + omega_i[2] * t101;
     const jg_real v_1_world_2 = r_j[2] - r_i[2];
     const jg_real t104 = omega_i[2] * v_1_world_2;
-    jac_phi_q_v_A_i[22] = t104;
     const jg_real t105 = A_j[5] * s_j[1] + s_j[0] * A_j[2] + A_j[8] * s_j[2];
-    jac_phi_q_v_A_i[13] = v_0_in_j_0 * t98 + v_0_in_j_1 * t99 + v_0_in_j_2 * t100 - t104 - omega_i[2] * t105;
     const jg_real t106 = omega_i[1] * t105;
     const jg_real t107 = omega_i[1] * v_1_world_2;
-    jac_phi_q_v_A_i[14] = t106 - omega_i[0] * t101 + t107;
-    const jg_real t108 = C_j[6] * t98 + C_j[7] * t99 + C_j[8] * t100;
+    const jg_real t108 = t98 * C_j[6] + t99 * C_j[7] + t100 * C_j[8];
     const jg_real t109 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t110 = C_i[6] * t109 + C_i[7] * t108;
+    const jg_real t110 = t108 * C_i[7] + C_i[6] * t109;
     const jg_real t111 = t98 * C_j[3] + t99 * C_j[4] + t100 * C_j[5];
     const jg_real t112 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     const jg_real t113 = C_i[1] * t111 + C_i[0] * t112;
     const jg_real t114 = C_i[4] * t111 + C_i[3] * t112;
-    const jg_real t115 = C_i[0] * t109 + C_i[1] * t108;
-    const jg_real t116 = C_i[3] * t109 + C_i[4] * t108;
+    const jg_real t115 = C_i[1] * t108 + C_i[0] * t109;
+    const jg_real t116 = t108 * C_i[4] + C_i[3] * t109;
     const jg_real t117 = t115 * cosine_0 + t116 * sine_0;
     const jg_real t118 = C_i[7] * t111 + C_i[6] * t112;
     const jg_real t119 = t110 * f_star_dot_g_j + h_j_in_joint_i_2 * (t113 * cosine_0 + t114 * sine_0) -
         (g_j_in_joint_i_2 * t117 + t118 * f_star_dot_h_j);
     const jg_real t120 = t114 * cosine_0 - t113 * sine_0;
-    jac_phi_q_v_A_i[15] = t110 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t117 - alphadot * t117 -
-        (omega_j_in_joint_j_0 * t120 + omega_j_in_joint_j_1 * t119);
     const jg_real t121 = t110 * g_star_dot_g_j + h_j_in_joint_i_2 * t120 - (g_j_in_joint_i_2 * (t116 * cosine_0 -
         t115 * sine_0) + t118 * g_star_dot_h_j);
-    jac_phi_q_v_A_i[16] = omega_i_in_star_0 * t119 + omega_i_in_star_1 * t121 - (t110 * omega_j_in_joint_j_1 - t118
-        * omega_j_in_joint_j_2);
-    jac_phi_q_v_A_i[17] = omega_i_in_joint_i_2 * t120 - t118 * omega_i_in_star_1 + alphadot * t120 -
-        (omega_j_in_joint_j_2 * t121 - omega_j_in_joint_j_0 * t117);
+    jac_phi_q_v_A_i[10] = omega_i_in_star_0 * t95 + omega_i_in_star_1 * t97 - (t86 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t94);
+    jac_phi_q_v_A_i[11] = omega_i_in_joint_i_2 * t96 - t94 * omega_i_in_star_1 + alphadot * t96 -
+        (omega_j_in_joint_j_2 * t97 - omega_j_in_joint_j_0 * t93);
+    jac_phi_q_v_A_i[12] = t102 + omega_i[2] * t101;
+    jac_phi_q_v_A_i[22] = t104;
+    jac_phi_q_v_A_i[13] = v_0_in_j_0 * t98 + v_0_in_j_1 * t99 + v_0_in_j_2 * t100 - t104 - omega_i[2] * t105;
+    jac_phi_q_v_A_i[14] = t106 - omega_i[0] * t101 + t107;
+    jac_phi_q_v_A_i[15] = t110 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t117 - alphadot * t117 -
+        (omega_j_in_joint_j_0 * t120 + omega_j_in_joint_j_1 * t119);
+    jac_phi_q_v_A_i[16] = omega_i_in_star_0 * t119 + omega_i_in_star_1 * t121 - (t110 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t118);
     const jg_real t122 = v_1_world_0 * omega_i[0];
-    jac_phi_q_v_A_i[19] = -t122;
     const jg_real t123 = v_1_world_1 * omega_i[0];
-    jac_phi_q_v_A_i[21] = -t123;
     const jg_real t124 = v_1_world_2 * omega_i[0];
-    jac_phi_q_v_A_i[23] = -t124;
     const jg_real t125 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t126 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t127 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t128 = s_j[0] * t125 + s_j[1] * t126 + s_j[2] * t127;
-    jac_phi_q_v_A_i[24] = omega_i[2] * t128 - t26 - t27;
-    jac_phi_q_v_A_i[25] = v_0_in_j_0 * t125 + v_0_in_j_1 * t126 + v_0_in_j_2 * t127 + t122 + omega_i[0] * t25;
-    jac_phi_q_v_A_i[26] = t22 - omega_i[0] * t128;
-    const jg_real t129 = C_j[6] * t125 + C_j[7] * t126 + C_j[8] * t127;
-    const jg_real t130 = C_i[7] * t129 + C_i[8] * t43;
+    const jg_real t129 = t125 * C_j[6] + t126 * C_j[7] + t127 * C_j[8];
+    const jg_real t130 = t129 * C_i[7] + t43 * C_i[8];
     const jg_real t131 = t125 * C_j[3] + t126 * C_j[4] + t127 * C_j[5];
     const jg_real t132 = C_i[1] * t131 + C_i[2] * t50;
     const jg_real t133 = C_i[4] * t131 + C_i[5] * t50;
     const jg_real t134 = C_i[1] * t129 + C_i[2] * t43;
-    const jg_real t135 = C_i[4] * t129 + C_i[5] * t43;
+    const jg_real t135 = t129 * C_i[4] + C_i[5] * t43;
     const jg_real t136 = t134 * cosine_0 + t135 * sine_0;
     const jg_real t137 = C_i[7] * t131 + C_i[8] * t50;
     const jg_real t138 = t130 * f_star_dot_g_j + h_j_in_joint_i_2 * (t132 * cosine_0 + t133 * sine_0) -
         (g_j_in_joint_i_2 * t136 + t137 * f_star_dot_h_j);
     const jg_real t139 = t133 * cosine_0 - t132 * sine_0;
+    jac_phi_q_v_A_i[17] = omega_i_in_joint_i_2 * t120 - t118 * omega_i_in_star_1 + alphadot * t120 -
+        (omega_j_in_joint_j_2 * t121 - omega_j_in_joint_j_0 * t117);
+    jac_phi_q_v_A_i[19] = -t122;
+    jac_phi_q_v_A_i[21] = -t123;
+    jac_phi_q_v_A_i[23] = -t124;
+    jac_phi_q_v_A_i[24] = omega_i[2] * t128 - t26 - t27;
+    jac_phi_q_v_A_i[25] = v_0_in_j_0 * t125 + v_0_in_j_1 * t126 + v_0_in_j_2 * t127 + t122 + omega_i[0] * t25;
+    jac_phi_q_v_A_i[26] = t22 - omega_i[0] * t128;
     jac_phi_q_v_A_i[27] = t130 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t136 - alphadot * t136 -
         (omega_j_in_joint_j_0 * t139 + omega_j_in_joint_j_1 * t138);
     const jg_real t140 = t130 * g_star_dot_g_j + h_j_in_joint_i_2 * t139 - (g_j_in_joint_i_2 * (t135 * cosine_0 -
         t134 * sine_0) + t137 * g_star_dot_h_j);
-    jac_phi_q_v_A_i[28] = omega_i_in_star_0 * t138 + omega_i_in_star_1 * t140 - (t130 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t137);
-    jac_phi_q_v_A_i[29] = omega_i_in_joint_i_2 * t139 - t137 * omega_i_in_star_1 + alphadot * t139 -
-        (omega_j_in_joint_j_2 * t140 - omega_j_in_joint_j_0 * t136);
     const jg_real t141 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t142 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t143 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t144 = s_j[0] * t141 + s_j[1] * t142 + s_j[2] * t143;
-    jac_phi_q_v_A_i[30] = omega_i[2] * t144 - t82 - t83;
-    jac_phi_q_v_A_i[31] = v_0_in_j_0 * t141 + v_0_in_j_1 * t142 + v_0_in_j_2 * t143 + t123 + omega_i[0] * t81;
-    jac_phi_q_v_A_i[32] = t78 - omega_i[0] * t144;
-    const jg_real t145 = C_j[6] * t141 + C_j[7] * t142 + C_j[8] * t143;
-    const jg_real t146 = C_i[7] * t145 + C_i[8] * t85;
+    const jg_real t145 = t141 * C_j[6] + t142 * C_j[7] + t143 * C_j[8];
+    const jg_real t146 = t145 * C_i[7] + t85 * C_i[8];
     const jg_real t147 = t141 * C_j[3] + t142 * C_j[4] + t143 * C_j[5];
     const jg_real t148 = C_i[1] * t147 + C_i[2] * t88;
     const jg_real t149 = C_i[4] * t147 + C_i[5] * t88;
     const jg_real t150 = C_i[1] * t145 + C_i[2] * t85;
-    const jg_real t151 = C_i[4] * t145 + C_i[5] * t85;
+    const jg_real t151 = t145 * C_i[4] + C_i[5] * t85;
     const jg_real t152 = t150 * cosine_0 + t151 * sine_0;
     const jg_real t153 = C_i[7] * t147 + C_i[8] * t88;
     const jg_real t154 = t146 * f_star_dot_g_j + h_j_in_joint_i_2 * (t148 * cosine_0 + t149 * sine_0) -
         (g_j_in_joint_i_2 * t152 + t153 * f_star_dot_h_j);
     const jg_real t155 = t149 * cosine_0 - t148 * sine_0;
-    jac_phi_q_v_A_i[33] = t146 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t152 - alphadot * t152 -
-        (omega_j_in_joint_j_0 * t155 + omega_j_in_joint_j_1 * t154);
     const jg_real t156 = t146 * g_star_dot_g_j + h_j_in_joint_i_2 * t155 - (g_j_in_joint_i_2 * (t151 * cosine_0 -
         t150 * sine_0) + t153 * g_star_dot_h_j);
+    jac_phi_q_v_A_i[28] = omega_i_in_star_0 * t138 + omega_i_in_star_1 * t140 - (t130 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t137);
+    jac_phi_q_v_A_i[29] = omega_i_in_joint_i_2 * t139 - t137 * omega_i_in_star_1 + alphadot * t139 -
+        (omega_j_in_joint_j_2 * t140 - omega_j_in_joint_j_0 * t136);
+    jac_phi_q_v_A_i[30] = omega_i[2] * t144 - t82 - t83;
+    jac_phi_q_v_A_i[31] = v_0_in_j_0 * t141 + v_0_in_j_1 * t142 + v_0_in_j_2 * t143 + t123 + omega_i[0] * t81;
+    jac_phi_q_v_A_i[32] = t78 - omega_i[0] * t144;
+    jac_phi_q_v_A_i[33] = t146 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t152 - alphadot * t152 -
+        (omega_j_in_joint_j_0 * t155 + omega_j_in_joint_j_1 * t154);
     jac_phi_q_v_A_i[34] = omega_i_in_star_0 * t154 + omega_i_in_star_1 * t156 - (t146 * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * t153);
     jac_phi_q_v_A_i[35] = omega_i_in_joint_i_2 * t155 - t153 * omega_i_in_star_1 + alphadot * t155 -
@@ -649,121 +647,121 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t158 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t159 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t160 = s_j[0] * t157 + s_j[1] * t158 + s_j[2] * t159;
-    jac_phi_q_v_A_i[36] = omega_i[2] * t160 - t106 - t107;
-    jac_phi_q_v_A_i[37] = v_0_in_j_0 * t157 + v_0_in_j_1 * t158 + v_0_in_j_2 * t159 + t124 + omega_i[0] * t105;
-    jac_phi_q_v_A_i[38] = t102 - omega_i[0] * t160;
-    const jg_real t161 = C_j[6] * t157 + C_j[7] * t158 + C_j[8] * t159;
-    const jg_real t162 = C_i[7] * t161 + C_i[8] * t109;
+    const jg_real t161 = t157 * C_j[6] + t158 * C_j[7] + t159 * C_j[8];
+    const jg_real t162 = t161 * C_i[7] + t109 * C_i[8];
     const jg_real t163 = t157 * C_j[3] + t158 * C_j[4] + t159 * C_j[5];
     const jg_real t164 = C_i[1] * t163 + C_i[2] * t112;
     const jg_real t165 = C_i[4] * t163 + C_i[5] * t112;
     const jg_real t166 = C_i[1] * t161 + C_i[2] * t109;
-    const jg_real t167 = C_i[4] * t161 + C_i[5] * t109;
+    const jg_real t167 = t161 * C_i[4] + C_i[5] * t109;
     const jg_real t168 = t166 * cosine_0 + t167 * sine_0;
     const jg_real t169 = C_i[7] * t163 + C_i[8] * t112;
     const jg_real t170 = t162 * f_star_dot_g_j + h_j_in_joint_i_2 * (t164 * cosine_0 + t165 * sine_0) -
         (g_j_in_joint_i_2 * t168 + t169 * f_star_dot_h_j);
     const jg_real t171 = t165 * cosine_0 - t164 * sine_0;
-    jac_phi_q_v_A_i[39] = t162 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t168 - alphadot * t168 -
-        (omega_j_in_joint_j_0 * t171 + omega_j_in_joint_j_1 * t170);
     const jg_real t172 = t162 * g_star_dot_g_j + h_j_in_joint_i_2 * t171 - (g_j_in_joint_i_2 * (t167 * cosine_0 -
         t166 * sine_0) + t169 * g_star_dot_h_j);
-    jac_phi_q_v_A_i[40] = omega_i_in_star_0 * t170 + omega_i_in_star_1 * t172 - (t162 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t169);
-    jac_phi_q_v_A_i[41] = omega_i_in_joint_i_2 * t171 - t169 * omega_i_in_star_1 + alphadot * t171 -
-        (omega_j_in_joint_j_2 * t172 - omega_j_in_joint_j_0 * t168);
     const jg_real t173 = A_i[6] * A_ji_2 - A_i[0] * A_ji_8;
     const jg_real t174 = A_i[0] * A_ji_7 - A_i[6] * A_ji_1;
     const jg_real t175 = s_j[1] * t173 + s_j[2] * t174;
     const jg_real t176 = A_i[6] * s_j[0];
-    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_0 - (omega_i[1] * t176 + omega_i[2] * t175);
     const jg_real t177 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_i[36] = omega_i[2] * t160 - t106 - t107;
+    jac_phi_q_v_A_i[37] = v_0_in_j_0 * t157 + v_0_in_j_1 * t158 + v_0_in_j_2 * t159 + t124 + omega_i[0] * t105;
+    jac_phi_q_v_A_i[38] = t102 - omega_i[0] * t160;
+    jac_phi_q_v_A_i[39] = t162 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t168 - alphadot * t168 -
+        (omega_j_in_joint_j_0 * t171 + omega_j_in_joint_j_1 * t170);
+    jac_phi_q_v_A_i[40] = omega_i_in_star_0 * t170 + omega_i_in_star_1 * t172 - (t162 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t169);
+    jac_phi_q_v_A_i[41] = omega_i_in_joint_i_2 * t171 - t169 * omega_i_in_star_1 + alphadot * t171 -
+        (omega_j_in_joint_j_2 * t172 - omega_j_in_joint_j_0 * t168);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_0 - (omega_i[1] * t176 + omega_i[2] * t175);
     jac_phi_q_v_A_j[1] = omega_i[0] * t176 - omega_i[2] * t177 - (v_0_in_j_1 * t173 + v_0_in_j_2 * t174);
-    jac_phi_q_v_A_j[2] = omega_i[1] * t177 + omega_i[0] * t175 + A_i[6] * v_0_in_j_0;
-    const jg_real t178 = C_j[7] * t173 + C_j[8] * t174;
+    const jg_real t178 = t173 * C_j[7] + t174 * C_j[8];
     const jg_real t179 = A_i[0] * C_j[6];
     const jg_real t180 = A_i[6] * C_j[6];
-    const jg_real t181 = C_i[6] * t179 - C_i[7] * t178 + C_i[8] * t180;
+    const jg_real t181 = t179 * C_i[6] - t178 * C_i[7] + t180 * C_i[8];
     const jg_real t182 = t173 * C_j[4] + t174 * C_j[5];
     const jg_real t183 = A_i[0] * C_j[3];
     const jg_real t184 = A_i[6] * C_j[3];
     const jg_real t185 = C_i[0] * t183 - C_i[1] * t182 + C_i[2] * t184;
     const jg_real t186 = C_i[3] * t183 - C_i[4] * t182 + C_i[5] * t184;
-    const jg_real t187 = C_i[0] * t179 - C_i[1] * t178 + C_i[2] * t180;
-    const jg_real t188 = C_i[3] * t179 - C_i[4] * t178 + C_i[5] * t180;
+    const jg_real t187 = t179 * C_i[0] - C_i[1] * t178 + t180 * C_i[2];
+    const jg_real t188 = t179 * C_i[3] - t178 * C_i[4] + t180 * C_i[5];
     const jg_real t189 = t187 * cosine_0 + t188 * sine_0;
     const jg_real t190 = C_i[6] * t183 - C_i[7] * t182 + C_i[8] * t184;
     const jg_real t191 = t181 * f_star_dot_g_j + h_j_in_joint_i_2 * (t185 * cosine_0 + t186 * sine_0) -
         (g_j_in_joint_i_2 * t189 + t190 * f_star_dot_h_j);
     const jg_real t192 = t186 * cosine_0 - t185 * sine_0;
-    jac_phi_q_v_A_j[3] = t181 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t189 - alphadot * t189 -
-        (omega_j_in_joint_j_0 * t192 + omega_j_in_joint_j_1 * t191);
     const jg_real t193 = t181 * g_star_dot_g_j + h_j_in_joint_i_2 * t192 - (g_j_in_joint_i_2 * (t188 * cosine_0 -
         t187 * sine_0) + t190 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[4] = omega_i_in_star_0 * t191 + omega_i_in_star_1 * t193 - (t181 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t190);
-    jac_phi_q_v_A_j[5] = omega_i_in_joint_i_2 * t192 - t190 * omega_i_in_star_1 + alphadot * t192 -
-        (omega_j_in_joint_j_2 * t193 - omega_j_in_joint_j_0 * t189);
     const jg_real t194 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
     const jg_real t195 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
     const jg_real t196 = s_j[1] * t194 + s_j[2] * t195;
     const jg_real t197 = A_i[7] * s_j[0];
-    jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_0 - (omega_i[1] * t197 + omega_i[2] * t196);
     const jg_real t198 = A_i[1] * s_j[0];
-    jac_phi_q_v_A_j[7] = omega_i[0] * t197 - omega_i[2] * t198 - (v_0_in_j_1 * t194 + v_0_in_j_2 * t195);
-    jac_phi_q_v_A_j[8] = omega_i[1] * t198 + omega_i[0] * t196 + A_i[7] * v_0_in_j_0;
-    const jg_real t199 = C_j[7] * t194 + C_j[8] * t195;
+    const jg_real t199 = t194 * C_j[7] + t195 * C_j[8];
     const jg_real t200 = A_i[1] * C_j[6];
     const jg_real t201 = A_i[7] * C_j[6];
-    const jg_real t202 = C_i[6] * t200 - C_i[7] * t199 + C_i[8] * t201;
+    const jg_real t202 = t200 * C_i[6] - t199 * C_i[7] + t201 * C_i[8];
     const jg_real t203 = t194 * C_j[4] + t195 * C_j[5];
     const jg_real t204 = A_i[1] * C_j[3];
     const jg_real t205 = A_i[7] * C_j[3];
     const jg_real t206 = C_i[0] * t204 - C_i[1] * t203 + C_i[2] * t205;
     const jg_real t207 = C_i[3] * t204 - C_i[4] * t203 + C_i[5] * t205;
-    const jg_real t208 = C_i[0] * t200 - C_i[1] * t199 + C_i[2] * t201;
-    const jg_real t209 = C_i[3] * t200 - C_i[4] * t199 + C_i[5] * t201;
+    const jg_real t208 = t200 * C_i[0] - C_i[1] * t199 + t201 * C_i[2];
+    const jg_real t209 = t200 * C_i[3] - t199 * C_i[4] + t201 * C_i[5];
     const jg_real t210 = t208 * cosine_0 + t209 * sine_0;
     const jg_real t211 = C_i[6] * t204 - C_i[7] * t203 + C_i[8] * t205;
     const jg_real t212 = t202 * f_star_dot_g_j + h_j_in_joint_i_2 * (t206 * cosine_0 + t207 * sine_0) -
         (g_j_in_joint_i_2 * t210 + t211 * f_star_dot_h_j);
     const jg_real t213 = t207 * cosine_0 - t206 * sine_0;
+    jac_phi_q_v_A_j[2] = omega_i[0] * t175 + omega_i[1] * t177 + A_i[6] * v_0_in_j_0;
+    jac_phi_q_v_A_j[3] = t181 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t189 - alphadot * t189 -
+        (omega_j_in_joint_j_0 * t192 + omega_j_in_joint_j_1 * t191);
+    jac_phi_q_v_A_j[4] = omega_i_in_star_0 * t191 + omega_i_in_star_1 * t193 - (t181 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t190);
+    jac_phi_q_v_A_j[5] = omega_i_in_joint_i_2 * t192 - t190 * omega_i_in_star_1 + alphadot * t192 -
+        (omega_j_in_joint_j_2 * t193 - omega_j_in_joint_j_0 * t189);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_0 - (omega_i[1] * t197 + omega_i[2] * t196);
+    jac_phi_q_v_A_j[7] = omega_i[0] * t197 - omega_i[2] * t198 - (v_0_in_j_1 * t194 + v_0_in_j_2 * t195);
+    jac_phi_q_v_A_j[8] = omega_i[0] * t196 + omega_i[1] * t198 + A_i[7] * v_0_in_j_0;
     jac_phi_q_v_A_j[9] = t202 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t210 - alphadot * t210 -
         (omega_j_in_joint_j_0 * t213 + omega_j_in_joint_j_1 * t212);
     const jg_real t214 = t202 * g_star_dot_g_j + h_j_in_joint_i_2 * t213 - (g_j_in_joint_i_2 * (t209 * cosine_0 -
         t208 * sine_0) + t211 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[10] = omega_i_in_star_0 * t212 + omega_i_in_star_1 * t214 - (t202 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t211);
-    jac_phi_q_v_A_j[11] = omega_i_in_joint_i_2 * t213 - t211 * omega_i_in_star_1 + alphadot * t213 -
-        (omega_j_in_joint_j_2 * t214 - omega_j_in_joint_j_0 * t210);
     const jg_real t215 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
     const jg_real t216 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
     const jg_real t217 = s_j[1] * t215 + s_j[2] * t216;
     const jg_real t218 = A_i[8] * s_j[0];
-    jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_0 - (omega_i[1] * t218 + omega_i[2] * t217);
     const jg_real t219 = A_i[2] * s_j[0];
-    jac_phi_q_v_A_j[13] = omega_i[0] * t218 - omega_i[2] * t219 - (v_0_in_j_1 * t215 + v_0_in_j_2 * t216);
-    jac_phi_q_v_A_j[14] = omega_i[1] * t219 + omega_i[0] * t217 + A_i[8] * v_0_in_j_0;
-    const jg_real t220 = C_j[7] * t215 + C_j[8] * t216;
+    const jg_real t220 = t215 * C_j[7] + t216 * C_j[8];
     const jg_real t221 = A_i[2] * C_j[6];
     const jg_real t222 = A_i[8] * C_j[6];
-    const jg_real t223 = C_i[6] * t221 - C_i[7] * t220 + C_i[8] * t222;
+    const jg_real t223 = t221 * C_i[6] - t220 * C_i[7] + t222 * C_i[8];
     const jg_real t224 = t215 * C_j[4] + t216 * C_j[5];
     const jg_real t225 = A_i[2] * C_j[3];
     const jg_real t226 = A_i[8] * C_j[3];
     const jg_real t227 = C_i[0] * t225 - C_i[1] * t224 + C_i[2] * t226;
     const jg_real t228 = C_i[3] * t225 - C_i[4] * t224 + C_i[5] * t226;
-    const jg_real t229 = C_i[0] * t221 - C_i[1] * t220 + C_i[2] * t222;
-    const jg_real t230 = C_i[3] * t221 - C_i[4] * t220 + C_i[5] * t222;
+    const jg_real t229 = t221 * C_i[0] - C_i[1] * t220 + t222 * C_i[2];
+    const jg_real t230 = t221 * C_i[3] - t220 * C_i[4] + t222 * C_i[5];
     const jg_real t231 = t229 * cosine_0 + t230 * sine_0;
     const jg_real t232 = C_i[6] * t225 - C_i[7] * t224 + C_i[8] * t226;
     const jg_real t233 = t223 * f_star_dot_g_j + h_j_in_joint_i_2 * (t227 * cosine_0 + t228 * sine_0) -
         (g_j_in_joint_i_2 * t231 + t232 * f_star_dot_h_j);
     const jg_real t234 = t228 * cosine_0 - t227 * sine_0;
-    jac_phi_q_v_A_j[15] = t223 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t231 - alphadot * t231 -
-        (omega_j_in_joint_j_0 * t234 + omega_j_in_joint_j_1 * t233);
     const jg_real t235 = t223 * g_star_dot_g_j + h_j_in_joint_i_2 * t234 - (g_j_in_joint_i_2 * (t230 * cosine_0 -
         t229 * sine_0) + t232 * g_star_dot_h_j);
+    jac_phi_q_v_A_j[10] = omega_i_in_star_0 * t212 + omega_i_in_star_1 * t214 - (t202 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t211);
+    jac_phi_q_v_A_j[11] = omega_i_in_joint_i_2 * t213 - t211 * omega_i_in_star_1 + alphadot * t213 -
+        (omega_j_in_joint_j_2 * t214 - omega_j_in_joint_j_0 * t210);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_0 - (omega_i[1] * t218 + omega_i[2] * t217);
+    jac_phi_q_v_A_j[13] = omega_i[0] * t218 - omega_i[2] * t219 - (v_0_in_j_1 * t215 + v_0_in_j_2 * t216);
+    jac_phi_q_v_A_j[14] = omega_i[0] * t217 + omega_i[1] * t219 + A_i[8] * v_0_in_j_0;
+    jac_phi_q_v_A_j[15] = t223 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t231 - alphadot * t231 -
+        (omega_j_in_joint_j_0 * t234 + omega_j_in_joint_j_1 * t233);
     jac_phi_q_v_A_j[16] = omega_i_in_star_0 * t233 + omega_i_in_star_1 * t235 - (t223 * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * t232);
     jac_phi_q_v_A_j[17] = omega_i_in_joint_i_2 * t234 - t232 * omega_i_in_star_1 + alphadot * t234 -
@@ -771,233 +769,233 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     const jg_real t236 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
     const jg_real t237 = s_j[0] * t173 - s_j[2] * t236;
     const jg_real t238 = A_i[6] * s_j[1];
-    jac_phi_q_v_A_j[18] = omega_i[2] * t237 - omega_i[1] * t238 + A_i[0] * v_0_in_j_1;
     const jg_real t239 = A_i[0] * s_j[1];
-    jac_phi_q_v_A_j[19] = v_0_in_j_0 * t173 - v_0_in_j_2 * t236 + (omega_i[0] * t238 - omega_i[2] * t239);
-    jac_phi_q_v_A_j[20] = omega_i[1] * t239 - omega_i[0] * t237 + A_i[6] * v_0_in_j_1;
-    const jg_real t240 = C_j[6] * t173 - C_j[8] * t236;
+    const jg_real t240 = t173 * C_j[6] - t236 * C_j[8];
     const jg_real t241 = A_i[0] * C_j[7];
     const jg_real t242 = A_i[6] * C_j[7];
-    const jg_real t243 = C_i[6] * t241 + C_i[7] * t240 + C_i[8] * t242;
+    const jg_real t243 = t240 * C_i[7] + t241 * C_i[6] + t242 * C_i[8];
     const jg_real t244 = t173 * C_j[3] - t236 * C_j[5];
     const jg_real t245 = A_i[0] * C_j[4];
     const jg_real t246 = A_i[6] * C_j[4];
     const jg_real t247 = C_i[1] * t244 + C_i[0] * t245 + C_i[2] * t246;
     const jg_real t248 = C_i[4] * t244 + C_i[3] * t245 + C_i[5] * t246;
-    const jg_real t249 = C_i[0] * t241 + C_i[1] * t240 + C_i[2] * t242;
-    const jg_real t250 = C_i[3] * t241 + C_i[4] * t240 + C_i[5] * t242;
+    const jg_real t249 = C_i[1] * t240 + t241 * C_i[0] + t242 * C_i[2];
+    const jg_real t250 = t240 * C_i[4] + t241 * C_i[3] + t242 * C_i[5];
     const jg_real t251 = t249 * cosine_0 + t250 * sine_0;
     const jg_real t252 = C_i[7] * t244 + C_i[6] * t245 + C_i[8] * t246;
     const jg_real t253 = t243 * f_star_dot_g_j + h_j_in_joint_i_2 * (t247 * cosine_0 + t248 * sine_0) -
         (g_j_in_joint_i_2 * t251 + t252 * f_star_dot_h_j);
     const jg_real t254 = t248 * cosine_0 - t247 * sine_0;
-    jac_phi_q_v_A_j[21] = t243 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t251 - alphadot * t251 -
-        (omega_j_in_joint_j_0 * t254 + omega_j_in_joint_j_1 * t253);
     const jg_real t255 = t243 * g_star_dot_g_j + h_j_in_joint_i_2 * t254 - (g_j_in_joint_i_2 * (t250 * cosine_0 -
         t249 * sine_0) + t252 * g_star_dot_h_j);
+    const jg_real t256 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
+    const jg_real t257 = s_j[0] * t194 - s_j[2] * t256;
+    const jg_real t258 = A_i[7] * s_j[1];
+    const jg_real t259 = A_i[1] * s_j[1];
+    jac_phi_q_v_A_j[18] = omega_i[2] * t237 - omega_i[1] * t238 + A_i[0] * v_0_in_j_1;
+    jac_phi_q_v_A_j[19] = v_0_in_j_0 * t173 - v_0_in_j_2 * t236 + (t238 * omega_i[0] - omega_i[2] * t239);
+    jac_phi_q_v_A_j[20] = omega_i[1] * t239 - omega_i[0] * t237 + A_i[6] * v_0_in_j_1;
+    jac_phi_q_v_A_j[21] = t243 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t251 - alphadot * t251 -
+        (omega_j_in_joint_j_0 * t254 + omega_j_in_joint_j_1 * t253);
     jac_phi_q_v_A_j[22] = omega_i_in_star_0 * t253 + omega_i_in_star_1 * t255 - (t243 * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * t252);
     jac_phi_q_v_A_j[23] = omega_i_in_joint_i_2 * t254 - t252 * omega_i_in_star_1 + alphadot * t254 -
         (omega_j_in_joint_j_2 * t255 - omega_j_in_joint_j_0 * t251);
-    const jg_real t256 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
-    const jg_real t257 = s_j[0] * t194 - s_j[2] * t256;
-    const jg_real t258 = A_i[7] * s_j[1];
     jac_phi_q_v_A_j[24] = omega_i[2] * t257 - omega_i[1] * t258 + A_i[1] * v_0_in_j_1;
-    const jg_real t259 = A_i[1] * s_j[1];
-    jac_phi_q_v_A_j[25] = v_0_in_j_0 * t194 - v_0_in_j_2 * t256 + (omega_i[0] * t258 - omega_i[2] * t259);
-    jac_phi_q_v_A_j[26] = omega_i[1] * t259 - omega_i[0] * t257 + A_i[7] * v_0_in_j_1;
-    const jg_real t260 = C_j[6] * t194 - C_j[8] * t256;
+    jac_phi_q_v_A_j[25] = v_0_in_j_0 * t194 - v_0_in_j_2 * t256 + (t258 * omega_i[0] - omega_i[2] * t259);
+    const jg_real t260 = t194 * C_j[6] - t256 * C_j[8];
     const jg_real t261 = A_i[1] * C_j[7];
     const jg_real t262 = A_i[7] * C_j[7];
-    const jg_real t263 = C_i[6] * t261 + C_i[7] * t260 + C_i[8] * t262;
+    const jg_real t263 = t260 * C_i[7] + t261 * C_i[6] + t262 * C_i[8];
     const jg_real t264 = t194 * C_j[3] - t256 * C_j[5];
     const jg_real t265 = A_i[1] * C_j[4];
     const jg_real t266 = A_i[7] * C_j[4];
     const jg_real t267 = C_i[1] * t264 + C_i[0] * t265 + C_i[2] * t266;
     const jg_real t268 = C_i[4] * t264 + C_i[3] * t265 + C_i[5] * t266;
-    const jg_real t269 = C_i[0] * t261 + C_i[1] * t260 + C_i[2] * t262;
-    const jg_real t270 = C_i[3] * t261 + C_i[4] * t260 + C_i[5] * t262;
+    const jg_real t269 = C_i[1] * t260 + t261 * C_i[0] + t262 * C_i[2];
+    const jg_real t270 = t260 * C_i[4] + t261 * C_i[3] + t262 * C_i[5];
     const jg_real t271 = t269 * cosine_0 + t270 * sine_0;
     const jg_real t272 = C_i[7] * t264 + C_i[6] * t265 + C_i[8] * t266;
     const jg_real t273 = t263 * f_star_dot_g_j + h_j_in_joint_i_2 * (t267 * cosine_0 + t268 * sine_0) -
         (g_j_in_joint_i_2 * t271 + t272 * f_star_dot_h_j);
     const jg_real t274 = t268 * cosine_0 - t267 * sine_0;
-    jac_phi_q_v_A_j[27] = t263 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t271 - alphadot * t271 -
-        (omega_j_in_joint_j_0 * t274 + omega_j_in_joint_j_1 * t273);
     const jg_real t275 = t263 * g_star_dot_g_j + h_j_in_joint_i_2 * t274 - (g_j_in_joint_i_2 * (t270 * cosine_0 -
         t269 * sine_0) + t272 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[28] = omega_i_in_star_0 * t273 + omega_i_in_star_1 * t275 - (t263 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t272);
-    jac_phi_q_v_A_j[29] = omega_i_in_joint_i_2 * t274 - t272 * omega_i_in_star_1 + alphadot * t274 -
-        (omega_j_in_joint_j_2 * t275 - omega_j_in_joint_j_0 * t271);
     const jg_real t276 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
     const jg_real t277 = s_j[0] * t215 - s_j[2] * t276;
     const jg_real t278 = A_i[8] * s_j[1];
-    jac_phi_q_v_A_j[30] = omega_i[2] * t277 - omega_i[1] * t278 + A_i[2] * v_0_in_j_1;
     const jg_real t279 = A_i[2] * s_j[1];
-    jac_phi_q_v_A_j[31] = v_0_in_j_0 * t215 - v_0_in_j_2 * t276 + (omega_i[0] * t278 - omega_i[2] * t279);
-    jac_phi_q_v_A_j[32] = omega_i[1] * t279 - omega_i[0] * t277 + A_i[8] * v_0_in_j_1;
-    const jg_real t280 = C_j[6] * t215 - C_j[8] * t276;
+    const jg_real t280 = t215 * C_j[6] - t276 * C_j[8];
     const jg_real t281 = A_i[2] * C_j[7];
     const jg_real t282 = A_i[8] * C_j[7];
-    const jg_real t283 = C_i[6] * t281 + C_i[7] * t280 + C_i[8] * t282;
+    const jg_real t283 = t280 * C_i[7] + t281 * C_i[6] + t282 * C_i[8];
     const jg_real t284 = t215 * C_j[3] - t276 * C_j[5];
     const jg_real t285 = A_i[2] * C_j[4];
     const jg_real t286 = A_i[8] * C_j[4];
     const jg_real t287 = C_i[1] * t284 + C_i[0] * t285 + C_i[2] * t286;
     const jg_real t288 = C_i[4] * t284 + C_i[3] * t285 + C_i[5] * t286;
-    const jg_real t289 = C_i[0] * t281 + C_i[1] * t280 + C_i[2] * t282;
-    const jg_real t290 = C_i[3] * t281 + C_i[4] * t280 + C_i[5] * t282;
+    const jg_real t289 = C_i[1] * t280 + t281 * C_i[0] + t282 * C_i[2];
+    const jg_real t290 = t280 * C_i[4] + t281 * C_i[3] + t282 * C_i[5];
     const jg_real t291 = t289 * cosine_0 + t290 * sine_0;
     const jg_real t292 = C_i[7] * t284 + C_i[6] * t285 + C_i[8] * t286;
     const jg_real t293 = t283 * f_star_dot_g_j + h_j_in_joint_i_2 * (t287 * cosine_0 + t288 * sine_0) -
         (g_j_in_joint_i_2 * t291 + t292 * f_star_dot_h_j);
     const jg_real t294 = t288 * cosine_0 - t287 * sine_0;
+    jac_phi_q_v_A_j[26] = omega_i[1] * t259 - omega_i[0] * t257 + A_i[7] * v_0_in_j_1;
+    jac_phi_q_v_A_j[27] = t263 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t271 - alphadot * t271 -
+        (omega_j_in_joint_j_0 * t274 + omega_j_in_joint_j_1 * t273);
+    jac_phi_q_v_A_j[28] = omega_i_in_star_0 * t273 + omega_i_in_star_1 * t275 - (t263 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t272);
+    jac_phi_q_v_A_j[29] = omega_i_in_joint_i_2 * t274 - t272 * omega_i_in_star_1 + alphadot * t274 -
+        (omega_j_in_joint_j_2 * t275 - omega_j_in_joint_j_0 * t271);
+    jac_phi_q_v_A_j[30] = omega_i[2] * t277 - omega_i[1] * t278 + A_i[2] * v_0_in_j_1;
+    jac_phi_q_v_A_j[31] = v_0_in_j_0 * t215 - v_0_in_j_2 * t276 + (t278 * omega_i[0] - omega_i[2] * t279);
+    jac_phi_q_v_A_j[32] = omega_i[1] * t279 - omega_i[0] * t277 + A_i[8] * v_0_in_j_1;
     jac_phi_q_v_A_j[33] = t283 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t291 - alphadot * t291 -
         (omega_j_in_joint_j_0 * t294 + omega_j_in_joint_j_1 * t293);
     const jg_real t295 = t283 * g_star_dot_g_j + h_j_in_joint_i_2 * t294 - (g_j_in_joint_i_2 * (t290 * cosine_0 -
         t289 * sine_0) + t292 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[34] = omega_i_in_star_0 * t293 + omega_i_in_star_1 * t295 - (t283 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t292);
-    jac_phi_q_v_A_j[35] = omega_i_in_joint_i_2 * t294 - t292 * omega_i_in_star_1 + alphadot * t294 -
-        (omega_j_in_joint_j_2 * t295 - omega_j_in_joint_j_0 * t291);
     const jg_real t296 = s_j[0] * t174 + s_j[1] * t236;
     const jg_real t297 = A_i[6] * s_j[2];
-    jac_phi_q_v_A_j[36] = omega_i[2] * t296 - omega_i[1] * t297 + A_i[0] * v_0_in_j_2;
     const jg_real t298 = A_i[0] * s_j[2];
-    jac_phi_q_v_A_j[37] = v_0_in_j_0 * t174 + v_0_in_j_1 * t236 + (omega_i[0] * t297 - omega_i[2] * t298);
-    jac_phi_q_v_A_j[38] = omega_i[1] * t298 - omega_i[0] * t296 + A_i[6] * v_0_in_j_2;
-    const jg_real t299 = C_j[6] * t174 + C_j[7] * t236;
+    const jg_real t299 = t174 * C_j[6] + t236 * C_j[7];
     const jg_real t300 = A_i[0] * C_j[8];
     const jg_real t301 = A_i[6] * C_j[8];
-    const jg_real t302 = C_i[6] * t300 + C_i[7] * t299 + C_i[8] * t301;
+    const jg_real t302 = t299 * C_i[7] + t300 * C_i[6] + t301 * C_i[8];
     const jg_real t303 = t174 * C_j[3] + t236 * C_j[4];
     const jg_real t304 = A_i[0] * C_j[5];
     const jg_real t305 = A_i[6] * C_j[5];
     const jg_real t306 = C_i[1] * t303 + C_i[0] * t304 + C_i[2] * t305;
     const jg_real t307 = C_i[4] * t303 + C_i[3] * t304 + C_i[5] * t305;
-    const jg_real t308 = C_i[0] * t300 + C_i[1] * t299 + C_i[2] * t301;
-    const jg_real t309 = C_i[3] * t300 + C_i[4] * t299 + C_i[5] * t301;
+    const jg_real t308 = C_i[1] * t299 + t300 * C_i[0] + t301 * C_i[2];
+    const jg_real t309 = t299 * C_i[4] + t300 * C_i[3] + t301 * C_i[5];
     const jg_real t310 = t308 * cosine_0 + t309 * sine_0;
     const jg_real t311 = C_i[7] * t303 + C_i[6] * t304 + C_i[8] * t305;
     const jg_real t312 = t302 * f_star_dot_g_j + h_j_in_joint_i_2 * (t306 * cosine_0 + t307 * sine_0) -
         (g_j_in_joint_i_2 * t310 + t311 * f_star_dot_h_j);
     const jg_real t313 = t307 * cosine_0 - t306 * sine_0;
-    jac_phi_q_v_A_j[39] = t302 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t310 - alphadot * t310 -
-        (omega_j_in_joint_j_0 * t313 + omega_j_in_joint_j_1 * t312);
     const jg_real t314 = t302 * g_star_dot_g_j + h_j_in_joint_i_2 * t313 - (g_j_in_joint_i_2 * (t309 * cosine_0 -
         t308 * sine_0) + t311 * g_star_dot_h_j);
+    jac_phi_q_v_A_j[34] = omega_i_in_star_0 * t293 + omega_i_in_star_1 * t295 - (t283 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t292);
+    jac_phi_q_v_A_j[35] = omega_i_in_joint_i_2 * t294 - t292 * omega_i_in_star_1 + alphadot * t294 -
+        (omega_j_in_joint_j_2 * t295 - omega_j_in_joint_j_0 * t291);
+    jac_phi_q_v_A_j[36] = omega_i[2] * t296 - omega_i[1] * t297 + A_i[0] * v_0_in_j_2;
+    jac_phi_q_v_A_j[37] = v_0_in_j_0 * t174 + v_0_in_j_1 * t236 + (omega_i[0] * t297 - omega_i[2] * t298);
+    jac_phi_q_v_A_j[38] = omega_i[1] * t298 - omega_i[0] * t296 + A_i[6] * v_0_in_j_2;
+    jac_phi_q_v_A_j[39] = t302 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t310 - alphadot * t310 -
+        (omega_j_in_joint_j_0 * t313 + omega_j_in_joint_j_1 * t312);
     jac_phi_q_v_A_j[40] = omega_i_in_star_0 * t312 + omega_i_in_star_1 * t314 - (t302 * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * t311);
     jac_phi_q_v_A_j[41] = omega_i_in_joint_i_2 * t313 - t311 * omega_i_in_star_1 + alphadot * t313 -
         (omega_j_in_joint_j_2 * t314 - omega_j_in_joint_j_0 * t310);
     const jg_real t315 = s_j[0] * t195 + s_j[1] * t256;
     const jg_real t316 = A_i[7] * s_j[2];
-    jac_phi_q_v_A_j[42] = omega_i[2] * t315 - omega_i[1] * t316 + A_i[1] * v_0_in_j_2;
     const jg_real t317 = A_i[1] * s_j[2];
-    jac_phi_q_v_A_j[43] = v_0_in_j_0 * t195 + v_0_in_j_1 * t256 + (omega_i[0] * t316 - omega_i[2] * t317);
-    jac_phi_q_v_A_j[44] = omega_i[1] * t317 - omega_i[0] * t315 + A_i[7] * v_0_in_j_2;
-    const jg_real t318 = C_j[6] * t195 + C_j[7] * t256;
+    const jg_real t318 = t195 * C_j[6] + t256 * C_j[7];
     const jg_real t319 = A_i[1] * C_j[8];
     const jg_real t320 = A_i[7] * C_j[8];
-    const jg_real t321 = C_i[6] * t319 + C_i[7] * t318 + C_i[8] * t320;
+    const jg_real t321 = t318 * C_i[7] + t319 * C_i[6] + t320 * C_i[8];
     const jg_real t322 = t195 * C_j[3] + t256 * C_j[4];
     const jg_real t323 = A_i[1] * C_j[5];
     const jg_real t324 = A_i[7] * C_j[5];
     const jg_real t325 = C_i[1] * t322 + C_i[0] * t323 + C_i[2] * t324;
     const jg_real t326 = C_i[4] * t322 + C_i[3] * t323 + C_i[5] * t324;
-    const jg_real t327 = C_i[0] * t319 + C_i[1] * t318 + C_i[2] * t320;
-    const jg_real t328 = C_i[3] * t319 + C_i[4] * t318 + C_i[5] * t320;
+    const jg_real t327 = C_i[1] * t318 + t319 * C_i[0] + t320 * C_i[2];
+    const jg_real t328 = t318 * C_i[4] + t319 * C_i[3] + t320 * C_i[5];
     const jg_real t329 = t327 * cosine_0 + t328 * sine_0;
     const jg_real t330 = C_i[7] * t322 + C_i[6] * t323 + C_i[8] * t324;
     const jg_real t331 = t321 * f_star_dot_g_j + h_j_in_joint_i_2 * (t325 * cosine_0 + t326 * sine_0) -
         (g_j_in_joint_i_2 * t329 + t330 * f_star_dot_h_j);
     const jg_real t332 = t326 * cosine_0 - t325 * sine_0;
-    jac_phi_q_v_A_j[45] = t321 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t329 - alphadot * t329 -
-        (omega_j_in_joint_j_0 * t332 + omega_j_in_joint_j_1 * t331);
     const jg_real t333 = t321 * g_star_dot_g_j + h_j_in_joint_i_2 * t332 - (g_j_in_joint_i_2 * (t328 * cosine_0 -
         t327 * sine_0) + t330 * g_star_dot_h_j);
+    const jg_real t334 = s_j[0] * t216 + s_j[1] * t276;
+    const jg_real t335 = A_i[8] * s_j[2];
+    const jg_real t336 = A_i[2] * s_j[2];
+    jac_phi_q_v_A_j[42] = omega_i[2] * t315 - omega_i[1] * t316 + A_i[1] * v_0_in_j_2;
+    jac_phi_q_v_A_j[43] = v_0_in_j_0 * t195 + v_0_in_j_1 * t256 + (omega_i[0] * t316 - omega_i[2] * t317);
+    jac_phi_q_v_A_j[44] = omega_i[1] * t317 - omega_i[0] * t315 + A_i[7] * v_0_in_j_2;
+    jac_phi_q_v_A_j[45] = t321 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t329 - alphadot * t329 -
+        (omega_j_in_joint_j_0 * t332 + omega_j_in_joint_j_1 * t331);
     jac_phi_q_v_A_j[46] = omega_i_in_star_0 * t331 + omega_i_in_star_1 * t333 - (t321 * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * t330);
     jac_phi_q_v_A_j[47] = omega_i_in_joint_i_2 * t332 - t330 * omega_i_in_star_1 + alphadot * t332 -
         (omega_j_in_joint_j_2 * t333 - omega_j_in_joint_j_0 * t329);
-    const jg_real t334 = s_j[0] * t216 + s_j[1] * t276;
-    const jg_real t335 = A_i[8] * s_j[2];
     jac_phi_q_v_A_j[48] = omega_i[2] * t334 - omega_i[1] * t335 + A_i[2] * v_0_in_j_2;
-    const jg_real t336 = A_i[2] * s_j[2];
     jac_phi_q_v_A_j[49] = v_0_in_j_0 * t216 + v_0_in_j_1 * t276 + (omega_i[0] * t335 - omega_i[2] * t336);
-    jac_phi_q_v_A_j[50] = omega_i[1] * t336 - omega_i[0] * t334 + A_i[8] * v_0_in_j_2;
-    const jg_real t337 = C_j[6] * t216 + C_j[7] * t276;
+    const jg_real t337 = t216 * C_j[6] + t276 * C_j[7];
     const jg_real t338 = A_i[2] * C_j[8];
     const jg_real t339 = A_i[8] * C_j[8];
-    const jg_real t340 = C_i[6] * t338 + C_i[7] * t337 + C_i[8] * t339;
+    const jg_real t340 = t337 * C_i[7] + t338 * C_i[6] + t339 * C_i[8];
     const jg_real t341 = t216 * C_j[3] + t276 * C_j[4];
     const jg_real t342 = A_i[2] * C_j[5];
     const jg_real t343 = A_i[8] * C_j[5];
     const jg_real t344 = C_i[1] * t341 + C_i[0] * t342 + C_i[2] * t343;
     const jg_real t345 = C_i[4] * t341 + C_i[3] * t342 + C_i[5] * t343;
-    const jg_real t346 = C_i[0] * t338 + C_i[1] * t337 + C_i[2] * t339;
-    const jg_real t347 = C_i[3] * t338 + C_i[4] * t337 + C_i[5] * t339;
+    const jg_real t346 = C_i[1] * t337 + t338 * C_i[0] + t339 * C_i[2];
+    const jg_real t347 = t337 * C_i[4] + t338 * C_i[3] + t339 * C_i[5];
     const jg_real t348 = t346 * cosine_0 + t347 * sine_0;
     const jg_real t349 = C_i[7] * t341 + C_i[6] * t342 + C_i[8] * t343;
     const jg_real t350 = t340 * f_star_dot_g_j + h_j_in_joint_i_2 * (t344 * cosine_0 + t345 * sine_0) -
         (g_j_in_joint_i_2 * t348 + t349 * f_star_dot_h_j);
     const jg_real t351 = t345 * cosine_0 - t344 * sine_0;
-    jac_phi_q_v_A_j[51] = t340 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t348 - alphadot * t348 -
-        (omega_j_in_joint_j_0 * t351 + omega_j_in_joint_j_1 * t350);
     const jg_real t352 = t340 * g_star_dot_g_j + h_j_in_joint_i_2 * t351 - (g_j_in_joint_i_2 * (t347 * cosine_0 -
         t346 * sine_0) + t349 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[52] = omega_i_in_star_0 * t350 + omega_i_in_star_1 * t352 - (t340 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t349);
-    jac_phi_q_v_A_j[53] = omega_i_in_joint_i_2 * t351 - t349 * omega_i_in_star_1 + alphadot * t351 -
-        (omega_j_in_joint_j_2 * t352 - omega_j_in_joint_j_0 * t348);
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = h_j_in_joint_i_2 * g_star_dot_g_j - g_j_in_joint_i_2 * g_star_dot_h_j;
-    jac_phi_q_v_alpha[0] = h_j_in_joint_i_2 * omega_i_in_star_1 - omega_i_in_joint_i_2 * g_star_dot_h_j - alphadot *
-        g_star_dot_h_j - (omega_j_in_joint_j_1 * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_dot_g_j);
-    jac_phi_q_v_alpha[1] = JG_REAL(0.0);
     /* h_star_cross_f_j_in_star = h_star x f_j, axes of body star */
     const jg_real h_star_cross_f_j_in_star = h_j_in_joint_i_2 * f_star_dot_g_j - g_j_in_joint_i_2 * f_star_dot_h_j;
-    jac_phi_q_v_alpha[2] = g_j_in_joint_i_2 * omega_i_in_star_0 - omega_i_in_joint_i_2 * f_star_dot_g_j - alphadot *
-        f_star_dot_g_j + (omega_j_in_joint_j_0 * g_star_dot_h_j + omega_j_in_joint_j_2 * h_star_cross_f_j_in_star);
     const jg_real t355 = g_j_in_i_0 * cosine_0;
     const jg_real t356 = h_j_in_i_0 * cosine_0;
     const jg_real t357 = h_j_in_joint_i_2 * t355 - g_j_in_joint_i_2 * t356;
     const jg_real t358 = g_j_in_i_0 * sine_0;
     const jg_real t359 = omega_i[0] * cosine_0;
+    jac_phi_q_v_A_j[50] = omega_i[1] * t336 - omega_i[0] * t334 + A_i[8] * v_0_in_j_2;
+    jac_phi_q_v_A_j[51] = t340 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t348 - alphadot * t348 -
+        (omega_j_in_joint_j_0 * t351 + omega_j_in_joint_j_1 * t350);
+    jac_phi_q_v_A_j[52] = omega_i_in_star_0 * t350 + omega_i_in_star_1 * t352 - (t340 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t349);
+    jac_phi_q_v_A_j[53] = omega_i_in_joint_i_2 * t351 - t349 * omega_i_in_star_1 + alphadot * t351 -
+        (omega_j_in_joint_j_2 * t352 - omega_j_in_joint_j_0 * t348);
+    jac_phi_q_v_alpha[0] = h_j_in_joint_i_2 * omega_i_in_star_1 - omega_i_in_joint_i_2 * g_star_dot_h_j - alphadot *
+        g_star_dot_h_j - (omega_j_in_joint_j_1 * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_dot_g_j);
+    jac_phi_q_v_alpha[1] = JG_REAL(0.0);
+    jac_phi_q_v_alpha[2] = g_j_in_joint_i_2 * omega_i_in_star_0 - omega_i_in_joint_i_2 * f_star_dot_g_j - alphadot *
+        f_star_dot_g_j + (omega_j_in_joint_j_0 * g_star_dot_h_j + omega_j_in_joint_j_2 * h_star_cross_f_j_in_star);
     jac_phi_q_v_geometry[0] = h_j_in_joint_i_2 * t359 - omega_i_in_joint_i_2 * t356 - alphadot * t356 -
         (omega_j_in_joint_j_1 * t357 - omega_j_in_joint_j_0 * t358);
     const jg_real t360 = omega_i[0] * sine_0;
     const jg_real t361 = h_j_in_i_0 * sine_0;
     const jg_real t362 = h_j_in_joint_i_2 * t358 - g_j_in_joint_i_2 * t361;
-    jac_phi_q_v_geometry[1] = t359 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t357 - (t360 * f_star_dot_f_j +
-        omega_i_in_star_1 * t362);
-    jac_phi_q_v_geometry[2] = g_j_in_joint_i_2 * t360 - omega_i_in_joint_i_2 * t358 - alphadot * t358 +
-        (omega_j_in_joint_j_0 * t356 + omega_j_in_joint_j_2 * t362);
     const jg_real t363 = g_j_in_i_1 * cosine_0;
     const jg_real t364 = h_j_in_i_1 * cosine_0;
     const jg_real t365 = h_j_in_joint_i_2 * t363 - g_j_in_joint_i_2 * t364;
     const jg_real t366 = g_j_in_i_1 * sine_0;
     const jg_real t367 = omega_i[1] * cosine_0;
-    jac_phi_q_v_geometry[3] = h_j_in_joint_i_2 * t367 - omega_i_in_joint_i_2 * t364 - alphadot * t364 -
-        (omega_j_in_joint_j_1 * t365 - omega_j_in_joint_j_0 * t366);
     const jg_real t368 = omega_i[1] * sine_0;
     const jg_real t369 = h_j_in_i_1 * sine_0;
     const jg_real t370 = h_j_in_joint_i_2 * t366 - g_j_in_joint_i_2 * t369;
-    jac_phi_q_v_geometry[4] = t367 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t365 - (t368 * f_star_dot_f_j +
-        omega_i_in_star_1 * t370);
-    jac_phi_q_v_geometry[5] = g_j_in_joint_i_2 * t368 - omega_i_in_joint_i_2 * t366 - alphadot * t366 +
-        (omega_j_in_joint_j_0 * t364 + omega_j_in_joint_j_2 * t370);
     const jg_real t371 = g_j_in_i_2 * cosine_0;
     const jg_real t372 = h_j_in_i_2 * cosine_0;
     const jg_real t373 = h_j_in_joint_i_2 * t371 - g_j_in_joint_i_2 * t372;
     const jg_real t374 = g_j_in_i_2 * sine_0;
     const jg_real t375 = omega_i[2] * cosine_0;
-    jac_phi_q_v_geometry[6] = h_j_in_joint_i_2 * t375 - omega_i_in_joint_i_2 * t372 - alphadot * t372 -
-        (omega_j_in_joint_j_1 * t373 - omega_j_in_joint_j_0 * t374);
     const jg_real t376 = omega_i[2] * sine_0;
     const jg_real t377 = h_j_in_i_2 * sine_0;
     const jg_real t378 = h_j_in_joint_i_2 * t374 - g_j_in_joint_i_2 * t377;
+    jac_phi_q_v_geometry[1] = t359 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t357 - (t360 * f_star_dot_f_j +
+        omega_i_in_star_1 * t362);
+    jac_phi_q_v_geometry[2] = g_j_in_joint_i_2 * t360 - omega_i_in_joint_i_2 * t358 - alphadot * t358 +
+        (omega_j_in_joint_j_0 * t356 + omega_j_in_joint_j_2 * t362);
+    jac_phi_q_v_geometry[3] = h_j_in_joint_i_2 * t367 - omega_i_in_joint_i_2 * t364 - alphadot * t364 -
+        (omega_j_in_joint_j_1 * t365 - omega_j_in_joint_j_0 * t366);
+    jac_phi_q_v_geometry[4] = t367 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t365 - (t368 * f_star_dot_f_j +
+        omega_i_in_star_1 * t370);
+    jac_phi_q_v_geometry[5] = g_j_in_joint_i_2 * t368 - omega_i_in_joint_i_2 * t366 - alphadot * t366 +
+        (omega_j_in_joint_j_0 * t364 + omega_j_in_joint_j_2 * t370);
+    jac_phi_q_v_geometry[6] = h_j_in_joint_i_2 * t375 - omega_i_in_joint_i_2 * t372 - alphadot * t372 -
+        (omega_j_in_joint_j_1 * t373 - omega_j_in_joint_j_0 * t374);
     jac_phi_q_v_geometry[7] = t375 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t373 - (t376 * f_star_dot_f_j +
         omega_i_in_star_1 * t378);
     jac_phi_q_v_geometry[8] = g_j_in_joint_i_2 * t376 - omega_i_in_joint_i_2 * t374 - alphadot * t374 +
@@ -1018,25 +1016,25 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
         (omega_j_in_joint_j_0 * t371 + omega_j_in_joint_j_1 * t378);
     jac_phi_q_v_geometry[16] = t376 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t378 + (t375 * f_star_dot_f_j +
         omega_i_in_star_1 * t373);
+    const jg_real t379 = h_j_in_i_0 * f_star_dot_g_j - g_j_in_i_0 * f_star_dot_h_j;
+    const jg_real t380 = h_j_in_i_0 * g_star_dot_g_j - g_j_in_i_0 * g_star_dot_h_j;
+    const jg_real t381 = h_j_in_i_1 * f_star_dot_g_j - g_j_in_i_1 * f_star_dot_h_j;
+    const jg_real t382 = h_j_in_i_1 * g_star_dot_g_j - g_j_in_i_1 * g_star_dot_h_j;
+    const jg_real t383 = h_j_in_i_2 * f_star_dot_g_j - g_j_in_i_2 * f_star_dot_h_j;
     jac_phi_q_v_geometry[17] = omega_i_in_joint_i_2 * t371 - g_j_in_joint_i_2 * t375 + alphadot * t371 -
         (omega_j_in_joint_j_2 * t373 - omega_j_in_joint_j_0 * t377);
-    const jg_real t379 = h_j_in_i_0 * f_star_dot_g_j - g_j_in_i_0 * f_star_dot_h_j;
     jac_phi_q_v_geometry[18] = h_j_in_i_0 * omega_i_in_star_0 - omega_i[0] * f_star_dot_h_j - omega_j_in_joint_j_1 *
         t379;
-    const jg_real t380 = h_j_in_i_0 * g_star_dot_g_j - g_j_in_i_0 * g_star_dot_h_j;
     jac_phi_q_v_geometry[19] = omega_i_in_star_0 * t379 + omega_i_in_star_1 * t380 - (h_j_in_i_0 *
         omega_j_in_joint_j_1 - g_j_in_i_0 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[20] = omega_i[0] * g_star_dot_g_j - g_j_in_i_0 * omega_i_in_star_1 - omega_j_in_joint_j_2 *
         t380;
-    const jg_real t381 = h_j_in_i_1 * f_star_dot_g_j - g_j_in_i_1 * f_star_dot_h_j;
     jac_phi_q_v_geometry[21] = h_j_in_i_1 * omega_i_in_star_0 - omega_i[1] * f_star_dot_h_j - omega_j_in_joint_j_1 *
         t381;
-    const jg_real t382 = h_j_in_i_1 * g_star_dot_g_j - g_j_in_i_1 * g_star_dot_h_j;
     jac_phi_q_v_geometry[22] = omega_i_in_star_0 * t381 + omega_i_in_star_1 * t382 - (h_j_in_i_1 *
         omega_j_in_joint_j_1 - g_j_in_i_1 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[23] = omega_i[1] * g_star_dot_g_j - g_j_in_i_1 * omega_i_in_star_1 - omega_j_in_joint_j_2 *
         t382;
-    const jg_real t383 = h_j_in_i_2 * f_star_dot_g_j - g_j_in_i_2 * f_star_dot_h_j;
     jac_phi_q_v_geometry[24] = h_j_in_i_2 * omega_i_in_star_0 - omega_i[2] * f_star_dot_h_j - omega_j_in_joint_j_1 *
         t383;
     const jg_real t384 = h_j_in_i_2 * g_star_dot_g_j - g_j_in_i_2 * g_star_dot_h_j;
@@ -1046,19 +1044,19 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
         t384;
     jac_phi_q_v_geometry[27] = omega_j[2] * A_ji_1 - omega_j[1] * A_ji_2 + (omega_i[2] * A_ji_3 - omega_i[1] *
         A_ji_6);
-    jac_phi_q_v_geometry[28] = omega_j[2] * A_ji_4 - omega_j[1] * A_ji_5 + (omega_i[0] * A_ji_6 - omega_i[2] *
+    jac_phi_q_v_geometry[28] = omega_j[2] * A_ji_4 - omega_j[1] * A_ji_5 + (A_ji_6 * omega_i[0] - omega_i[2] *
         A_ji_0);
     jac_phi_q_v_geometry[29] = omega_j[2] * A_ji_7 - omega_j[1] * A_ji_8 + (omega_i[1] * A_ji_0 - omega_i[0] *
         A_ji_3);
     jac_phi_q_v_geometry[30] = omega_j[0] * A_ji_2 - omega_j[2] * A_ji_0 + (omega_i[2] * A_ji_4 - omega_i[1] *
         A_ji_7);
-    jac_phi_q_v_geometry[31] = omega_j[0] * A_ji_5 - omega_j[2] * A_ji_3 + (omega_i[0] * A_ji_7 - omega_i[2] *
+    jac_phi_q_v_geometry[31] = omega_j[0] * A_ji_5 - omega_j[2] * A_ji_3 + (A_ji_7 * omega_i[0] - omega_i[2] *
         A_ji_1);
     jac_phi_q_v_geometry[32] = omega_j[0] * A_ji_8 - omega_j[2] * A_ji_6 + (omega_i[1] * A_ji_1 - omega_i[0] *
         A_ji_4);
     jac_phi_q_v_geometry[33] = omega_j[1] * A_ji_0 - omega_j[0] * A_ji_1 + (omega_i[2] * A_ji_5 - omega_i[1] *
         A_ji_8);
-    jac_phi_q_v_geometry[34] = omega_j[1] * A_ji_3 - omega_j[0] * A_ji_4 + (omega_i[0] * A_ji_8 - omega_i[2] *
+    jac_phi_q_v_geometry[34] = omega_j[1] * A_ji_3 - omega_j[0] * A_ji_4 + (A_ji_8 * omega_i[0] - omega_i[2] *
         A_ji_2);
     jac_phi_q_v_geometry[35] = omega_j[1] * A_ji_6 - omega_j[0] * A_ji_7 + (omega_i[1] * A_ji_2 - omega_i[0] *
         A_ji_5);
@@ -1067,66 +1065,74 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_q_v_geometry[38] = -(omega_j[1] * g_star_dot_g_j);
     jac_phi_q_v_geometry[39] = omega_j[1] * f_star_dot_h_j;
     jac_phi_q_v_geometry[40] = -(omega_j[2] * g_star_dot_g_j);
-    jac_phi_q_v_geometry[41] = omega_j[2] * f_star_dot_h_j;
-    const jg_real t385 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
-    const jg_real t386 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real t385 = A_ji_3 * C_i[1] + A_ji_0 * C_i[0] + A_ji_6 * C_i[2];
+    const jg_real t386 = A_ji_3 * C_i[4] + A_ji_0 * C_i[3] + A_ji_6 * C_i[5];
     const jg_real t387 = t385 * cosine_0 + t386 * sine_0;
-    const jg_real t388 = C_i[6] * A_ji_0 + C_i[7] * A_ji_3 + C_i[8] * A_ji_6;
+    const jg_real t388 = A_ji_3 * C_i[7] + A_ji_0 * C_i[6] + A_ji_6 * C_i[8];
     const jg_real t389 = h_j_in_joint_i_2 * t387 - t388 * f_star_dot_h_j;
     const jg_real t390 = t386 * cosine_0 - t385 * sine_0;
+    const jg_real t391 = h_j_in_joint_i_2 * t390 - t388 * g_star_dot_h_j;
+    const jg_real t392 = A_ji_4 * C_i[1] + A_ji_1 * C_i[0] + A_ji_7 * C_i[2];
+    const jg_real t393 = A_ji_4 * C_i[4] + A_ji_1 * C_i[3] + A_ji_7 * C_i[5];
+    const jg_real t394 = t392 * cosine_0 + t393 * sine_0;
+    const jg_real t395 = A_ji_4 * C_i[7] + A_ji_1 * C_i[6] + A_ji_7 * C_i[8];
+    const jg_real t396 = h_j_in_joint_i_2 * t394 - t395 * f_star_dot_h_j;
+    const jg_real t397 = t393 * cosine_0 - t392 * sine_0;
+    const jg_real t398 = h_j_in_joint_i_2 * t397 - t395 * g_star_dot_h_j;
+    const jg_real t399 = A_ji_5 * C_i[1] + A_ji_2 * C_i[0] + A_ji_8 * C_i[2];
+    const jg_real t400 = A_ji_5 * C_i[4] + A_ji_2 * C_i[3] + A_ji_8 * C_i[5];
+    const jg_real t401 = t399 * cosine_0 + t400 * sine_0;
+    const jg_real t402 = A_ji_5 * C_i[7] + A_ji_2 * C_i[6] + A_ji_8 * C_i[8];
+    const jg_real t403 = h_j_in_joint_i_2 * t401 - t402 * f_star_dot_h_j;
+    const jg_real t404 = t400 * cosine_0 - t399 * sine_0;
+    jac_phi_q_v_geometry[41] = omega_j[2] * f_star_dot_h_j;
     jac_phi_q_v_geometry[42] = -(omega_j_in_joint_j_1 * t389 + omega_j[0] * h_star_cross_f_j_in_star +
         omega_j_in_joint_j_0 * t390);
-    const jg_real t391 = h_j_in_joint_i_2 * t390 - t388 * g_star_dot_h_j;
     jac_phi_q_v_geometry[43] = omega_i_in_star_0 * t389 + omega_i_in_star_1 * t391 - (omega_j[0] * h_j_in_joint_i_2
         - t388 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[44] = omega_i_in_joint_i_2 * t390 - t388 * omega_i_in_star_1 + alphadot * t390 -
         omega_j_in_joint_j_2 * t391;
-    const jg_real t392 = C_i[0] * A_ji_1 + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
-    const jg_real t393 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
-    const jg_real t394 = t392 * cosine_0 + t393 * sine_0;
-    const jg_real t395 = C_i[6] * A_ji_1 + C_i[7] * A_ji_4 + A_ji_7 * C_i[8];
-    const jg_real t396 = h_j_in_joint_i_2 * t394 - t395 * f_star_dot_h_j;
-    const jg_real t397 = t393 * cosine_0 - t392 * sine_0;
     jac_phi_q_v_geometry[45] = -(omega_j_in_joint_j_1 * t396 + omega_j[1] * h_star_cross_f_j_in_star +
         omega_j_in_joint_j_0 * t397);
-    const jg_real t398 = h_j_in_joint_i_2 * t397 - t395 * g_star_dot_h_j;
     jac_phi_q_v_geometry[46] = omega_i_in_star_0 * t396 + omega_i_in_star_1 * t398 - (omega_j[1] * h_j_in_joint_i_2
         - t395 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[47] = omega_i_in_joint_i_2 * t397 - t395 * omega_i_in_star_1 + alphadot * t397 -
         omega_j_in_joint_j_2 * t398;
-    const jg_real t399 = A_ji_2 * C_i[0] + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
-    const jg_real t400 = A_ji_2 * C_i[3] + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
-    const jg_real t401 = t399 * cosine_0 + t400 * sine_0;
-    const jg_real t402 = A_ji_2 * C_i[6] + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
-    const jg_real t403 = h_j_in_joint_i_2 * t401 - t402 * f_star_dot_h_j;
-    const jg_real t404 = t400 * cosine_0 - t399 * sine_0;
     jac_phi_q_v_geometry[48] = -(omega_j_in_joint_j_1 * t403 + omega_j[2] * h_star_cross_f_j_in_star +
         omega_j_in_joint_j_0 * t404);
     const jg_real t405 = h_j_in_joint_i_2 * t404 - t402 * g_star_dot_h_j;
+    const jg_real t406 = t388 * f_star_dot_g_j - g_j_in_joint_i_2 * t387;
+    const jg_real t407 = t388 * g_star_dot_g_j - g_j_in_joint_i_2 * t390;
+    const jg_real t408 = t395 * f_star_dot_g_j - g_j_in_joint_i_2 * t394;
+    const jg_real t409 = t395 * g_star_dot_g_j - g_j_in_joint_i_2 * t397;
     jac_phi_q_v_geometry[49] = omega_i_in_star_0 * t403 + omega_i_in_star_1 * t405 - (omega_j[2] * h_j_in_joint_i_2
         - t402 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[50] = omega_i_in_joint_i_2 * t404 - t402 * omega_i_in_star_1 + alphadot * t404 -
         omega_j_in_joint_j_2 * t405;
-    const jg_real t406 = t388 * f_star_dot_g_j - g_j_in_joint_i_2 * t387;
     jac_phi_q_v_geometry[51] = t388 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t387 - alphadot * t387 -
         omega_j_in_joint_j_1 * t406;
-    const jg_real t407 = t388 * g_star_dot_g_j - g_j_in_joint_i_2 * t390;
     jac_phi_q_v_geometry[52] = omega_i_in_star_0 * t406 + omega_i_in_star_1 * t407 - (t388 * omega_j_in_joint_j_1 -
         omega_j[0] * g_j_in_joint_i_2);
     jac_phi_q_v_geometry[53] = omega_j_in_joint_j_0 * t387 - (omega_j_in_joint_j_2 * t407 + omega_j[0] *
         f_star_dot_f_j);
-    const jg_real t408 = t395 * f_star_dot_g_j - g_j_in_joint_i_2 * t394;
     jac_phi_q_v_geometry[54] = t395 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t394 - alphadot * t394 -
         omega_j_in_joint_j_1 * t408;
-    const jg_real t409 = t395 * g_star_dot_g_j - g_j_in_joint_i_2 * t397;
     jac_phi_q_v_geometry[55] = omega_i_in_star_0 * t408 + omega_i_in_star_1 * t409 - (t395 * omega_j_in_joint_j_1 -
         omega_j[1] * g_j_in_joint_i_2);
     jac_phi_q_v_geometry[56] = omega_j_in_joint_j_0 * t394 - (omega_j_in_joint_j_2 * t409 + omega_j[1] *
         f_star_dot_f_j);
     const jg_real t410 = t402 * f_star_dot_g_j - g_j_in_joint_i_2 * t401;
+    const jg_real t411 = t402 * g_star_dot_g_j - g_j_in_joint_i_2 * t404;
+    /* s_j_in_i = s_j, axes of body i */
+    const jg_real s_j_in_i_2 = s_j[1] * A_ji_7 + s_j[0] * A_ji_6 + s_j[2] * A_ji_8;
+    /* v_1_in_i = r_j - r_i, axes of body i */
+    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
+    const jg_real t414 = s_j_in_i_2 + v_1_in_i_2;
+    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
+    const jg_real v_1_in_i_1 = v_1_world_0 * A_i[3] + v_1_world_1 * A_i[4] + v_1_world_2 * A_i[5];
+    const jg_real t417 = v_1_in_i_1 + s_j_in_i_1;
     jac_phi_q_v_geometry[57] = t402 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t401 - alphadot * t401 -
         omega_j_in_joint_j_1 * t410;
-    const jg_real t411 = t402 * g_star_dot_g_j - g_j_in_joint_i_2 * t404;
     jac_phi_q_v_geometry[58] = omega_i_in_star_0 * t410 + omega_i_in_star_1 * t411 - (t402 * omega_j_in_joint_j_1 -
         omega_j[2] * g_j_in_joint_i_2);
     jac_phi_q_v_geometry[59] = omega_j_in_joint_j_0 * t401 - (omega_j_in_joint_j_2 * t411 + omega_j[2] *
@@ -1134,36 +1140,28 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_2 = s_j[1] * A_ji_7 + s_j[0] * A_ji_6 + s_j[2] * A_ji_8;
-    /* v_1_in_i = r_j - r_i, axes of body i */
-    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
-    const jg_real t414 = v_1_in_i_2 + s_j_in_i_2;
     jac_phi_q_v_velocity[3] = t414;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    const jg_real v_1_in_i_1 = v_1_world_0 * A_i[3] + v_1_world_1 * A_i[4] + v_1_world_2 * A_i[5];
-    const jg_real t417 = v_1_in_i_1 + s_j_in_i_1;
     jac_phi_q_v_velocity[13] = t417;
-    jac_phi_q_v_velocity[4] = -t417;
     const jg_real t418 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    jac_phi_q_v_velocity[5] = h_j_in_joint_i_2 * t418 - C_i[6] * f_star_dot_h_j;
     const jg_real t419 = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    const jg_real s_j_in_i_0 = s_j[1] * A_ji_1 + s_j[0] * A_ji_0 + s_j[2] * A_ji_2;
+    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
+    const jg_real t422 = v_1_in_i_0 + s_j_in_i_0;
+    const jg_real t423 = C_i[1] * cosine_0 + C_i[4] * sine_0;
+    const jg_real t424 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    jac_phi_q_v_velocity[4] = -t417;
+    jac_phi_q_v_velocity[5] = h_j_in_joint_i_2 * t418 - C_i[6] * f_star_dot_h_j;
     jac_phi_q_v_velocity[6] = t418 * h_star_cross_f_j_in_star + t419 * f_star_dot_f_j;
     jac_phi_q_v_velocity[7] = C_i[6] * g_star_dot_g_j - g_j_in_joint_i_2 * t419;
     jac_phi_q_v_velocity[8] = -t414;
-    const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
-    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
-    const jg_real t422 = v_1_in_i_0 + s_j_in_i_0;
     jac_phi_q_v_velocity[9] = t422;
-    const jg_real t423 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     jac_phi_q_v_velocity[10] = h_j_in_joint_i_2 * t423 - C_i[7] * f_star_dot_h_j;
-    const jg_real t424 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     jac_phi_q_v_velocity[11] = t423 * h_star_cross_f_j_in_star + t424 * f_star_dot_f_j;
+    const jg_real t425 = C_i[2] * cosine_0 + C_i[5] * sine_0;
+    const jg_real t426 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_v_velocity[12] = C_i[7] * g_star_dot_g_j - g_j_in_joint_i_2 * t424;
     jac_phi_q_v_velocity[14] = -t422;
-    const jg_real t425 = C_i[2] * cosine_0 + C_i[5] * sine_0;
     jac_phi_q_v_velocity[15] = h_j_in_joint_i_2 * t425 - C_i[8] * f_star_dot_h_j;
-    const jg_real t426 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_v_velocity[16] = t425 * h_star_cross_f_j_in_star + t426 * f_star_dot_f_j;
     jac_phi_q_v_velocity[17] = C_i[8] * g_star_dot_g_j - g_j_in_joint_i_2 * t426;
     jac_phi_q_v_velocity[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
@@ -1187,70 +1185,63 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_q_v_velocity[45] = -f_star_dot_h_j;
 }
 
-static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
+static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i,
+    const jg_real *r_j, const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *jac_phi_q_t_lambda_r_i, jg_real *jac_phi_q_t_lambda_A_i, jg_real *jac_phi_q_t_lambda_r_j,
+    jg_real *jac_phi_q_t_lambda_A_j, jg_real *jac_phi_q_t_lambda_alpha, jg_real *jac_phi_q_t_lambda_geometry,
+    jg_real *jac_phi_q_t_lambda_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_6 * A_ji_4;
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ji_5 + lambda[0] * A_ji_2 + lambda[2] * A_ji_8;
+    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
+    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real lambda_0_1_2_in_j_1 = lambda[1] * A_ji_4 + lambda[0] * A_ji_1 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[67] = lambda_0_1_2_in_j_1;
     const jg_real t10 = A_j[3] * lambda_0_1_2_in_j_2 - A_j[6] * lambda_0_1_2_in_j_1;
     const jg_real A_ji_0 = A_ji_8 * A_ji_4 - A_ji_5 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[77] = lambda_0_1_2_in_j_0;
     const jg_real t13 = A_j[6] * lambda_0_1_2_in_j_0 - A_j[0] * lambda_0_1_2_in_j_2;
     const jg_real t14 = A_j[0] * lambda_0_1_2_in_j_1 - A_j[3] * lambda_0_1_2_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_t_lambda_r_i[0] = t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_t_lambda_r_i[1] = t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_t_lambda_r_i[2] = t17;
     const jg_real t18 = A_j[4] * lambda_0_1_2_in_j_2 - A_j[7] * lambda_0_1_2_in_j_1;
     const jg_real t19 = A_j[7] * lambda_0_1_2_in_j_0 - A_j[1] * lambda_0_1_2_in_j_2;
     const jg_real t20 = A_j[1] * lambda_0_1_2_in_j_1 - A_j[4] * lambda_0_1_2_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_geometry[67] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_geometry[77] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_r_i[0] = t15;
+    jac_phi_q_t_lambda_r_i[1] = t16;
+    jac_phi_q_t_lambda_r_i[2] = t17;
     jac_phi_q_t_lambda_r_i[3] = t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_t_lambda_r_i[4] = t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_t_lambda_r_i[5] = t23;
     const jg_real t24 = A_j[5] * lambda_0_1_2_in_j_2 - A_j[8] * lambda_0_1_2_in_j_1;
     const jg_real t25 = A_j[8] * lambda_0_1_2_in_j_0 - A_j[2] * lambda_0_1_2_in_j_2;
     const jg_real t26 = A_j[2] * lambda_0_1_2_in_j_1 - A_j[5] * lambda_0_1_2_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
-    jac_phi_q_t_lambda_r_i[6] = t27;
     const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
-    jac_phi_q_t_lambda_r_i[7] = t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_t_lambda_r_i[8] = t29;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = C_i[7] * A_ji_4 + C_i[6] * A_ji_1 + C_i[8] * A_ji_7;
     jg_real sine_0;
@@ -1311,52 +1302,48 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t70 = A_j[6] * C_i[7] + C_i[6] * t68;
     const jg_real t71 = t65 * g_star_in_j_2 + h_star_in_j_0 * t69 - (t70 * g_star_in_j_0 + h_star_in_j_2 * t64);
     const jg_real t72 = lambda[1] * A_j[6] + lambda[0] * t68;
-    jac_phi_q_t_lambda_A_i[5] = t72;
     const jg_real t73 = lambda[1] * A_j[3] + lambda[0] * t62;
-    jac_phi_q_t_lambda_A_i[4] = t73;
     const jg_real t74 = v_6_in_j_1 * t69 - v_6_in_j_2 * t66 + (v_2_in_j_1 * t70 - v_2_in_j_2 * t63 + (s_j[1] * t72 -
         s_j[2] * t73) + (v_4_in_j_1 * t67 - v_4_in_j_2 * t71));
+    jac_phi_q_t_lambda_r_i[4] = t22;
+    jac_phi_q_t_lambda_r_i[5] = t23;
+    jac_phi_q_t_lambda_r_i[6] = t27;
+    jac_phi_q_t_lambda_r_i[7] = t28;
+    jac_phi_q_t_lambda_r_i[8] = t29;
+    jac_phi_q_t_lambda_A_i[5] = t72;
+    jac_phi_q_t_lambda_A_i[4] = t73;
     jac_phi_q_t_lambda_A_i[6] = t74;
-    const jg_real t75 = v_0_in_j_1 * t72 - v_0_in_j_2 * t73 + t74;
+    const jg_real t75 = v_0_in_j_1 * t72 - t73 * v_0_in_j_2 + t74;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real v_4_in_j_0 = lambda[5] * C_j[3];
     const jg_real v_5_in_j_1 = v_4_in_j_2 * f_star_in_j_0 - v_4_in_j_0 * f_star_in_j_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_2_in_j_0 = lambda[4] * C_j[0];
     const jg_real v_3_in_j_1 = v_2_in_j_2 * h_star_in_j_0 - v_2_in_j_0 * h_star_in_j_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_6_in_j_0 = lambda[3] * C_j[6];
     const jg_real v_7_in_j_1 = v_6_in_j_2 * g_star_in_j_0 - v_6_in_j_0 * g_star_in_j_2;
-    const jg_real v_8_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
+    const jg_real v_8_in_j_1 = v_3_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real v_1_in_j_1 = v_0_in_j_2 * lambda_0_1_2_in_j_0 - v_0_in_j_0 * lambda_0_1_2_in_j_2;
     const jg_real v_9_in_j_1 = v_1_in_j_1 + v_8_in_j_1;
     const jg_real t88 = t70 * g_star_in_j_1 + h_star_in_j_2 * t66 - (t63 * g_star_in_j_2 + h_star_in_j_1 * t69);
     const jg_real t89 = lambda[1] * A_j[0] + lambda[0] * t61;
-    jac_phi_q_t_lambda_A_i[3] = t89;
-    const jg_real t90 = v_6_in_j_2 * t64 - v_6_in_j_0 * t69 + (s_j[2] * t89 - s_j[0] * t72 + (v_2_in_j_2 * t65 -
-        v_2_in_j_0 * t70) + (v_4_in_j_2 * t88 - v_4_in_j_0 * t67));
-    jac_phi_q_t_lambda_A_i[7] = t90;
-    const jg_real t91 = v_0_in_j_2 * t89 - v_0_in_j_0 * t72 + t90;
+    const jg_real t90 = v_6_in_j_2 * t64 - v_6_in_j_0 * t69 + (v_2_in_j_2 * t65 - v_2_in_j_0 * t70 + (s_j[2] * t89 -
+        s_j[0] * t72) + (v_4_in_j_2 * t88 - v_4_in_j_0 * t67));
+    const jg_real t91 = v_0_in_j_2 * t89 - t72 * v_0_in_j_0 + t90;
     const jg_real v_5_in_j_2 = v_4_in_j_0 * f_star_in_j_1 - v_4_in_j_1 * f_star_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real v_3_in_j_2 = v_2_in_j_0 * h_star_in_j_1 - v_2_in_j_1 * h_star_in_j_0;
     const jg_real v_7_in_j_2 = v_6_in_j_0 * g_star_in_j_1 - v_6_in_j_1 * g_star_in_j_0;
     const jg_real v_8_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_5_in_j_2 + v_7_in_j_2;
-    const jg_real v_1_in_j_2 = v_0_in_j_0 * lambda_0_1_2_in_j_1 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_j_2 = lambda_0_1_2_in_j_1 * v_0_in_j_0 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
     const jg_real v_9_in_j_2 = v_1_in_j_2 + v_8_in_j_2;
     const jg_real t99 = v_6_in_j_0 * t66 - v_6_in_j_1 * t64 + (s_j[0] * t73 - s_j[1] * t89 + (v_2_in_j_0 * t63 -
         v_2_in_j_1 * t65) + (v_4_in_j_0 * t71 - v_4_in_j_1 * t88));
-    jac_phi_q_t_lambda_A_i[8] = t99;
     const jg_real t100 = t73 * v_0_in_j_0 - v_0_in_j_1 * t89 + t99;
-    jac_phi_q_t_lambda_A_i[0] = -(t68 * v_9_in_j_2 + A_ji_2 * t100 + (t61 * v_9_in_j_0 + A_ji_0 * t75 + (t62 *
-        v_9_in_j_1 + A_ji_1 * t91)));
     const jg_real t101 = A_j[0] * v_9_in_j_0;
     const jg_real t102 = A_j[3] * v_9_in_j_1;
     const jg_real t103 = A_j[6] * v_9_in_j_2;
-    jac_phi_q_t_lambda_A_i[1] = -(t103 + A_ji_5 * t100 + (t101 + A_ji_3 * t75 + (t102 + A_ji_4 * t91)));
-    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t75 + A_ji_7 * t91 + A_ji_8 * t100);
-    jac_phi_q_t_lambda_A_i[9] = v_4_in_j_0 * t64 + v_4_in_j_1 * t66 + v_4_in_j_2 * t69 - (v_6_in_j_0 * t88 +
-        v_6_in_j_1 * t71 + v_6_in_j_2 * t67);
     const jg_real t104 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t105 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
     const jg_real t106 = A_j[4] * C_i[7] + C_i[6] * t105;
@@ -1371,34 +1358,41 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t114 = t108 * g_star_in_j_2 + h_star_in_j_0 * t112 - (t113 * g_star_in_j_0 + h_star_in_j_2 *
         t107);
     const jg_real t115 = lambda[1] * A_j[7] + lambda[0] * t111;
+    jac_phi_q_t_lambda_A_i[3] = t89;
+    jac_phi_q_t_lambda_A_i[7] = t90;
+    jac_phi_q_t_lambda_A_i[8] = t99;
+    jac_phi_q_t_lambda_A_i[0] = -(t68 * v_9_in_j_2 + A_ji_2 * t100 + (t61 * v_9_in_j_0 + A_ji_0 * t75 + (t62 *
+        v_9_in_j_1 + A_ji_1 * t91)));
+    jac_phi_q_t_lambda_A_i[1] = -(t103 + A_ji_5 * t100 + (t101 + A_ji_3 * t75 + (t102 + A_ji_4 * t91)));
+    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t75 + A_ji_7 * t91 + A_ji_8 * t100);
+    jac_phi_q_t_lambda_A_i[9] = v_4_in_j_0 * t64 + v_4_in_j_1 * t66 + v_4_in_j_2 * t69 - (v_6_in_j_0 * t88 +
+        v_6_in_j_1 * t71 + v_6_in_j_2 * t67);
     jac_phi_q_t_lambda_A_i[15] = t115;
     const jg_real t116 = lambda[1] * A_j[4] + lambda[0] * t105;
-    jac_phi_q_t_lambda_A_i[14] = t116;
     const jg_real t117 = v_6_in_j_1 * t112 - v_6_in_j_2 * t109 + (v_2_in_j_1 * t113 - v_2_in_j_2 * t106 + (s_j[1] *
         t115 - s_j[2] * t116) + (v_4_in_j_1 * t110 - v_4_in_j_2 * t114));
-    jac_phi_q_t_lambda_A_i[16] = t117;
-    const jg_real t118 = v_0_in_j_1 * t115 - v_0_in_j_2 * t116 + t117;
+    const jg_real t118 = v_0_in_j_1 * t115 - t116 * v_0_in_j_2 + t117;
     const jg_real t119 = t113 * g_star_in_j_1 + h_star_in_j_2 * t109 - (t106 * g_star_in_j_2 + h_star_in_j_1 *
         t112);
     const jg_real t120 = lambda[1] * A_j[1] + lambda[0] * t104;
-    jac_phi_q_t_lambda_A_i[13] = t120;
-    const jg_real t121 = v_6_in_j_2 * t107 - v_6_in_j_0 * t112 + (s_j[2] * t120 - s_j[0] * t115 + (v_2_in_j_2 * t108
-        - v_2_in_j_0 * t113) + (v_4_in_j_2 * t119 - v_4_in_j_0 * t110));
-    jac_phi_q_t_lambda_A_i[17] = t121;
-    const jg_real t122 = v_0_in_j_2 * t120 - v_0_in_j_0 * t115 + t121;
+    const jg_real t121 = v_6_in_j_2 * t107 - v_6_in_j_0 * t112 + (v_2_in_j_2 * t108 - v_2_in_j_0 * t113 + (s_j[2] *
+        t120 - s_j[0] * t115) + (v_4_in_j_2 * t119 - v_4_in_j_0 * t110));
+    const jg_real t122 = v_0_in_j_2 * t120 - t115 * v_0_in_j_0 + t121;
     const jg_real t123 = v_6_in_j_0 * t109 - v_6_in_j_1 * t107 + (s_j[0] * t116 - s_j[1] * t120 + (v_2_in_j_0 * t106
         - v_2_in_j_1 * t108) + (v_4_in_j_0 * t114 - v_4_in_j_1 * t119));
-    jac_phi_q_t_lambda_A_i[18] = t123;
     const jg_real t124 = t116 * v_0_in_j_0 - v_0_in_j_1 * t120 + t123;
-    jac_phi_q_t_lambda_A_i[10] = -(t111 * v_9_in_j_2 + A_ji_2 * t124 + (t104 * v_9_in_j_0 + A_ji_0 * t118 + (t105 *
-        v_9_in_j_1 + A_ji_1 * t122)));
     const jg_real t125 = A_j[1] * v_9_in_j_0;
     const jg_real t126 = A_j[4] * v_9_in_j_1;
     const jg_real t127 = A_j[7] * v_9_in_j_2;
+    jac_phi_q_t_lambda_A_i[14] = t116;
+    jac_phi_q_t_lambda_A_i[16] = t117;
+    jac_phi_q_t_lambda_A_i[13] = t120;
+    jac_phi_q_t_lambda_A_i[17] = t121;
+    jac_phi_q_t_lambda_A_i[18] = t123;
+    jac_phi_q_t_lambda_A_i[10] = -(t111 * v_9_in_j_2 + A_ji_2 * t124 + (t104 * v_9_in_j_0 + A_ji_0 * t118 + (t105 *
+        v_9_in_j_1 + A_ji_1 * t122)));
     jac_phi_q_t_lambda_A_i[11] = -(t127 + A_ji_5 * t124 + (t125 + A_ji_3 * t118 + (t126 + A_ji_4 * t122)));
     jac_phi_q_t_lambda_A_i[12] = -(A_ji_6 * t118 + A_ji_7 * t122 + A_ji_8 * t124);
-    jac_phi_q_t_lambda_A_i[19] = v_4_in_j_0 * t107 + v_4_in_j_1 * t109 + v_4_in_j_2 * t112 - (v_6_in_j_0 * t119 +
-        v_6_in_j_1 * t114 + v_6_in_j_2 * t110);
     const jg_real t128 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t129 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
     const jg_real t130 = A_j[5] * C_i[7] + C_i[6] * t129;
@@ -1413,34 +1407,32 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t138 = t132 * g_star_in_j_2 + h_star_in_j_0 * t136 - (t137 * g_star_in_j_0 + h_star_in_j_2 *
         t131);
     const jg_real t139 = lambda[1] * A_j[8] + lambda[0] * t135;
-    jac_phi_q_t_lambda_A_i[25] = t139;
     const jg_real t140 = lambda[1] * A_j[5] + lambda[0] * t129;
-    jac_phi_q_t_lambda_A_i[24] = t140;
     const jg_real t141 = v_6_in_j_1 * t136 - v_6_in_j_2 * t133 + (v_2_in_j_1 * t137 - v_2_in_j_2 * t130 + (s_j[1] *
         t139 - s_j[2] * t140) + (v_4_in_j_1 * t134 - v_4_in_j_2 * t138));
-    jac_phi_q_t_lambda_A_i[26] = t141;
-    const jg_real t142 = v_0_in_j_1 * t139 - v_0_in_j_2 * t140 + t141;
+    const jg_real t142 = v_0_in_j_1 * t139 - t140 * v_0_in_j_2 + t141;
     const jg_real t143 = t137 * g_star_in_j_1 + h_star_in_j_2 * t133 - (t130 * g_star_in_j_2 + h_star_in_j_1 *
         t136);
     const jg_real t144 = lambda[1] * A_j[2] + lambda[0] * t128;
-    jac_phi_q_t_lambda_A_i[23] = t144;
-    const jg_real t145 = v_6_in_j_2 * t131 - v_6_in_j_0 * t136 + (s_j[2] * t144 - s_j[0] * t139 + (v_2_in_j_2 * t132
-        - v_2_in_j_0 * t137) + (v_4_in_j_2 * t143 - v_4_in_j_0 * t134));
-    jac_phi_q_t_lambda_A_i[27] = t145;
-    const jg_real t146 = v_0_in_j_2 * t144 - v_0_in_j_0 * t139 + t145;
+    const jg_real t145 = v_6_in_j_2 * t131 - v_6_in_j_0 * t136 + (v_2_in_j_2 * t132 - v_2_in_j_0 * t137 + (s_j[2] *
+        t144 - s_j[0] * t139) + (v_4_in_j_2 * t143 - v_4_in_j_0 * t134));
+    const jg_real t146 = v_0_in_j_2 * t144 - t139 * v_0_in_j_0 + t145;
     const jg_real t147 = v_6_in_j_0 * t133 - v_6_in_j_1 * t131 + (s_j[0] * t140 - s_j[1] * t144 + (v_2_in_j_0 * t130
         - v_2_in_j_1 * t132) + (v_4_in_j_0 * t138 - v_4_in_j_1 * t143));
-    jac_phi_q_t_lambda_A_i[28] = t147;
     const jg_real t148 = t140 * v_0_in_j_0 - v_0_in_j_1 * t144 + t147;
+    jac_phi_q_t_lambda_A_i[19] = v_4_in_j_0 * t107 + v_4_in_j_1 * t109 + v_4_in_j_2 * t112 - (v_6_in_j_0 * t119 +
+        v_6_in_j_1 * t114 + v_6_in_j_2 * t110);
+    jac_phi_q_t_lambda_A_i[25] = t139;
+    jac_phi_q_t_lambda_A_i[24] = t140;
+    jac_phi_q_t_lambda_A_i[26] = t141;
+    jac_phi_q_t_lambda_A_i[23] = t144;
+    jac_phi_q_t_lambda_A_i[27] = t145;
+    jac_phi_q_t_lambda_A_i[28] = t147;
     jac_phi_q_t_lambda_A_i[20] = -(t135 * v_9_in_j_2 + A_ji_2 * t148 + (t128 * v_9_in_j_0 + A_ji_0 * t142 + (t129 *
         v_9_in_j_1 + A_ji_1 * t146)));
     const jg_real t149 = A_j[2] * v_9_in_j_0;
     const jg_real t150 = A_j[5] * v_9_in_j_1;
     const jg_real t151 = A_j[8] * v_9_in_j_2;
-    jac_phi_q_t_lambda_A_i[21] = -(t151 + A_ji_5 * t148 + (t149 + A_ji_3 * t142 + (t150 + A_ji_4 * t146)));
-    jac_phi_q_t_lambda_A_i[22] = -(A_ji_6 * t142 + A_ji_7 * t146 + A_ji_8 * t148);
-    jac_phi_q_t_lambda_A_i[29] = v_4_in_j_0 * t131 + v_4_in_j_1 * t133 + v_4_in_j_2 * t136 - (v_6_in_j_0 * t143 +
-        v_6_in_j_1 * t138 + v_6_in_j_2 * t134);
     const jg_real t152 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
     const jg_real t153 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
     const jg_real t154 = A_j[3] * C_i[8] + C_i[6] * t153;
@@ -1455,31 +1447,28 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t162 = t156 * g_star_in_j_2 + h_star_in_j_0 * t160 - (t161 * g_star_in_j_0 + h_star_in_j_2 *
         t155);
     const jg_real t163 = lambda[2] * A_j[6] + lambda[0] * t159;
-    jac_phi_q_t_lambda_A_i[35] = t163;
     const jg_real t164 = lambda[2] * A_j[3] + lambda[0] * t153;
-    jac_phi_q_t_lambda_A_i[34] = t164;
     const jg_real t165 = v_6_in_j_1 * t160 - v_6_in_j_2 * t157 + (v_2_in_j_1 * t161 - v_2_in_j_2 * t154 + (s_j[1] *
         t163 - s_j[2] * t164) + (v_4_in_j_1 * t158 - v_4_in_j_2 * t162));
-    jac_phi_q_t_lambda_A_i[36] = t165;
     const jg_real t166 = v_0_in_j_1 * t163 - v_0_in_j_2 * t164 + t165;
     const jg_real t167 = t161 * g_star_in_j_1 + h_star_in_j_2 * t157 - (t154 * g_star_in_j_2 + h_star_in_j_1 *
         t160);
     const jg_real t168 = lambda[2] * A_j[0] + lambda[0] * t152;
+    const jg_real t169 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (v_2_in_j_2 * t156 - v_2_in_j_0 * t161 + (s_j[2] *
+        t168 - s_j[0] * t163) + (v_4_in_j_2 * t167 - v_4_in_j_0 * t158));
+    jac_phi_q_t_lambda_A_i[21] = -(t151 + A_ji_5 * t148 + (t149 + A_ji_3 * t142 + (t150 + A_ji_4 * t146)));
+    jac_phi_q_t_lambda_A_i[22] = -(A_ji_6 * t142 + A_ji_7 * t146 + A_ji_8 * t148);
+    jac_phi_q_t_lambda_A_i[29] = v_4_in_j_0 * t131 + v_4_in_j_1 * t133 + v_4_in_j_2 * t136 - (v_6_in_j_0 * t143 +
+        v_6_in_j_1 * t138 + v_6_in_j_2 * t134);
+    jac_phi_q_t_lambda_A_i[35] = t163;
+    jac_phi_q_t_lambda_A_i[34] = t164;
+    jac_phi_q_t_lambda_A_i[36] = t165;
     jac_phi_q_t_lambda_A_i[33] = t168;
-    const jg_real t169 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (s_j[2] * t168 - s_j[0] * t163 + (v_2_in_j_2 * t156
-        - v_2_in_j_0 * t161) + (v_4_in_j_2 * t167 - v_4_in_j_0 * t158));
     jac_phi_q_t_lambda_A_i[37] = t169;
     const jg_real t170 = v_0_in_j_2 * t168 - v_0_in_j_0 * t163 + t169;
     const jg_real t171 = v_6_in_j_0 * t157 - v_6_in_j_1 * t155 + (s_j[0] * t164 - s_j[1] * t168 + (v_2_in_j_0 * t154
         - v_2_in_j_1 * t156) + (v_4_in_j_0 * t162 - v_4_in_j_1 * t167));
-    jac_phi_q_t_lambda_A_i[38] = t171;
-    const jg_real t172 = v_0_in_j_0 * t164 - v_0_in_j_1 * t168 + t171;
-    jac_phi_q_t_lambda_A_i[30] = -(t159 * v_9_in_j_2 + A_ji_2 * t172 + (t152 * v_9_in_j_0 + A_ji_0 * t166 + (t153 *
-        v_9_in_j_1 + A_ji_1 * t170)));
-    jac_phi_q_t_lambda_A_i[31] = -(A_ji_3 * t166 + A_ji_4 * t170 + A_ji_5 * t172);
-    jac_phi_q_t_lambda_A_i[32] = -(t103 + A_ji_8 * t172 + (t101 + A_ji_6 * t166 + (t102 + A_ji_7 * t170)));
-    jac_phi_q_t_lambda_A_i[39] = v_4_in_j_0 * t155 + v_4_in_j_1 * t157 + v_4_in_j_2 * t160 - (v_6_in_j_0 * t167 +
-        v_6_in_j_1 * t162 + v_6_in_j_2 * t158);
+    const jg_real t172 = t164 * v_0_in_j_0 - v_0_in_j_1 * t168 + t171;
     const jg_real t173 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
     const jg_real t174 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
     const jg_real t175 = A_j[4] * C_i[8] + C_i[6] * t174;
@@ -1494,31 +1483,29 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t183 = t177 * g_star_in_j_2 + h_star_in_j_0 * t181 - (t182 * g_star_in_j_0 + h_star_in_j_2 *
         t176);
     const jg_real t184 = lambda[2] * A_j[7] + lambda[0] * t180;
-    jac_phi_q_t_lambda_A_i[45] = t184;
     const jg_real t185 = lambda[2] * A_j[4] + lambda[0] * t174;
-    jac_phi_q_t_lambda_A_i[44] = t185;
     const jg_real t186 = v_6_in_j_1 * t181 - v_6_in_j_2 * t178 + (v_2_in_j_1 * t182 - v_2_in_j_2 * t175 + (s_j[1] *
         t184 - s_j[2] * t185) + (v_4_in_j_1 * t179 - v_4_in_j_2 * t183));
+    jac_phi_q_t_lambda_A_i[38] = t171;
+    jac_phi_q_t_lambda_A_i[30] = -(t159 * v_9_in_j_2 + A_ji_2 * t172 + (t152 * v_9_in_j_0 + A_ji_0 * t166 + (t153 *
+        v_9_in_j_1 + A_ji_1 * t170)));
+    jac_phi_q_t_lambda_A_i[31] = -(A_ji_3 * t166 + A_ji_4 * t170 + A_ji_5 * t172);
+    jac_phi_q_t_lambda_A_i[32] = -(t103 + A_ji_8 * t172 + (t101 + A_ji_6 * t166 + (t102 + A_ji_7 * t170)));
+    jac_phi_q_t_lambda_A_i[39] = v_4_in_j_0 * t155 + v_4_in_j_1 * t157 + v_4_in_j_2 * t160 - (v_6_in_j_0 * t167 +
+        v_6_in_j_1 * t162 + v_6_in_j_2 * t158);
+    jac_phi_q_t_lambda_A_i[45] = t184;
+    jac_phi_q_t_lambda_A_i[44] = t185;
     jac_phi_q_t_lambda_A_i[46] = t186;
     const jg_real t187 = v_0_in_j_1 * t184 - v_0_in_j_2 * t185 + t186;
     const jg_real t188 = t182 * g_star_in_j_1 + h_star_in_j_2 * t178 - (t175 * g_star_in_j_2 + h_star_in_j_1 *
         t181);
     const jg_real t189 = lambda[2] * A_j[1] + lambda[0] * t173;
-    jac_phi_q_t_lambda_A_i[43] = t189;
-    const jg_real t190 = v_6_in_j_2 * t176 - v_6_in_j_0 * t181 + (s_j[2] * t189 - s_j[0] * t184 + (v_2_in_j_2 * t177
-        - v_2_in_j_0 * t182) + (v_4_in_j_2 * t188 - v_4_in_j_0 * t179));
-    jac_phi_q_t_lambda_A_i[47] = t190;
+    const jg_real t190 = v_6_in_j_2 * t176 - v_6_in_j_0 * t181 + (v_2_in_j_2 * t177 - v_2_in_j_0 * t182 + (s_j[2] *
+        t189 - s_j[0] * t184) + (v_4_in_j_2 * t188 - v_4_in_j_0 * t179));
     const jg_real t191 = v_0_in_j_2 * t189 - v_0_in_j_0 * t184 + t190;
     const jg_real t192 = v_6_in_j_0 * t178 - v_6_in_j_1 * t176 + (s_j[0] * t185 - s_j[1] * t189 + (v_2_in_j_0 * t175
         - v_2_in_j_1 * t177) + (v_4_in_j_0 * t183 - v_4_in_j_1 * t188));
-    jac_phi_q_t_lambda_A_i[48] = t192;
-    const jg_real t193 = v_0_in_j_0 * t185 - v_0_in_j_1 * t189 + t192;
-    jac_phi_q_t_lambda_A_i[40] = -(t180 * v_9_in_j_2 + A_ji_2 * t193 + (t173 * v_9_in_j_0 + A_ji_0 * t187 + (t174 *
-        v_9_in_j_1 + A_ji_1 * t191)));
-    jac_phi_q_t_lambda_A_i[41] = -(A_ji_3 * t187 + A_ji_4 * t191 + A_ji_5 * t193);
-    jac_phi_q_t_lambda_A_i[42] = -(t127 + A_ji_8 * t193 + (t125 + A_ji_6 * t187 + (t126 + A_ji_7 * t191)));
-    jac_phi_q_t_lambda_A_i[49] = v_4_in_j_0 * t176 + v_4_in_j_1 * t178 + v_4_in_j_2 * t181 - (v_6_in_j_0 * t188 +
-        v_6_in_j_1 * t183 + v_6_in_j_2 * t179);
+    const jg_real t193 = t185 * v_0_in_j_0 - v_0_in_j_1 * t189 + t192;
     const jg_real t194 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
     const jg_real t195 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
     const jg_real t196 = A_j[5] * C_i[8] + C_i[6] * t195;
@@ -1533,25 +1520,34 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t204 = t198 * g_star_in_j_2 + h_star_in_j_0 * t202 - (t203 * g_star_in_j_0 + h_star_in_j_2 *
         t197);
     const jg_real t205 = lambda[2] * A_j[8] + lambda[0] * t201;
+    jac_phi_q_t_lambda_A_i[43] = t189;
+    jac_phi_q_t_lambda_A_i[47] = t190;
+    jac_phi_q_t_lambda_A_i[48] = t192;
+    jac_phi_q_t_lambda_A_i[40] = -(t180 * v_9_in_j_2 + A_ji_2 * t193 + (t173 * v_9_in_j_0 + A_ji_0 * t187 + (t174 *
+        v_9_in_j_1 + A_ji_1 * t191)));
+    jac_phi_q_t_lambda_A_i[41] = -(A_ji_3 * t187 + A_ji_4 * t191 + A_ji_5 * t193);
+    jac_phi_q_t_lambda_A_i[42] = -(t127 + A_ji_8 * t193 + (t125 + A_ji_6 * t187 + (t126 + A_ji_7 * t191)));
+    jac_phi_q_t_lambda_A_i[49] = v_4_in_j_0 * t176 + v_4_in_j_1 * t178 + v_4_in_j_2 * t181 - (v_6_in_j_0 * t188 +
+        v_6_in_j_1 * t183 + v_6_in_j_2 * t179);
     jac_phi_q_t_lambda_A_i[55] = t205;
     const jg_real t206 = lambda[2] * A_j[5] + lambda[0] * t195;
-    jac_phi_q_t_lambda_A_i[54] = t206;
     const jg_real t207 = v_6_in_j_1 * t202 - v_6_in_j_2 * t199 + (v_2_in_j_1 * t203 - v_2_in_j_2 * t196 + (s_j[1] *
         t205 - s_j[2] * t206) + (v_4_in_j_1 * t200 - v_4_in_j_2 * t204));
-    jac_phi_q_t_lambda_A_i[56] = t207;
     const jg_real t208 = v_0_in_j_1 * t205 - v_0_in_j_2 * t206 + t207;
     const jg_real t209 = t203 * g_star_in_j_1 + h_star_in_j_2 * t199 - (t196 * g_star_in_j_2 + h_star_in_j_1 *
         t202);
     const jg_real t210 = lambda[2] * A_j[2] + lambda[0] * t194;
-    jac_phi_q_t_lambda_A_i[53] = t210;
-    const jg_real t211 = v_6_in_j_2 * t197 - v_6_in_j_0 * t202 + (s_j[2] * t210 - s_j[0] * t205 + (v_2_in_j_2 * t198
-        - v_2_in_j_0 * t203) + (v_4_in_j_2 * t209 - v_4_in_j_0 * t200));
-    jac_phi_q_t_lambda_A_i[57] = t211;
+    const jg_real t211 = v_6_in_j_2 * t197 - v_6_in_j_0 * t202 + (v_2_in_j_2 * t198 - v_2_in_j_0 * t203 + (s_j[2] *
+        t210 - s_j[0] * t205) + (v_4_in_j_2 * t209 - v_4_in_j_0 * t200));
     const jg_real t212 = v_0_in_j_2 * t210 - v_0_in_j_0 * t205 + t211;
     const jg_real t213 = v_6_in_j_0 * t199 - v_6_in_j_1 * t197 + (s_j[0] * t206 - s_j[1] * t210 + (v_2_in_j_0 * t196
         - v_2_in_j_1 * t198) + (v_4_in_j_0 * t204 - v_4_in_j_1 * t209));
+    const jg_real t214 = t206 * v_0_in_j_0 - v_0_in_j_1 * t210 + t213;
+    jac_phi_q_t_lambda_A_i[54] = t206;
+    jac_phi_q_t_lambda_A_i[56] = t207;
+    jac_phi_q_t_lambda_A_i[53] = t210;
+    jac_phi_q_t_lambda_A_i[57] = t211;
     jac_phi_q_t_lambda_A_i[58] = t213;
-    const jg_real t214 = v_0_in_j_0 * t206 - v_0_in_j_1 * t210 + t213;
     jac_phi_q_t_lambda_A_i[50] = -(t201 * v_9_in_j_2 + A_ji_2 * t214 + (t194 * v_9_in_j_0 + A_ji_0 * t208 + (t195 *
         v_9_in_j_1 + A_ji_1 * t212)));
     jac_phi_q_t_lambda_A_i[51] = -(A_ji_3 * t208 + A_ji_4 * t212 + A_ji_5 * t214);
@@ -1565,8 +1561,6 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_r_j[4] = -t22;
     jac_phi_q_t_lambda_r_j[5] = -t23;
     jac_phi_q_t_lambda_r_j[6] = -t27;
-    jac_phi_q_t_lambda_r_j[7] = -t28;
-    jac_phi_q_t_lambda_r_j[8] = -t29;
     const jg_real t215 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t216 = t215 * g_star_in_j_2;
     const jg_real t217 = A_i[6] * A_ji_4 - A_i[3] * A_ji_7;
@@ -1584,52 +1578,45 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t229 = h_star_in_j_1 * t218;
     const jg_real t230 = t225 - t226 - (t228 - t229);
     const jg_real t231 = lambda[0] * t223;
-    jac_phi_q_t_lambda_A_j[4] = t231;
     const jg_real t232 = lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t232;
-    jac_phi_q_t_lambda_A_j[34] = t232;
-    jac_phi_q_t_lambda_A_j[65] = t232;
     const jg_real t233 = s_j[1] * t232;
     const jg_real t234 = v_2_in_j_1 * t215;
     const jg_real t235 = v_6_in_j_1 * t219;
     const jg_real t236 = v_6_in_j_0 * t224 - t235 + (s_j[0] * t231 - t233 + (v_2_in_j_0 * t227 - t234) + (v_4_in_j_0
         * t222 - v_4_in_j_1 * t230));
-    jac_phi_q_t_lambda_A_j[8] = t236;
     const jg_real t237 = v_0_world_0 * lambda_0_1_2_in_j_1;
     const jg_real t238 = v_0_in_j_1 * t232;
     const jg_real t239 = t237 + t231 * v_0_in_j_0 - t238 + t236;
     const jg_real t240 = h_star_in_j_1 * t219;
     const jg_real t241 = t215 * g_star_in_j_1;
     const jg_real t242 = t227 * g_star_in_j_0 + t240 - (t241 + h_star_in_j_0 * t224);
-    const jg_real t243 = lambda[0] * t217;
-    jac_phi_q_t_lambda_A_j[63] = t243;
-    const jg_real t244 = s_j[2] * t232;
-    const jg_real t245 = v_2_in_j_2 * t215;
+    const jg_real t243 = v_2_in_j_2 * t215;
+    const jg_real t244 = lambda[0] * t217;
+    jac_phi_q_t_lambda_r_j[7] = -t28;
+    jac_phi_q_t_lambda_r_j[8] = -t29;
+    jac_phi_q_t_lambda_A_j[4] = t231;
+    jac_phi_q_t_lambda_A_j[3] = t232;
+    jac_phi_q_t_lambda_A_j[34] = t232;
+    jac_phi_q_t_lambda_A_j[65] = t232;
+    jac_phi_q_t_lambda_A_j[8] = t236;
+    jac_phi_q_t_lambda_A_j[63] = t244;
+    const jg_real t245 = s_j[2] * t232;
     const jg_real t246 = v_6_in_j_2 * t219;
-    const jg_real t247 = t246 + v_6_in_j_0 * t218 + (t244 + s_j[0] * t243 + (t245 + v_2_in_j_0 * t221) + (v_4_in_j_2
+    const jg_real t247 = t246 + v_6_in_j_0 * t218 + (t243 + v_2_in_j_0 * t221 + (t245 + s_j[0] * t244) + (v_4_in_j_2
         * t230 - v_4_in_j_0 * t242));
-    jac_phi_q_t_lambda_A_j[7] = t247;
     const jg_real t248 = v_0_world_0 * lambda_0_1_2_in_j_2;
     const jg_real t249 = v_0_in_j_2 * t232;
-    const jg_real t250 = t249 - (t248 - t243 * v_0_in_j_0) + t247;
+    const jg_real t250 = t249 - (t248 - t244 * v_0_in_j_0) + t247;
     const jg_real t251 = v_2_in_j_2 * t227;
     const jg_real t252 = v_2_in_j_1 * t221;
     const jg_real t253 = s_j[2] * t231;
-    const jg_real t254 = s_j[1] * t243;
+    const jg_real t254 = s_j[1] * t244;
     const jg_real t255 = v_6_in_j_2 * t224;
     const jg_real t256 = v_6_in_j_1 * t218;
     const jg_real t257 = v_4_in_j_1 * t242 - v_4_in_j_2 * t222 - (t251 + t252 + (t253 + t254)) - (t255 + t256);
-    jac_phi_q_t_lambda_A_j[6] = t257;
-    const jg_real t258 = v_0_in_j_2 * t231;
-    const jg_real t259 = v_0_in_j_1 * t243;
+    const jg_real t258 = t231 * v_0_in_j_2;
+    const jg_real t259 = t244 * v_0_in_j_1;
     const jg_real t260 = t257 - (t258 + t259);
-    jac_phi_q_t_lambda_A_j[0] = -(A_ji_2 * t239 - t217 * v_9_in_j_2 + (t223 * v_9_in_j_1 + A_ji_1 * t250 + A_ji_0 *
-        t260));
-    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_9_in_j_0 + A_ji_3 * t260 + A_ji_4 * t250 + A_ji_5 * t239);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_9_in_j_0 + A_ji_6 * t260 + A_ji_7 * t250 + A_ji_8 * t239);
-    jac_phi_q_t_lambda_A_j[5] = -t243;
-    jac_phi_q_t_lambda_A_j[9] = v_4_in_j_0 * t219 + v_4_in_j_1 * t224 - v_4_in_j_2 * t218 - (v_6_in_j_0 * t230 +
-        v_6_in_j_1 * t222 + v_6_in_j_2 * t242);
     const jg_real t261 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t262 = t261 * g_star_in_j_2;
     const jg_real t263 = A_i[7] * A_ji_4 - A_i[4] * A_ji_7;
@@ -1647,52 +1634,56 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t275 = h_star_in_j_1 * t264;
     const jg_real t276 = t271 - t272 - (t274 - t275);
     const jg_real t277 = lambda[0] * t269;
+    jac_phi_q_t_lambda_A_j[7] = t247;
+    jac_phi_q_t_lambda_A_j[6] = t257;
+    jac_phi_q_t_lambda_A_j[0] = -(A_ji_2 * t239 - t217 * v_9_in_j_2 + (t223 * v_9_in_j_1 + A_ji_1 * t250 + A_ji_0 *
+        t260));
+    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_9_in_j_0 + A_ji_3 * t260 + A_ji_4 * t250 + A_ji_5 * t239);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_9_in_j_0 + A_ji_6 * t260 + A_ji_7 * t250 + A_ji_8 * t239);
+    jac_phi_q_t_lambda_A_j[5] = -t244;
+    jac_phi_q_t_lambda_A_j[9] = v_4_in_j_0 * t219 + v_4_in_j_1 * t224 - v_4_in_j_2 * t218 - (v_6_in_j_0 * t230 +
+        v_6_in_j_1 * t222 + v_6_in_j_2 * t242);
     jac_phi_q_t_lambda_A_j[14] = t277;
     const jg_real t278 = lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[13] = t278;
-    jac_phi_q_t_lambda_A_j[44] = t278;
-    jac_phi_q_t_lambda_A_j[75] = t278;
     const jg_real t279 = s_j[1] * t278;
     const jg_real t280 = v_2_in_j_1 * t261;
     const jg_real t281 = v_6_in_j_1 * t265;
     const jg_real t282 = v_6_in_j_0 * t270 - t281 + (s_j[0] * t277 - t279 + (v_2_in_j_0 * t273 - t280) + (v_4_in_j_0
         * t268 - v_4_in_j_1 * t276));
-    jac_phi_q_t_lambda_A_j[18] = t282;
     const jg_real t283 = v_0_world_1 * lambda_0_1_2_in_j_1;
     const jg_real t284 = v_0_in_j_1 * t278;
     const jg_real t285 = t283 + t277 * v_0_in_j_0 - t284 + t282;
     const jg_real t286 = h_star_in_j_1 * t265;
     const jg_real t287 = t261 * g_star_in_j_1;
     const jg_real t288 = t273 * g_star_in_j_0 + t286 - (t287 + h_star_in_j_0 * t270);
-    const jg_real t289 = lambda[0] * t263;
-    jac_phi_q_t_lambda_A_j[73] = t289;
-    const jg_real t290 = s_j[2] * t278;
-    const jg_real t291 = v_2_in_j_2 * t261;
+    const jg_real t289 = v_2_in_j_2 * t261;
+    const jg_real t290 = lambda[0] * t263;
+    const jg_real t291 = s_j[2] * t278;
     const jg_real t292 = v_6_in_j_2 * t265;
-    const jg_real t293 = t292 + v_6_in_j_0 * t264 + (t290 + s_j[0] * t289 + (t291 + v_2_in_j_0 * t267) + (v_4_in_j_2
+    const jg_real t293 = t292 + v_6_in_j_0 * t264 + (t289 + v_2_in_j_0 * t267 + (t291 + s_j[0] * t290) + (v_4_in_j_2
         * t276 - v_4_in_j_0 * t288));
-    jac_phi_q_t_lambda_A_j[17] = t293;
     const jg_real t294 = v_0_world_1 * lambda_0_1_2_in_j_2;
     const jg_real t295 = v_0_in_j_2 * t278;
-    const jg_real t296 = t295 - (t294 - t289 * v_0_in_j_0) + t293;
+    const jg_real t296 = t295 - (t294 - t290 * v_0_in_j_0) + t293;
     const jg_real t297 = v_2_in_j_2 * t273;
     const jg_real t298 = v_2_in_j_1 * t267;
     const jg_real t299 = s_j[2] * t277;
-    const jg_real t300 = s_j[1] * t289;
+    const jg_real t300 = s_j[1] * t290;
     const jg_real t301 = v_6_in_j_2 * t270;
     const jg_real t302 = v_6_in_j_1 * t264;
     const jg_real t303 = v_4_in_j_1 * t288 - v_4_in_j_2 * t268 - (t297 + t298 + (t299 + t300)) - (t301 + t302);
-    jac_phi_q_t_lambda_A_j[16] = t303;
-    const jg_real t304 = v_0_in_j_2 * t277;
-    const jg_real t305 = v_0_in_j_1 * t289;
+    const jg_real t304 = t277 * v_0_in_j_2;
+    const jg_real t305 = t290 * v_0_in_j_1;
     const jg_real t306 = t303 - (t304 + t305);
+    jac_phi_q_t_lambda_A_j[13] = t278;
+    jac_phi_q_t_lambda_A_j[44] = t278;
+    jac_phi_q_t_lambda_A_j[75] = t278;
+    jac_phi_q_t_lambda_A_j[18] = t282;
+    jac_phi_q_t_lambda_A_j[73] = t290;
+    jac_phi_q_t_lambda_A_j[17] = t293;
+    jac_phi_q_t_lambda_A_j[16] = t303;
     jac_phi_q_t_lambda_A_j[10] = -(A_ji_2 * t285 - t263 * v_9_in_j_2 + (t269 * v_9_in_j_1 + A_ji_1 * t296 + A_ji_0 *
         t306));
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[4] * v_9_in_j_0 + A_ji_3 * t306 + A_ji_4 * t296 + A_ji_5 * t285);
-    jac_phi_q_t_lambda_A_j[12] = -(A_i[7] * v_9_in_j_0 + A_ji_6 * t306 + A_ji_7 * t296 + A_ji_8 * t285);
-    jac_phi_q_t_lambda_A_j[15] = -t289;
-    jac_phi_q_t_lambda_A_j[19] = v_4_in_j_0 * t265 + v_4_in_j_1 * t270 - v_4_in_j_2 * t264 - (v_6_in_j_0 * t276 +
-        v_6_in_j_1 * t268 + v_6_in_j_2 * t288);
     const jg_real t307 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t308 = t307 * g_star_in_j_2;
     const jg_real t309 = A_i[8] * A_ji_4 - A_i[5] * A_ji_7;
@@ -1710,8 +1701,13 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t321 = h_star_in_j_1 * t310;
     const jg_real t322 = t317 - t318 - (t320 - t321);
     const jg_real t323 = lambda[0] * t315;
-    jac_phi_q_t_lambda_A_j[24] = t323;
     const jg_real t324 = lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[4] * v_9_in_j_0 + A_ji_3 * t306 + A_ji_4 * t296 + A_ji_5 * t285);
+    jac_phi_q_t_lambda_A_j[12] = -(A_i[7] * v_9_in_j_0 + A_ji_6 * t306 + A_ji_7 * t296 + A_ji_8 * t285);
+    jac_phi_q_t_lambda_A_j[15] = -t290;
+    jac_phi_q_t_lambda_A_j[19] = v_4_in_j_0 * t265 + v_4_in_j_1 * t270 - v_4_in_j_2 * t264 - (v_6_in_j_0 * t276 +
+        v_6_in_j_1 * t268 + v_6_in_j_2 * t288);
+    jac_phi_q_t_lambda_A_j[24] = t323;
     jac_phi_q_t_lambda_A_j[23] = t324;
     jac_phi_q_t_lambda_A_j[54] = t324;
     jac_phi_q_t_lambda_A_j[85] = t324;
@@ -1720,42 +1716,40 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t327 = v_6_in_j_1 * t311;
     const jg_real t328 = v_6_in_j_0 * t316 - t327 + (s_j[0] * t323 - t325 + (v_2_in_j_0 * t319 - t326) + (v_4_in_j_0
         * t314 - v_4_in_j_1 * t322));
-    jac_phi_q_t_lambda_A_j[28] = t328;
     const jg_real t329 = v_0_world_2 * lambda_0_1_2_in_j_1;
     const jg_real t330 = v_0_in_j_1 * t324;
     const jg_real t331 = t329 + t323 * v_0_in_j_0 - t330 + t328;
     const jg_real t332 = h_star_in_j_1 * t311;
     const jg_real t333 = t307 * g_star_in_j_1;
     const jg_real t334 = t319 * g_star_in_j_0 + t332 - (t333 + h_star_in_j_0 * t316);
-    const jg_real t335 = lambda[0] * t309;
-    jac_phi_q_t_lambda_A_j[83] = t335;
-    const jg_real t336 = s_j[2] * t324;
-    const jg_real t337 = v_2_in_j_2 * t307;
+    const jg_real t335 = v_2_in_j_2 * t307;
+    const jg_real t336 = lambda[0] * t309;
+    const jg_real t337 = s_j[2] * t324;
     const jg_real t338 = v_6_in_j_2 * t311;
-    const jg_real t339 = t338 + v_6_in_j_0 * t310 + (t336 + s_j[0] * t335 + (t337 + v_2_in_j_0 * t313) + (v_4_in_j_2
+    const jg_real t339 = t338 + v_6_in_j_0 * t310 + (t335 + v_2_in_j_0 * t313 + (t337 + s_j[0] * t336) + (v_4_in_j_2
         * t322 - v_4_in_j_0 * t334));
-    jac_phi_q_t_lambda_A_j[27] = t339;
     const jg_real t340 = v_0_world_2 * lambda_0_1_2_in_j_2;
     const jg_real t341 = v_0_in_j_2 * t324;
-    const jg_real t342 = t341 - (t340 - t335 * v_0_in_j_0) + t339;
+    const jg_real t342 = t341 - (t340 - t336 * v_0_in_j_0) + t339;
     const jg_real t343 = v_2_in_j_2 * t319;
     const jg_real t344 = v_2_in_j_1 * t313;
     const jg_real t345 = s_j[2] * t323;
-    const jg_real t346 = s_j[1] * t335;
+    const jg_real t346 = s_j[1] * t336;
     const jg_real t347 = v_6_in_j_2 * t316;
     const jg_real t348 = v_6_in_j_1 * t310;
     const jg_real t349 = v_4_in_j_1 * t334 - v_4_in_j_2 * t314 - (t343 + t344 + (t345 + t346)) - (t347 + t348);
-    jac_phi_q_t_lambda_A_j[26] = t349;
-    const jg_real t350 = v_0_in_j_2 * t323;
-    const jg_real t351 = v_0_in_j_1 * t335;
+    const jg_real t350 = t323 * v_0_in_j_2;
+    const jg_real t351 = t336 * v_0_in_j_1;
     const jg_real t352 = t349 - (t350 + t351);
+    jac_phi_q_t_lambda_A_j[28] = t328;
+    jac_phi_q_t_lambda_A_j[83] = t336;
+    jac_phi_q_t_lambda_A_j[27] = t339;
+    jac_phi_q_t_lambda_A_j[26] = t349;
     jac_phi_q_t_lambda_A_j[20] = -(A_ji_2 * t331 - t309 * v_9_in_j_2 + (t315 * v_9_in_j_1 + A_ji_1 * t342 + A_ji_0 *
         t352));
     jac_phi_q_t_lambda_A_j[21] = -(A_i[5] * v_9_in_j_0 + A_ji_3 * t352 + A_ji_4 * t342 + A_ji_5 * t331);
     jac_phi_q_t_lambda_A_j[22] = -(A_i[8] * v_9_in_j_0 + A_ji_6 * t352 + A_ji_7 * t342 + A_ji_8 * t331);
-    jac_phi_q_t_lambda_A_j[25] = -t335;
-    jac_phi_q_t_lambda_A_j[29] = v_4_in_j_0 * t311 + v_4_in_j_1 * t316 - v_4_in_j_2 * t310 - (v_6_in_j_0 * t322 +
-        v_6_in_j_1 * t314 + v_6_in_j_2 * t334);
+    jac_phi_q_t_lambda_A_j[25] = -t336;
     const jg_real t353 = A_i[3] * A_ji_6 - A_i[6] * A_ji_3;
     const jg_real t354 = C_i[6] * t353;
     const jg_real t355 = t354 * g_star_in_j_0;
@@ -1768,34 +1762,32 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t362 = v_6_in_j_0 * t219;
     const jg_real t363 = t362 + v_6_in_j_1 * t224 + (t360 + s_j[1] * t231 + (t361 + v_2_in_j_1 * t227) + (v_4_in_j_0
         * t358 - v_4_in_j_1 * t359));
-    jac_phi_q_t_lambda_A_j[38] = t363;
     const jg_real t364 = v_0_world_0 * lambda_0_1_2_in_j_0;
-    const jg_real t365 = v_0_in_j_0 * t232;
-    const jg_real t366 = t365 - (t364 - v_0_in_j_1 * t231) + t363;
+    const jg_real t365 = t232 * v_0_in_j_0;
+    const jg_real t366 = t365 - (t364 - t231 * v_0_in_j_1) + t363;
     const jg_real t367 = t215 * g_star_in_j_0;
     const jg_real t368 = h_star_in_j_0 * t219;
     const jg_real t369 = t367 - h_star_in_j_1 * t224 - (t368 - t227 * g_star_in_j_1);
     const jg_real t370 = lambda[0] * t353;
-    jac_phi_q_t_lambda_A_j[64] = t370;
-    const jg_real t371 = v_4_in_j_1 * t369 - v_4_in_j_2 * t358 - (t245 + v_2_in_j_1 * t354 + (t244 + s_j[1] * t370))
+    const jg_real t371 = v_4_in_j_1 * t369 - v_4_in_j_2 * t358 - (t243 + v_2_in_j_1 * t354 + (t245 + s_j[1] * t370))
         - (t246 + v_6_in_j_1 * t356);
-    jac_phi_q_t_lambda_A_j[36] = t371;
-    const jg_real t372 = t248 - v_0_in_j_1 * t370 - t249 + t371;
-    const jg_real t373 = s_j[0] * t370;
-    const jg_real t374 = v_2_in_j_0 * t354;
+    const jg_real t372 = t248 - t370 * v_0_in_j_1 - t249 + t371;
+    const jg_real t373 = v_2_in_j_0 * t354;
+    const jg_real t374 = s_j[0] * t370;
     const jg_real t375 = v_6_in_j_0 * t356;
-    const jg_real t376 = t375 - t255 + (t373 - t253 + (t374 - t251) + (v_4_in_j_2 * t359 - v_4_in_j_0 * t369));
-    jac_phi_q_t_lambda_A_j[37] = t376;
+    const jg_real t376 = t375 - t255 + (t373 - t251 + (t374 - t253) + (v_4_in_j_2 * t359 - v_4_in_j_0 * t369));
     const jg_real t377 = t370 * v_0_in_j_0;
     const jg_real t378 = t377 - t258 + t376;
+    jac_phi_q_t_lambda_A_j[29] = v_4_in_j_0 * t311 + v_4_in_j_1 * t316 - v_4_in_j_2 * t310 - (v_6_in_j_0 * t322 +
+        v_6_in_j_1 * t314 + v_6_in_j_2 * t334);
+    jac_phi_q_t_lambda_A_j[38] = t363;
+    jac_phi_q_t_lambda_A_j[64] = t370;
+    jac_phi_q_t_lambda_A_j[36] = t371;
+    jac_phi_q_t_lambda_A_j[37] = t376;
     jac_phi_q_t_lambda_A_j[30] = -(A_ji_2 * t366 - t353 * v_9_in_j_2 + (A_ji_0 * t372 - t223 * v_9_in_j_0 + A_ji_1 *
         t378));
     jac_phi_q_t_lambda_A_j[31] = -(A_i[3] * v_9_in_j_1 + A_ji_4 * t378 + A_ji_3 * t372 + A_ji_5 * t366);
     jac_phi_q_t_lambda_A_j[32] = -(A_i[6] * v_9_in_j_1 + A_ji_7 * t378 + A_ji_6 * t372 + A_ji_8 * t366);
-    jac_phi_q_t_lambda_A_j[33] = -t231;
-    jac_phi_q_t_lambda_A_j[35] = -t370;
-    jac_phi_q_t_lambda_A_j[39] = v_4_in_j_1 * t219 - v_4_in_j_0 * t224 - v_4_in_j_2 * t356 - (v_6_in_j_0 * t359 +
-        v_6_in_j_1 * t358 + v_6_in_j_2 * t369);
     const jg_real t379 = A_i[4] * A_ji_6 - A_i[7] * A_ji_3;
     const jg_real t380 = C_i[6] * t379;
     const jg_real t381 = t380 * g_star_in_j_0;
@@ -1808,34 +1800,32 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t388 = v_6_in_j_0 * t265;
     const jg_real t389 = t388 + v_6_in_j_1 * t270 + (t386 + s_j[1] * t277 + (t387 + v_2_in_j_1 * t273) + (v_4_in_j_0
         * t384 - v_4_in_j_1 * t385));
-    jac_phi_q_t_lambda_A_j[48] = t389;
     const jg_real t390 = v_0_world_1 * lambda_0_1_2_in_j_0;
-    const jg_real t391 = v_0_in_j_0 * t278;
-    const jg_real t392 = t391 - (t390 - v_0_in_j_1 * t277) + t389;
+    const jg_real t391 = t278 * v_0_in_j_0;
+    const jg_real t392 = t391 - (t390 - t277 * v_0_in_j_1) + t389;
     const jg_real t393 = t261 * g_star_in_j_0;
     const jg_real t394 = h_star_in_j_0 * t265;
     const jg_real t395 = t393 - h_star_in_j_1 * t270 - (t394 - t273 * g_star_in_j_1);
     const jg_real t396 = lambda[0] * t379;
-    jac_phi_q_t_lambda_A_j[74] = t396;
-    const jg_real t397 = v_4_in_j_1 * t395 - v_4_in_j_2 * t384 - (t291 + v_2_in_j_1 * t380 + (t290 + s_j[1] * t396))
+    const jg_real t397 = v_4_in_j_1 * t395 - v_4_in_j_2 * t384 - (t289 + v_2_in_j_1 * t380 + (t291 + s_j[1] * t396))
         - (t292 + v_6_in_j_1 * t382);
-    jac_phi_q_t_lambda_A_j[46] = t397;
-    const jg_real t398 = t294 - v_0_in_j_1 * t396 - t295 + t397;
-    const jg_real t399 = s_j[0] * t396;
-    const jg_real t400 = v_2_in_j_0 * t380;
+    const jg_real t398 = t294 - t396 * v_0_in_j_1 - t295 + t397;
+    const jg_real t399 = v_2_in_j_0 * t380;
+    const jg_real t400 = s_j[0] * t396;
     const jg_real t401 = v_6_in_j_0 * t382;
-    const jg_real t402 = t401 - t301 + (t399 - t299 + (t400 - t297) + (v_4_in_j_2 * t385 - v_4_in_j_0 * t395));
-    jac_phi_q_t_lambda_A_j[47] = t402;
+    const jg_real t402 = t401 - t301 + (t399 - t297 + (t400 - t299) + (v_4_in_j_2 * t385 - v_4_in_j_0 * t395));
     const jg_real t403 = t396 * v_0_in_j_0;
     const jg_real t404 = t403 - t304 + t402;
+    jac_phi_q_t_lambda_A_j[33] = -t231;
+    jac_phi_q_t_lambda_A_j[35] = -t370;
+    jac_phi_q_t_lambda_A_j[39] = v_4_in_j_1 * t219 - v_4_in_j_0 * t224 - v_4_in_j_2 * t356 - (v_6_in_j_0 * t359 +
+        v_6_in_j_1 * t358 + v_6_in_j_2 * t369);
+    jac_phi_q_t_lambda_A_j[48] = t389;
+    jac_phi_q_t_lambda_A_j[74] = t396;
+    jac_phi_q_t_lambda_A_j[46] = t397;
+    jac_phi_q_t_lambda_A_j[47] = t402;
     jac_phi_q_t_lambda_A_j[40] = -(A_ji_2 * t392 - t379 * v_9_in_j_2 + (A_ji_0 * t398 - t269 * v_9_in_j_0 + A_ji_1 *
         t404));
-    jac_phi_q_t_lambda_A_j[41] = -(A_i[4] * v_9_in_j_1 + A_ji_4 * t404 + A_ji_3 * t398 + A_ji_5 * t392);
-    jac_phi_q_t_lambda_A_j[42] = -(A_i[7] * v_9_in_j_1 + A_ji_7 * t404 + A_ji_6 * t398 + A_ji_8 * t392);
-    jac_phi_q_t_lambda_A_j[43] = -t277;
-    jac_phi_q_t_lambda_A_j[45] = -t396;
-    jac_phi_q_t_lambda_A_j[49] = v_4_in_j_1 * t265 - v_4_in_j_0 * t270 - v_4_in_j_2 * t382 - (v_6_in_j_0 * t385 +
-        v_6_in_j_1 * t384 + v_6_in_j_2 * t395);
     const jg_real t405 = A_i[5] * A_ji_6 - A_i[8] * A_ji_3;
     const jg_real t406 = C_i[6] * t405;
     const jg_real t407 = t406 * g_star_in_j_0;
@@ -1848,26 +1838,36 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t414 = v_6_in_j_0 * t311;
     const jg_real t415 = t414 + v_6_in_j_1 * t316 + (t412 + s_j[1] * t323 + (t413 + v_2_in_j_1 * t319) + (v_4_in_j_0
         * t410 - v_4_in_j_1 * t411));
-    jac_phi_q_t_lambda_A_j[58] = t415;
     const jg_real t416 = v_0_world_2 * lambda_0_1_2_in_j_0;
-    const jg_real t417 = v_0_in_j_0 * t324;
-    const jg_real t418 = t417 - (t416 - v_0_in_j_1 * t323) + t415;
+    const jg_real t417 = t324 * v_0_in_j_0;
+    const jg_real t418 = t417 - (t416 - t323 * v_0_in_j_1) + t415;
     const jg_real t419 = t307 * g_star_in_j_0;
     const jg_real t420 = h_star_in_j_0 * t311;
     const jg_real t421 = t419 - h_star_in_j_1 * t316 - (t420 - t319 * g_star_in_j_1);
     const jg_real t422 = lambda[0] * t405;
-    jac_phi_q_t_lambda_A_j[84] = t422;
-    const jg_real t423 = v_4_in_j_1 * t421 - v_4_in_j_2 * t410 - (t337 + v_2_in_j_1 * t406 + (t336 + s_j[1] * t422))
+    const jg_real t423 = v_4_in_j_1 * t421 - v_4_in_j_2 * t410 - (t335 + v_2_in_j_1 * t406 + (t337 + s_j[1] * t422))
         - (t338 + v_6_in_j_1 * t408);
+    jac_phi_q_t_lambda_A_j[41] = -(A_i[4] * v_9_in_j_1 + A_ji_4 * t404 + A_ji_3 * t398 + A_ji_5 * t392);
+    jac_phi_q_t_lambda_A_j[42] = -(A_i[7] * v_9_in_j_1 + A_ji_7 * t404 + A_ji_6 * t398 + A_ji_8 * t392);
+    jac_phi_q_t_lambda_A_j[43] = -t277;
+    jac_phi_q_t_lambda_A_j[45] = -t396;
+    jac_phi_q_t_lambda_A_j[49] = v_4_in_j_1 * t265 - v_4_in_j_0 * t270 - v_4_in_j_2 * t382 - (v_6_in_j_0 * t385 +
+        v_6_in_j_1 * t384 + v_6_in_j_2 * t395);
+    jac_phi_q_t_lambda_A_j[58] = t415;
+    jac_phi_q_t_lambda_A_j[84] = t422;
     jac_phi_q_t_lambda_A_j[56] = t423;
-    const jg_real t424 = t340 - v_0_in_j_1 * t422 - t341 + t423;
-    const jg_real t425 = s_j[0] * t422;
-    const jg_real t426 = v_2_in_j_0 * t406;
+    const jg_real t424 = t340 - t422 * v_0_in_j_1 - t341 + t423;
+    const jg_real t425 = v_2_in_j_0 * t406;
+    const jg_real t426 = s_j[0] * t422;
     const jg_real t427 = v_6_in_j_0 * t408;
-    const jg_real t428 = t427 - t347 + (t425 - t345 + (t426 - t343) + (v_4_in_j_2 * t411 - v_4_in_j_0 * t421));
-    jac_phi_q_t_lambda_A_j[57] = t428;
+    const jg_real t428 = t427 - t347 + (t425 - t343 + (t426 - t345) + (v_4_in_j_2 * t411 - v_4_in_j_0 * t421));
     const jg_real t429 = t422 * v_0_in_j_0;
     const jg_real t430 = t429 - t350 + t428;
+    const jg_real t431 = t355 + t229 - (t226 + t357);
+    const jg_real t432 = t368 + t221 * g_star_in_j_2 - (t367 + h_star_in_j_2 * t218);
+    const jg_real t433 = t235 - v_6_in_j_2 * t356 + (t234 - v_2_in_j_2 * t354 + (t233 - s_j[2] * t370) + (v_4_in_j_1
+        * t431 - v_4_in_j_2 * t432));
+    jac_phi_q_t_lambda_A_j[57] = t428;
     jac_phi_q_t_lambda_A_j[50] = -(A_ji_2 * t418 - t405 * v_9_in_j_2 + (A_ji_0 * t424 - t315 * v_9_in_j_0 + A_ji_1 *
         t430));
     jac_phi_q_t_lambda_A_j[51] = -(A_i[5] * v_9_in_j_1 + A_ji_4 * t430 + A_ji_3 * t424 + A_ji_5 * t418);
@@ -1876,66 +1876,56 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_A_j[55] = -t422;
     jac_phi_q_t_lambda_A_j[59] = v_4_in_j_1 * t311 - v_4_in_j_0 * t316 - v_4_in_j_2 * t408 - (v_6_in_j_0 * t411 +
         v_6_in_j_1 * t410 + v_6_in_j_2 * t421);
-    const jg_real t431 = t355 + t229 - (t226 + t357);
-    const jg_real t432 = t368 + t221 * g_star_in_j_2 - (t367 + h_star_in_j_2 * t218);
-    const jg_real t433 = t235 - v_6_in_j_2 * t356 + (t234 - v_2_in_j_2 * t354 + (t233 - s_j[2] * t370) + (v_4_in_j_1
-        * t431 - v_4_in_j_2 * t432));
     jac_phi_q_t_lambda_A_j[66] = t433;
-    const jg_real t434 = t238 - (v_0_in_j_2 * t370 + t237) + t433;
+    const jg_real t434 = t238 - (t370 * v_0_in_j_2 + t237) + t433;
     const jg_real t435 = t241 + h_star_in_j_2 * t356 - (t240 + t354 * g_star_in_j_2);
-    const jg_real t436 = v_6_in_j_2 * t218 - t362 + (s_j[2] * t243 - t360 + (v_2_in_j_2 * t221 - t361) + (v_4_in_j_2
+    const jg_real t436 = v_6_in_j_2 * t218 - t362 + (v_2_in_j_2 * t221 - t361 + (s_j[2] * t244 - t360) + (v_4_in_j_2
         * t435 - v_4_in_j_0 * t431));
-    jac_phi_q_t_lambda_A_j[67] = t436;
-    const jg_real t437 = v_0_in_j_2 * t243 + t364 - t365 + t436;
-    const jg_real t438 = t375 - t256 + (t373 - t254 + (t374 - t252) + (v_4_in_j_0 * t432 - v_4_in_j_1 * t435));
-    jac_phi_q_t_lambda_A_j[68] = t438;
+    const jg_real t437 = t244 * v_0_in_j_2 + t364 - t365 + t436;
+    const jg_real t438 = t375 - t256 + (t374 - t254 + (t373 - t252) + (v_4_in_j_0 * t432 - v_4_in_j_1 * t435));
     const jg_real t439 = t377 - t259 + t438;
+    const jg_real t440 = t381 + t275 - (t272 + t383);
+    const jg_real t441 = t394 + t267 * g_star_in_j_2 - (t393 + h_star_in_j_2 * t264);
+    const jg_real t442 = t281 - v_6_in_j_2 * t382 + (t280 - v_2_in_j_2 * t380 + (t279 - s_j[2] * t396) + (v_4_in_j_1
+        * t440 - v_4_in_j_2 * t441));
+    const jg_real t443 = t284 - (t396 * v_0_in_j_2 + t283) + t442;
+    const jg_real t444 = t287 + h_star_in_j_2 * t382 - (t286 + t380 * g_star_in_j_2);
+    const jg_real t445 = v_6_in_j_2 * t264 - t388 + (v_2_in_j_2 * t267 - t387 + (s_j[2] * t290 - t386) + (v_4_in_j_2
+        * t444 - v_4_in_j_0 * t440));
+    jac_phi_q_t_lambda_A_j[67] = t436;
+    jac_phi_q_t_lambda_A_j[68] = t438;
     jac_phi_q_t_lambda_A_j[60] = -(t217 * v_9_in_j_0 + A_ji_0 * t434 + (t353 * v_9_in_j_1 + A_ji_1 * t437) + A_ji_2
         * t439);
     jac_phi_q_t_lambda_A_j[61] = -(A_i[3] * v_9_in_j_2 + A_ji_5 * t439 + (A_ji_3 * t434 + A_ji_4 * t437));
     jac_phi_q_t_lambda_A_j[62] = -(A_i[6] * v_9_in_j_2 + A_ji_8 * t439 + (A_ji_6 * t434 + A_ji_7 * t437));
     jac_phi_q_t_lambda_A_j[69] = v_4_in_j_0 * t218 + v_4_in_j_1 * t356 + v_4_in_j_2 * t219 - (v_6_in_j_0 * t435 +
         v_6_in_j_1 * t432 + v_6_in_j_2 * t431);
-    const jg_real t440 = t381 + t275 - (t272 + t383);
-    const jg_real t441 = t394 + t267 * g_star_in_j_2 - (t393 + h_star_in_j_2 * t264);
-    const jg_real t442 = t281 - v_6_in_j_2 * t382 + (t280 - v_2_in_j_2 * t380 + (t279 - s_j[2] * t396) + (v_4_in_j_1
-        * t440 - v_4_in_j_2 * t441));
     jac_phi_q_t_lambda_A_j[76] = t442;
-    const jg_real t443 = t284 - (v_0_in_j_2 * t396 + t283) + t442;
-    const jg_real t444 = t287 + h_star_in_j_2 * t382 - (t286 + t380 * g_star_in_j_2);
-    const jg_real t445 = v_6_in_j_2 * t264 - t388 + (s_j[2] * t289 - t386 + (v_2_in_j_2 * t267 - t387) + (v_4_in_j_2
-        * t444 - v_4_in_j_0 * t440));
     jac_phi_q_t_lambda_A_j[77] = t445;
-    const jg_real t446 = v_0_in_j_2 * t289 + t390 - t391 + t445;
-    const jg_real t447 = t401 - t302 + (t399 - t300 + (t400 - t298) + (v_4_in_j_0 * t441 - v_4_in_j_1 * t444));
-    jac_phi_q_t_lambda_A_j[78] = t447;
+    const jg_real t446 = t290 * v_0_in_j_2 + t390 - t391 + t445;
+    const jg_real t447 = t401 - t302 + (t400 - t300 + (t399 - t298) + (v_4_in_j_0 * t441 - v_4_in_j_1 * t444));
     const jg_real t448 = t403 - t305 + t447;
+    const jg_real t449 = t407 + t321 - (t318 + t409);
+    const jg_real t450 = t420 + t313 * g_star_in_j_2 - (t419 + h_star_in_j_2 * t310);
+    const jg_real t451 = t327 - v_6_in_j_2 * t408 + (t326 - v_2_in_j_2 * t406 + (t325 - s_j[2] * t422) + (v_4_in_j_1
+        * t449 - v_4_in_j_2 * t450));
+    const jg_real t452 = t330 - (t422 * v_0_in_j_2 + t329) + t451;
+    const jg_real t453 = t333 + h_star_in_j_2 * t408 - (t332 + t406 * g_star_in_j_2);
+    const jg_real t454 = v_6_in_j_2 * t310 - t414 + (v_2_in_j_2 * t313 - t413 + (s_j[2] * t336 - t412) + (v_4_in_j_2
+        * t453 - v_4_in_j_0 * t449));
+    const jg_real t455 = t336 * v_0_in_j_2 + t416 - t417 + t454;
+    const jg_real t456 = t427 - t348 + (t426 - t346 + (t425 - t344) + (v_4_in_j_0 * t450 - v_4_in_j_1 * t453));
+    jac_phi_q_t_lambda_A_j[78] = t447;
     jac_phi_q_t_lambda_A_j[70] = -(t263 * v_9_in_j_0 + A_ji_0 * t443 + (t379 * v_9_in_j_1 + A_ji_1 * t446) + A_ji_2
         * t448);
     jac_phi_q_t_lambda_A_j[71] = -(A_i[4] * v_9_in_j_2 + A_ji_5 * t448 + (A_ji_3 * t443 + A_ji_4 * t446));
     jac_phi_q_t_lambda_A_j[72] = -(A_i[7] * v_9_in_j_2 + A_ji_8 * t448 + (A_ji_6 * t443 + A_ji_7 * t446));
     jac_phi_q_t_lambda_A_j[79] = v_4_in_j_0 * t264 + v_4_in_j_1 * t382 + v_4_in_j_2 * t265 - (v_6_in_j_0 * t444 +
         v_6_in_j_1 * t441 + v_6_in_j_2 * t440);
-    const jg_real t449 = t407 + t321 - (t318 + t409);
-    const jg_real t450 = t420 + t313 * g_star_in_j_2 - (t419 + h_star_in_j_2 * t310);
-    const jg_real t451 = t327 - v_6_in_j_2 * t408 + (t326 - v_2_in_j_2 * t406 + (t325 - s_j[2] * t422) + (v_4_in_j_1
-        * t449 - v_4_in_j_2 * t450));
     jac_phi_q_t_lambda_A_j[86] = t451;
-    const jg_real t452 = t330 - (v_0_in_j_2 * t422 + t329) + t451;
-    const jg_real t453 = t333 + h_star_in_j_2 * t408 - (t332 + t406 * g_star_in_j_2);
-    const jg_real t454 = v_6_in_j_2 * t310 - t414 + (s_j[2] * t335 - t412 + (v_2_in_j_2 * t313 - t413) + (v_4_in_j_2
-        * t453 - v_4_in_j_0 * t449));
     jac_phi_q_t_lambda_A_j[87] = t454;
-    const jg_real t455 = v_0_in_j_2 * t335 + t416 - t417 + t454;
-    const jg_real t456 = t427 - t348 + (t425 - t346 + (t426 - t344) + (v_4_in_j_0 * t450 - v_4_in_j_1 * t453));
     jac_phi_q_t_lambda_A_j[88] = t456;
     const jg_real t457 = t429 - t351 + t456;
-    jac_phi_q_t_lambda_A_j[80] = -(t309 * v_9_in_j_0 + A_ji_0 * t452 + (t405 * v_9_in_j_1 + A_ji_1 * t455) + A_ji_2
-        * t457);
-    jac_phi_q_t_lambda_A_j[81] = -(A_i[5] * v_9_in_j_2 + A_ji_5 * t457 + (A_ji_3 * t452 + A_ji_4 * t455));
-    jac_phi_q_t_lambda_A_j[82] = -(A_i[8] * v_9_in_j_2 + A_ji_8 * t457 + (A_ji_6 * t452 + A_ji_7 * t455));
-    jac_phi_q_t_lambda_A_j[89] = v_4_in_j_0 * t310 + v_4_in_j_1 * t408 + v_4_in_j_2 * t311 - (v_6_in_j_0 * t453 +
-        v_6_in_j_1 * t450 + v_6_in_j_2 * t449);
     const jg_real t458 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t459 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t460 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -1945,62 +1935,68 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t464 = A_ji_2 * t458 + A_ji_5 * t459 + A_ji_8 * t460;
     const jg_real t465 = h_star_in_j_2 * t462 - h_star_in_j_0 * t464;
     const jg_real t466 = v_6_in_j_2 * t461 - v_6_in_j_1 * t464 + (v_4_in_j_1 * t463 - v_4_in_j_2 * t465);
-    jac_phi_q_t_lambda_alpha[3] = t466;
     const jg_real t467 = h_star_in_j_1 * t464 - h_star_in_j_2 * t461;
     const jg_real t468 = v_6_in_j_0 * t464 - v_6_in_j_2 * t462 + (v_4_in_j_2 * t467 - v_4_in_j_0 * t463);
-    jac_phi_q_t_lambda_alpha[4] = t468;
     const jg_real t469 = v_6_in_j_1 * t462 - v_6_in_j_0 * t461 + (v_4_in_j_0 * t465 - v_4_in_j_1 * t467);
+    jac_phi_q_t_lambda_A_j[80] = -(t309 * v_9_in_j_0 + A_ji_0 * t452 + (t405 * v_9_in_j_1 + A_ji_1 * t455) + A_ji_2
+        * t457);
+    jac_phi_q_t_lambda_A_j[81] = -(A_i[5] * v_9_in_j_2 + A_ji_5 * t457 + (A_ji_3 * t452 + A_ji_4 * t455));
+    jac_phi_q_t_lambda_A_j[82] = -(A_i[8] * v_9_in_j_2 + A_ji_8 * t457 + (A_ji_6 * t452 + A_ji_7 * t455));
+    jac_phi_q_t_lambda_A_j[89] = v_4_in_j_0 * t310 + v_4_in_j_1 * t408 + v_4_in_j_2 * t311 - (v_6_in_j_0 * t453 +
+        v_6_in_j_1 * t450 + v_6_in_j_2 * t449);
+    jac_phi_q_t_lambda_alpha[3] = t466;
+    jac_phi_q_t_lambda_alpha[4] = t468;
     jac_phi_q_t_lambda_alpha[5] = t469;
     jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t466 + A_ji_1 * t468 + A_ji_2 * t469);
-    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t466 + A_ji_4 * t468 + A_ji_5 * t469);
-    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t466 + A_ji_7 * t468 + A_ji_8 * t469);
-    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t462 + v_4_in_j_1 * t461 + v_4_in_j_2 * t464 + (v_6_in_j_0 * t467 +
-        v_6_in_j_1 * t465 + v_6_in_j_2 * t463));
     const jg_real t470 = A_ji_1 * sine_0;
     const jg_real t471 = A_ji_0 * sine_0;
     const jg_real t472 = h_star_in_j_0 * t470 - h_star_in_j_1 * t471;
     const jg_real t473 = A_ji_2 * sine_0;
     const jg_real t474 = h_star_in_j_2 * t471 - h_star_in_j_0 * t473;
     const jg_real t475 = v_6_in_j_2 * t470 - v_6_in_j_1 * t473 + (v_4_in_j_1 * t472 - v_4_in_j_2 * t474);
-    jac_phi_q_t_lambda_geometry[3] = t475;
     const jg_real t476 = h_star_in_j_1 * t473 - h_star_in_j_2 * t470;
     const jg_real t477 = v_6_in_j_0 * t473 - v_6_in_j_2 * t471 + (v_4_in_j_2 * t476 - v_4_in_j_0 * t472);
-    jac_phi_q_t_lambda_geometry[4] = t477;
     const jg_real t478 = v_6_in_j_1 * t471 - v_6_in_j_0 * t470 + (v_4_in_j_0 * t474 - v_4_in_j_1 * t476);
+    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t466 + A_ji_4 * t468 + A_ji_5 * t469);
+    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t466 + A_ji_7 * t468 + A_ji_8 * t469);
+    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t462 + v_4_in_j_1 * t461 + v_4_in_j_2 * t464 + (v_6_in_j_0 * t467 +
+        v_6_in_j_1 * t465 + v_6_in_j_2 * t463));
+    jac_phi_q_t_lambda_geometry[3] = t475;
+    jac_phi_q_t_lambda_geometry[4] = t477;
     jac_phi_q_t_lambda_geometry[5] = t478;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t475 + A_ji_1 * t477 + A_ji_2 * t478);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t475 + A_ji_4 * t477 + A_ji_5 * t478);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t475 + A_ji_7 * t477 + A_ji_8 * t478);
-    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t471 + v_4_in_j_1 * t470 + v_4_in_j_2 * t473 + (v_6_in_j_0 *
-        t476 + v_6_in_j_1 * t474 + v_6_in_j_2 * t472));
     const jg_real t479 = A_ji_4 * sine_0;
     const jg_real t480 = A_ji_3 * sine_0;
     const jg_real t481 = h_star_in_j_0 * t479 - h_star_in_j_1 * t480;
     const jg_real t482 = A_ji_5 * sine_0;
     const jg_real t483 = h_star_in_j_2 * t480 - h_star_in_j_0 * t482;
     const jg_real t484 = v_6_in_j_2 * t479 - v_6_in_j_1 * t482 + (v_4_in_j_1 * t481 - v_4_in_j_2 * t483);
-    jac_phi_q_t_lambda_geometry[10] = t484;
     const jg_real t485 = h_star_in_j_1 * t482 - h_star_in_j_2 * t479;
     const jg_real t486 = v_6_in_j_0 * t482 - v_6_in_j_2 * t480 + (v_4_in_j_2 * t485 - v_4_in_j_0 * t481);
-    jac_phi_q_t_lambda_geometry[11] = t486;
     const jg_real t487 = v_6_in_j_1 * t480 - v_6_in_j_0 * t479 + (v_4_in_j_0 * t483 - v_4_in_j_1 * t485);
+    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t475 + A_ji_7 * t477 + A_ji_8 * t478);
+    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t471 + v_4_in_j_1 * t470 + v_4_in_j_2 * t473 + (v_6_in_j_0 *
+        t476 + v_6_in_j_1 * t474 + v_6_in_j_2 * t472));
+    jac_phi_q_t_lambda_geometry[10] = t484;
+    jac_phi_q_t_lambda_geometry[11] = t486;
     jac_phi_q_t_lambda_geometry[12] = t487;
     jac_phi_q_t_lambda_geometry[7] = -(A_ji_0 * t484 + A_ji_1 * t486 + A_ji_2 * t487);
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_3 * t484 + A_ji_4 * t486 + A_ji_5 * t487);
     jac_phi_q_t_lambda_geometry[9] = -(A_ji_6 * t484 + A_ji_7 * t486 + A_ji_8 * t487);
-    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t480 + v_4_in_j_1 * t479 + v_4_in_j_2 * t482 + (v_6_in_j_0 *
-        t485 + v_6_in_j_1 * t483 + v_6_in_j_2 * t481));
     const jg_real t488 = A_ji_7 * sine_0;
     const jg_real t489 = A_ji_6 * sine_0;
     const jg_real t490 = h_star_in_j_0 * t488 - h_star_in_j_1 * t489;
     const jg_real t491 = A_ji_8 * sine_0;
     const jg_real t492 = h_star_in_j_2 * t489 - h_star_in_j_0 * t491;
     const jg_real t493 = v_6_in_j_2 * t488 - v_6_in_j_1 * t491 + (v_4_in_j_1 * t490 - v_4_in_j_2 * t492);
-    jac_phi_q_t_lambda_geometry[17] = t493;
     const jg_real t494 = h_star_in_j_1 * t491 - h_star_in_j_2 * t488;
     const jg_real t495 = v_6_in_j_0 * t491 - v_6_in_j_2 * t489 + (v_4_in_j_2 * t494 - v_4_in_j_0 * t490);
-    jac_phi_q_t_lambda_geometry[18] = t495;
     const jg_real t496 = v_6_in_j_1 * t489 - v_6_in_j_0 * t488 + (v_4_in_j_0 * t492 - v_4_in_j_1 * t494);
+    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t480 + v_4_in_j_1 * t479 + v_4_in_j_2 * t482 + (v_6_in_j_0 *
+        t485 + v_6_in_j_1 * t483 + v_6_in_j_2 * t481));
+    jac_phi_q_t_lambda_geometry[17] = t493;
+    jac_phi_q_t_lambda_geometry[18] = t495;
     jac_phi_q_t_lambda_geometry[19] = t496;
     jac_phi_q_t_lambda_geometry[14] = -(A_ji_0 * t493 + A_ji_1 * t495 + A_ji_2 * t496);
     jac_phi_q_t_lambda_geometry[15] = -(A_ji_3 * t493 + A_ji_4 * t495 + A_ji_5 * t496);
@@ -2013,85 +2009,85 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     const jg_real t500 = A_ji_2 * cosine_0;
     const jg_real t501 = h_star_in_j_0 * t500 - h_star_in_j_2 * t497;
     const jg_real t502 = v_6_in_j_1 * t500 - v_6_in_j_2 * t498 + (v_4_in_j_1 * t499 - v_4_in_j_2 * t501);
-    jac_phi_q_t_lambda_geometry[24] = t502;
     const jg_real t503 = h_star_in_j_2 * t498 - h_star_in_j_1 * t500;
     const jg_real t504 = v_6_in_j_2 * t497 - v_6_in_j_0 * t500 + (v_4_in_j_2 * t503 - v_4_in_j_0 * t499);
-    jac_phi_q_t_lambda_geometry[25] = t504;
     const jg_real t505 = v_6_in_j_0 * t498 - v_6_in_j_1 * t497 + (v_4_in_j_0 * t501 - v_4_in_j_1 * t503);
-    jac_phi_q_t_lambda_geometry[26] = t505;
-    jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t502 + A_ji_1 * t504 + A_ji_2 * t505);
-    jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t502 + A_ji_4 * t504 + A_ji_5 * t505);
-    jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t502 + A_ji_7 * t504 + A_ji_8 * t505);
-    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t497 + v_4_in_j_1 * t498 + v_4_in_j_2 * t500 - (v_6_in_j_0 * t503
-        + v_6_in_j_1 * t501 + v_6_in_j_2 * t499);
     const jg_real t506 = A_ji_3 * cosine_0;
     const jg_real t507 = A_ji_4 * cosine_0;
     const jg_real t508 = h_star_in_j_1 * t506 - h_star_in_j_0 * t507;
     const jg_real t509 = A_ji_5 * cosine_0;
     const jg_real t510 = h_star_in_j_0 * t509 - h_star_in_j_2 * t506;
     const jg_real t511 = v_6_in_j_1 * t509 - v_6_in_j_2 * t507 + (v_4_in_j_1 * t508 - v_4_in_j_2 * t510);
+    jac_phi_q_t_lambda_geometry[24] = t502;
+    jac_phi_q_t_lambda_geometry[25] = t504;
+    jac_phi_q_t_lambda_geometry[26] = t505;
+    jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t502 + A_ji_1 * t504 + A_ji_2 * t505);
+    jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t502 + A_ji_4 * t504 + A_ji_5 * t505);
+    jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t502 + A_ji_7 * t504 + A_ji_8 * t505);
+    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t497 + v_4_in_j_1 * t498 + v_4_in_j_2 * t500 - (v_6_in_j_0 * t503
+        + v_6_in_j_1 * t501 + v_6_in_j_2 * t499);
     jac_phi_q_t_lambda_geometry[31] = t511;
     const jg_real t512 = h_star_in_j_2 * t507 - h_star_in_j_1 * t509;
     const jg_real t513 = v_6_in_j_2 * t506 - v_6_in_j_0 * t509 + (v_4_in_j_2 * t512 - v_4_in_j_0 * t508);
-    jac_phi_q_t_lambda_geometry[32] = t513;
     const jg_real t514 = v_6_in_j_0 * t507 - v_6_in_j_1 * t506 + (v_4_in_j_0 * t510 - v_4_in_j_1 * t512);
-    jac_phi_q_t_lambda_geometry[33] = t514;
-    jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t511 + A_ji_1 * t513 + A_ji_2 * t514);
-    jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t511 + A_ji_4 * t513 + A_ji_5 * t514);
-    jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t511 + A_ji_7 * t513 + A_ji_8 * t514);
-    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t506 + v_4_in_j_1 * t507 + v_4_in_j_2 * t509 - (v_6_in_j_0 * t512
-        + v_6_in_j_1 * t510 + v_6_in_j_2 * t508);
     const jg_real t515 = A_ji_6 * cosine_0;
     const jg_real t516 = A_ji_7 * cosine_0;
     const jg_real t517 = h_star_in_j_1 * t515 - h_star_in_j_0 * t516;
     const jg_real t518 = A_ji_8 * cosine_0;
     const jg_real t519 = h_star_in_j_0 * t518 - h_star_in_j_2 * t515;
     const jg_real t520 = v_6_in_j_1 * t518 - v_6_in_j_2 * t516 + (v_4_in_j_1 * t517 - v_4_in_j_2 * t519);
-    jac_phi_q_t_lambda_geometry[38] = t520;
     const jg_real t521 = h_star_in_j_2 * t516 - h_star_in_j_1 * t518;
     const jg_real t522 = v_6_in_j_2 * t515 - v_6_in_j_0 * t518 + (v_4_in_j_2 * t521 - v_4_in_j_0 * t517);
+    jac_phi_q_t_lambda_geometry[32] = t513;
+    jac_phi_q_t_lambda_geometry[33] = t514;
+    jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t511 + A_ji_1 * t513 + A_ji_2 * t514);
+    jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t511 + A_ji_4 * t513 + A_ji_5 * t514);
+    jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t511 + A_ji_7 * t513 + A_ji_8 * t514);
+    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t506 + v_4_in_j_1 * t507 + v_4_in_j_2 * t509 - (v_6_in_j_0 * t512
+        + v_6_in_j_1 * t510 + v_6_in_j_2 * t508);
+    jac_phi_q_t_lambda_geometry[38] = t520;
     jac_phi_q_t_lambda_geometry[39] = t522;
     const jg_real t523 = v_6_in_j_0 * t516 - v_6_in_j_1 * t515 + (v_4_in_j_0 * t519 - v_4_in_j_1 * t521);
+    const jg_real t524 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
+    const jg_real t525 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
+    const jg_real t526 = v_2_in_j_1 * A_ji_2 - v_2_in_j_2 * A_ji_1 + (v_4_in_j_1 * t524 - v_4_in_j_2 * t525);
+    const jg_real t527 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
+    const jg_real t528 = v_2_in_j_2 * A_ji_0 - v_2_in_j_0 * A_ji_2 + (v_4_in_j_2 * t527 - v_4_in_j_0 * t524);
+    const jg_real t529 = A_ji_1 * v_2_in_j_0 - v_2_in_j_1 * A_ji_0 + (v_4_in_j_0 * t525 - v_4_in_j_1 * t527);
     jac_phi_q_t_lambda_geometry[40] = t523;
     jac_phi_q_t_lambda_geometry[35] = -(A_ji_0 * t520 + A_ji_1 * t522 + A_ji_2 * t523);
     jac_phi_q_t_lambda_geometry[36] = -(A_ji_3 * t520 + A_ji_4 * t522 + A_ji_5 * t523);
     jac_phi_q_t_lambda_geometry[37] = -(A_ji_6 * t520 + A_ji_7 * t522 + A_ji_8 * t523);
     jac_phi_q_t_lambda_geometry[41] = v_4_in_j_0 * t515 + v_4_in_j_1 * t516 + v_4_in_j_2 * t518 - (v_6_in_j_0 * t521
         + v_6_in_j_1 * t519 + v_6_in_j_2 * t517);
-    const jg_real t524 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    const jg_real t525 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
-    const jg_real t526 = v_2_in_j_1 * A_ji_2 - v_2_in_j_2 * A_ji_1 + (v_4_in_j_1 * t524 - v_4_in_j_2 * t525);
     jac_phi_q_t_lambda_geometry[45] = t526;
-    const jg_real t527 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
-    const jg_real t528 = v_2_in_j_2 * A_ji_0 - v_2_in_j_0 * A_ji_2 + (v_4_in_j_2 * t527 - v_4_in_j_0 * t524);
     jac_phi_q_t_lambda_geometry[46] = t528;
-    const jg_real t529 = v_2_in_j_0 * A_ji_1 - v_2_in_j_1 * A_ji_0 + (v_4_in_j_0 * t525 - v_4_in_j_1 * t527);
     jac_phi_q_t_lambda_geometry[47] = t529;
+    const jg_real t530 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
+    const jg_real t531 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
+    const jg_real t532 = A_ji_5 * v_2_in_j_1 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t530 - v_4_in_j_2 * t531);
+    const jg_real t533 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
+    const jg_real t534 = v_2_in_j_2 * A_ji_3 - A_ji_5 * v_2_in_j_0 + (v_4_in_j_2 * t533 - v_4_in_j_0 * t530);
+    const jg_real t535 = A_ji_4 * v_2_in_j_0 - v_2_in_j_1 * A_ji_3 + (v_4_in_j_0 * t531 - v_4_in_j_1 * t533);
     jac_phi_q_t_lambda_geometry[42] = -(A_ji_0 * t526 + A_ji_1 * t528 + A_ji_2 * t529);
     jac_phi_q_t_lambda_geometry[43] = -(A_ji_3 * t526 + A_ji_4 * t528 + A_ji_5 * t529);
     jac_phi_q_t_lambda_geometry[44] = -(A_ji_6 * t526 + A_ji_7 * t528 + A_ji_8 * t529);
     jac_phi_q_t_lambda_geometry[48] = -(v_6_in_j_0 * t527 + v_6_in_j_1 * t525 + v_6_in_j_2 * t524);
-    const jg_real t530 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
-    const jg_real t531 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
-    const jg_real t532 = v_2_in_j_1 * A_ji_5 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t530 - v_4_in_j_2 * t531);
     jac_phi_q_t_lambda_geometry[52] = t532;
-    const jg_real t533 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
-    const jg_real t534 = v_2_in_j_2 * A_ji_3 - A_ji_5 * v_2_in_j_0 + (v_4_in_j_2 * t533 - v_4_in_j_0 * t530);
     jac_phi_q_t_lambda_geometry[53] = t534;
-    const jg_real t535 = v_2_in_j_0 * A_ji_4 - v_2_in_j_1 * A_ji_3 + (v_4_in_j_0 * t531 - v_4_in_j_1 * t533);
     jac_phi_q_t_lambda_geometry[54] = t535;
     jac_phi_q_t_lambda_geometry[49] = -(A_ji_0 * t532 + A_ji_1 * t534 + A_ji_2 * t535);
-    jac_phi_q_t_lambda_geometry[50] = -(A_ji_3 * t532 + A_ji_4 * t534 + A_ji_5 * t535);
-    jac_phi_q_t_lambda_geometry[51] = -(A_ji_6 * t532 + A_ji_7 * t534 + A_ji_8 * t535);
-    jac_phi_q_t_lambda_geometry[55] = -(v_6_in_j_0 * t533 + v_6_in_j_1 * t531 + v_6_in_j_2 * t530);
     const jg_real t536 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
     const jg_real t537 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
     const jg_real t538 = v_2_in_j_1 * A_ji_8 - v_2_in_j_2 * A_ji_7 + (v_4_in_j_1 * t536 - v_4_in_j_2 * t537);
-    jac_phi_q_t_lambda_geometry[59] = t538;
     const jg_real t539 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
-    const jg_real t540 = v_2_in_j_2 * A_ji_6 - v_2_in_j_0 * A_ji_8 + (v_4_in_j_2 * t539 - v_4_in_j_0 * t536);
+    const jg_real t540 = A_ji_6 * v_2_in_j_2 - A_ji_8 * v_2_in_j_0 + (v_4_in_j_2 * t539 - v_4_in_j_0 * t536);
+    const jg_real t541 = A_ji_7 * v_2_in_j_0 - v_2_in_j_1 * A_ji_6 + (v_4_in_j_0 * t537 - v_4_in_j_1 * t539);
+    jac_phi_q_t_lambda_geometry[50] = -(A_ji_3 * t532 + A_ji_4 * t534 + A_ji_5 * t535);
+    jac_phi_q_t_lambda_geometry[51] = -(A_ji_6 * t532 + A_ji_7 * t534 + A_ji_8 * t535);
+    jac_phi_q_t_lambda_geometry[55] = -(v_6_in_j_0 * t533 + v_6_in_j_1 * t531 + v_6_in_j_2 * t530);
+    jac_phi_q_t_lambda_geometry[59] = t538;
     jac_phi_q_t_lambda_geometry[60] = t540;
-    const jg_real t541 = v_2_in_j_0 * A_ji_7 - v_2_in_j_1 * A_ji_6 + (v_4_in_j_0 * t537 - v_4_in_j_1 * t539);
     jac_phi_q_t_lambda_geometry[61] = t541;
     jac_phi_q_t_lambda_geometry[56] = -(A_ji_0 * t538 + A_ji_1 * t540 + A_ji_2 * t541);
     jac_phi_q_t_lambda_geometry[57] = -(A_ji_3 * t538 + A_ji_4 * t540 + A_ji_5 * t541);
@@ -2103,44 +2099,45 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[66] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[68] = A_ji_2 * lambda_0_1_2_in_j_0 - A_ji_0 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[69] = A_ji_5 * lambda_0_1_2_in_j_0 - A_ji_3 * lambda_0_1_2_in_j_2;
+    const jg_real t542 = lambda[4] * h_star_in_j_2;
+    const jg_real t543 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[70] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[74] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[75] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[76] = -lambda_0_1_2_in_j_1;
-    const jg_real t542 = lambda[4] * h_star_in_j_2;
     jac_phi_q_t_lambda_geometry[86] = t542;
-    const jg_real t543 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[82] = t543;
+    const jg_real t544 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[78] = A_ji_1 * t542 - A_ji_2 * t543;
     jac_phi_q_t_lambda_geometry[79] = A_ji_4 * t542 - A_ji_5 * t543;
     jac_phi_q_t_lambda_geometry[80] = A_ji_7 * t542 - A_ji_8 * t543;
     jac_phi_q_t_lambda_geometry[81] = -t542;
-    const jg_real t544 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[92] = t544;
     jac_phi_q_t_lambda_geometry[83] = A_ji_2 * t544 - A_ji_0 * t542;
     jac_phi_q_t_lambda_geometry[84] = A_ji_5 * t544 - A_ji_3 * t542;
     jac_phi_q_t_lambda_geometry[85] = A_ji_8 * t544 - A_ji_6 * t542;
+    const jg_real t545 = lambda[5] * f_star_in_j_2;
+    const jg_real t546 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[87] = -t544;
     jac_phi_q_t_lambda_geometry[88] = A_ji_0 * t543 - A_ji_1 * t544;
     jac_phi_q_t_lambda_geometry[89] = A_ji_3 * t543 - A_ji_4 * t544;
     jac_phi_q_t_lambda_geometry[90] = A_ji_6 * t543 - A_ji_7 * t544;
     jac_phi_q_t_lambda_geometry[91] = -t543;
-    const jg_real t545 = lambda[5] * f_star_in_j_2;
     jac_phi_q_t_lambda_geometry[102] = t545;
-    const jg_real t546 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[97] = t546;
     jac_phi_q_t_lambda_geometry[93] = A_ji_1 * t545 - A_ji_2 * t546;
+    const jg_real t547 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[94] = A_ji_4 * t545 - A_ji_5 * t546;
     jac_phi_q_t_lambda_geometry[95] = A_ji_7 * t545 - A_ji_8 * t546;
     jac_phi_q_t_lambda_geometry[96] = -t545;
     jac_phi_q_t_lambda_geometry[98] = lambda[5] * g_star_in_j_0;
-    const jg_real t547 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[109] = t547;
     jac_phi_q_t_lambda_geometry[99] = A_ji_2 * t547 - A_ji_0 * t545;
     jac_phi_q_t_lambda_geometry[100] = A_ji_5 * t547 - A_ji_3 * t545;
     jac_phi_q_t_lambda_geometry[101] = A_ji_8 * t547 - A_ji_6 * t545;
+    const jg_real t548 = lambda[3] * g_star_in_j_2;
     jac_phi_q_t_lambda_geometry[103] = -t547;
     jac_phi_q_t_lambda_geometry[104] = lambda[5] * g_star_in_j_1;
     jac_phi_q_t_lambda_geometry[105] = A_ji_0 * t546 - A_ji_1 * t547;
@@ -2148,16 +2145,15 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[107] = A_ji_6 * t546 - A_ji_7 * t547;
     jac_phi_q_t_lambda_geometry[108] = -t546;
     jac_phi_q_t_lambda_geometry[110] = lambda[5] * g_star_in_j_2;
-    const jg_real t548 = lambda[3] * g_star_in_j_2;
     jac_phi_q_t_lambda_geometry[120] = t548;
     const jg_real t549 = lambda[3] * g_star_in_j_1;
+    const jg_real t550 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[115] = t549;
     jac_phi_q_t_lambda_geometry[111] = A_ji_1 * t548 - A_ji_2 * t549;
     jac_phi_q_t_lambda_geometry[112] = A_ji_4 * t548 - A_ji_5 * t549;
     jac_phi_q_t_lambda_geometry[113] = A_ji_7 * t548 - A_ji_8 * t549;
     jac_phi_q_t_lambda_geometry[114] = -t548;
     jac_phi_q_t_lambda_geometry[116] = -(lambda[3] * f_star_in_j_0);
-    const jg_real t550 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[127] = t550;
     jac_phi_q_t_lambda_geometry[117] = A_ji_2 * t550 - A_ji_0 * t548;
     jac_phi_q_t_lambda_geometry[118] = A_ji_5 * t550 - A_ji_3 * t548;
@@ -2168,70 +2164,70 @@ static void jg_revolute_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RES
     jac_phi_q_t_lambda_geometry[124] = A_ji_3 * t549 - A_ji_4 * t550;
     jac_phi_q_t_lambda_geometry[125] = A_ji_6 * t549 - A_ji_7 * t550;
     jac_phi_q_t_lambda_geometry[126] = -t549;
+    const jg_real t551 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    const jg_real t552 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t551;
+    const jg_real t553 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real t554 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t553;
+    const jg_real t555 = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    const jg_real t556 = A_ji_1 * v_0_in_j_0 - A_ji_0 * v_0_in_j_1 + t555;
     jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * f_star_in_j_2);
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
-    const jg_real t551 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t551;
-    const jg_real t552 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t551;
-    const jg_real t553 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t553;
-    const jg_real t554 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t553;
-    const jg_real t555 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t555;
-    const jg_real t556 = A_ji_1 * v_0_in_j_0 - A_ji_0 * v_0_in_j_1 + t555;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t552 + A_ji_1 * t554 + A_ji_2 * t556);
-    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t552 + A_ji_4 * t554 + A_ji_5 * t556);
-    jac_phi_q_t_lambda_lambda[3] = -(A_ji_6 * t552 + A_ji_7 * t554 + A_ji_8 * t556);
-    const jg_real t557 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_t_lambda_lambda[17] = t557;
+    const jg_real t557 = A_ji_5 * s_j[1] - s_j[2] * A_ji_4;
     const jg_real t558 = A_ji_5 * v_0_in_j_1 - A_ji_4 * v_0_in_j_2 + t557;
     const jg_real t559 = s_j[2] * A_ji_3 - A_ji_5 * s_j[0];
-    jac_phi_q_t_lambda_lambda[18] = t559;
     const jg_real t560 = A_ji_3 * v_0_in_j_2 - A_ji_5 * v_0_in_j_0 + t559;
-    const jg_real t561 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_t_lambda_lambda[19] = t561;
+    const jg_real t561 = A_ji_4 * s_j[0] - s_j[1] * A_ji_3;
     const jg_real t562 = A_ji_4 * v_0_in_j_0 - A_ji_3 * v_0_in_j_1 + t561;
+    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t552 + A_ji_4 * t554 + A_ji_5 * t556);
+    jac_phi_q_t_lambda_lambda[3] = -(A_ji_6 * t552 + A_ji_7 * t554 + A_ji_8 * t556);
+    jac_phi_q_t_lambda_lambda[17] = t557;
+    jac_phi_q_t_lambda_lambda[18] = t559;
+    jac_phi_q_t_lambda_lambda[19] = t561;
     jac_phi_q_t_lambda_lambda[11] = -(A_ji_0 * t558 + A_ji_1 * t560 + A_ji_2 * t562);
     jac_phi_q_t_lambda_lambda[12] = -(A_ji_3 * t558 + A_ji_4 * t560 + A_ji_5 * t562);
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t558 + A_ji_7 * t560 + A_ji_8 * t562);
     const jg_real t563 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_t_lambda_lambda[27] = t563;
     const jg_real t564 = A_ji_8 * v_0_in_j_1 - A_ji_7 * v_0_in_j_2 + t563;
-    const jg_real t565 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_t_lambda_lambda[28] = t565;
+    const jg_real t565 = s_j[2] * A_ji_6 - A_ji_8 * s_j[0];
     const jg_real t566 = A_ji_6 * v_0_in_j_2 - A_ji_8 * v_0_in_j_0 + t565;
-    const jg_real t567 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_t_lambda_lambda[29] = t567;
+    const jg_real t567 = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
     const jg_real t568 = A_ji_7 * v_0_in_j_0 - A_ji_6 * v_0_in_j_1 + t567;
+    const jg_real t569 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
+    const jg_real t570 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
+    jac_phi_q_t_lambda_lambda[27] = t563;
+    jac_phi_q_t_lambda_lambda[28] = t565;
+    jac_phi_q_t_lambda_lambda[29] = t567;
     jac_phi_q_t_lambda_lambda[21] = -(A_ji_0 * t564 + A_ji_1 * t566 + A_ji_2 * t568);
     jac_phi_q_t_lambda_lambda[22] = -(A_ji_3 * t564 + A_ji_4 * t566 + A_ji_5 * t568);
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_6 * t564 + A_ji_7 * t566 + A_ji_8 * t568);
-    const jg_real t569 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
     jac_phi_q_t_lambda_lambda[33] = t569;
-    const jg_real t570 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
     jac_phi_q_t_lambda_lambda[34] = t570;
     const jg_real t571 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
+    const jg_real t572 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
+    const jg_real t573 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
+    const jg_real t574 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
     jac_phi_q_t_lambda_lambda[35] = t571;
     jac_phi_q_t_lambda_lambda[30] = -(A_ji_0 * t569 + A_ji_1 * t570 + A_ji_2 * t571);
     jac_phi_q_t_lambda_lambda[31] = -(A_ji_3 * t569 + A_ji_4 * t570 + A_ji_5 * t571);
     jac_phi_q_t_lambda_lambda[32] = -(A_ji_6 * t569 + A_ji_7 * t570 + A_ji_8 * t571);
     jac_phi_q_t_lambda_lambda[36] = -(C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2);
-    const jg_real t572 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
     jac_phi_q_t_lambda_lambda[40] = t572;
-    const jg_real t573 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
     jac_phi_q_t_lambda_lambda[41] = t573;
-    const jg_real t574 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
     jac_phi_q_t_lambda_lambda[42] = t574;
+    const jg_real t575 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
+    const jg_real t576 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
+    const jg_real t577 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
     jac_phi_q_t_lambda_lambda[37] = -(A_ji_0 * t572 + A_ji_1 * t573 + A_ji_2 * t574);
     jac_phi_q_t_lambda_lambda[38] = -(A_ji_3 * t572 + A_ji_4 * t573 + A_ji_5 * t574);
     jac_phi_q_t_lambda_lambda[39] = -(A_ji_6 * t572 + A_ji_7 * t573 + A_ji_8 * t574);
-    const jg_real t575 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_lambda[46] = t575;
-    const jg_real t576 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
     jac_phi_q_t_lambda_lambda[47] = t576;
-    const jg_real t577 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
     jac_phi_q_t_lambda_lambda[48] = t577;
     jac_phi_q_t_lambda_lambda[43] = -(A_ji_0 * t575 + A_ji_1 * t576 + A_ji_2 * t577);
     jac_phi_q_t_lambda_lambda[44] = -(A_ji_3 * t575 + A_ji_4 * t576 + A_ji_5 * t577);

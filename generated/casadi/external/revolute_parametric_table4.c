@@ -46,48 +46,48 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[1] = C_i[0] * h_j_world_0;
-    jac_phi_A_i[2] = C_i[3] * h_j_world_0;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[2] = h_j_world_0 * C_i[3];
     jac_phi_A_i[3] = C_i[0] * f_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    jac_phi_A_i[4] = e_ij_world_1;
-    jac_phi_A_i[16] = e_ij_world_1;
-    jac_phi_A_i[28] = e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[5] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[7] = C_i[0] * f_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[4] = e_ij_world_1;
+    jac_phi_A_i[16] = e_ij_world_1;
+    jac_phi_A_i[28] = e_ij_world_1;
+    jac_phi_A_i[5] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
+    jac_phi_A_i[7] = C_i[0] * f_j_world_1;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[9] = C_i[0] * h_j_world_2;
     jac_phi_A_i[10] = C_i[3] * h_j_world_2;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[11] = C_i[0] * f_j_world_2;
     jac_phi_A_i[13] = C_i[1] * h_j_world_0;
-    jac_phi_A_i[14] = C_i[4] * h_j_world_0;
+    jac_phi_A_i[14] = h_j_world_0 * C_i[4];
     jac_phi_A_i[15] = C_i[1] * f_j_world_0;
     jac_phi_A_i[17] = C_i[1] * h_j_world_1;
     jac_phi_A_i[18] = C_i[4] * h_j_world_1;
@@ -96,10 +96,10 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_A_i[22] = C_i[4] * h_j_world_2;
     jac_phi_A_i[23] = C_i[1] * f_j_world_2;
     jac_phi_A_i[25] = C_i[2] * h_j_world_0;
-    jac_phi_A_i[26] = C_i[5] * h_j_world_0;
+    jac_phi_A_i[26] = h_j_world_0 * C_i[5];
     jac_phi_A_i[27] = C_i[2] * f_j_world_0;
     jac_phi_A_i[29] = C_i[2] * h_j_world_1;
-    jac_phi_A_i[30] = C_i[5] * h_j_world_1;
+    jac_phi_A_i[30] = h_j_world_1 * C_i[5];
     jac_phi_A_i[31] = C_i[2] * f_j_world_1;
     jac_phi_A_i[33] = C_i[2] * h_j_world_2;
     jac_phi_A_i[34] = C_i[5] * h_j_world_2;
@@ -109,27 +109,27 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    jac_phi_A_j[3] = C_j[6] * f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    jac_phi_A_j[3] = C_j[6] * f_i_world_0;
     jac_phi_A_j[4] = C_j[6] * g_i_world_0;
     jac_phi_A_j[5] = f_i_world_0 * C_j[0];
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     jac_phi_A_j[9] = C_j[6] * f_i_world_1;
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     jac_phi_A_j[10] = C_j[6] * g_i_world_1;
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[11] = f_i_world_1 * C_j[0];
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_A_j[15] = C_j[6] * f_i_world_2;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[16] = C_j[6] * g_i_world_2;
-    jac_phi_A_j[17] = C_j[0] * f_i_world_2;
+    jac_phi_A_j[17] = f_i_world_2 * C_j[0];
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
@@ -163,6 +163,7 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
+    const jg_real t21 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_A_j[51] = C_j[8] * f_i_world_2;
     jac_phi_A_j[52] = C_j[8] * g_i_world_2;
     jac_phi_A_j[53] = f_i_world_2 * C_j[2];
@@ -170,15 +171,14 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    const jg_real t21 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[3] = t21;
     jac_phi_geometry[9] = t21;
-    jac_phi_geometry[4] = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     const jg_real t22 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    const jg_real t23 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
+    jac_phi_geometry[4] = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     jac_phi_geometry[5] = t22;
     jac_phi_geometry[10] = t22;
     jac_phi_geometry[6] = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    const jg_real t23 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[7] = t23;
     jac_phi_geometry[11] = t23;
     jac_phi_geometry[8] = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
@@ -192,12 +192,12 @@ static void jg_revolute_parametric_table4_phi_jacobian(const jg_real *JG_RESTRIC
     jac_phi_geometry[19] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[20] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real t24 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t25 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
+    const jg_real t26 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[21] = t24;
     jac_phi_geometry[24] = t24;
-    const jg_real t25 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[22] = t25;
     jac_phi_geometry[26] = t25;
-    const jg_real t26 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[23] = t26;
     jac_phi_geometry[28] = t26;
     jac_phi_geometry[25] = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
@@ -221,40 +221,35 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
     const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
+    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
+    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
+    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     jac_phi_q_v_r_j[1] = t1;
     jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
     jac_phi_q_v_r_j[2] = t2;
     jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[3] = t3;
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
+    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
+    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
+    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
     jac_phi_q_v_r_j[5] = t5;
     jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
     jac_phi_q_v_r_j[6] = t6;
     jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_v_velocity[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_v_velocity[26] = A_ji_8;
     const jg_real t11 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_v_velocity[20] = A_ji_6;
     const jg_real t13 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
     const jg_real t14 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
     const jg_real t15 = s_j[0] * t11 + s_j[1] * t13 + s_j[2] * t14;
@@ -264,26 +259,26 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_2 = s_j[1] * A_ji_7 + s_j[0] * A_ji_6 + s_j[2] * A_ji_8;
     const jg_real t19 = A_j[3] * v_j[1] + A_j[0] * v_j[0] + A_j[6] * v_j[2];
-    jac_phi_q_v_A_i[0] = omega_i[2] * t15 - (omega_j_in_i_2 * t15 - s_j_in_i_2 * t17) + t19;
     const jg_real t20 = A_j[3] * omega_j[1] + A_j[0] * omega_j[0] + A_j[6] * omega_j[2];
     const jg_real t21 = A_j[3] * s_j[1] + s_j[0] * A_j[0] + A_j[6] * s_j[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t23 = v_0_world_0 + t21;
+    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    jac_phi_q_v_r_j[8] = t8;
+    jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_velocity[23] = A_ji_7;
+    jac_phi_q_v_velocity[26] = A_ji_8;
+    jac_phi_q_v_velocity[20] = A_ji_6;
+    jac_phi_q_v_A_i[0] = omega_i[2] * t15 - (omega_j_in_i_2 * t15 - s_j_in_i_2 * t17) + t19;
     jac_phi_q_v_A_i[1] = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t14 - (t20 * s_j_in_i_2 - omega_j_in_i_2 * t21 +
         omega_i[2] * t23);
-    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ji_2;
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[21] = A_ji_1;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[19] = A_ji_3;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[18] = A_ji_0;
     const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
-    jac_phi_q_v_velocity[22] = A_ji_4;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
-    jac_phi_q_v_velocity[25] = A_ji_5;
     const jg_real omega_j_in_i_1 = omega_j[0] * A_ji_3 + omega_j[1] * A_ji_4 + omega_j[2] * A_ji_5;
     const jg_real t31 = t21 * omega_j_in_i_1;
     const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
@@ -291,15 +286,14 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t34 = t20 * s_j_in_i_1;
     const jg_real omega_j_in_i_0 = omega_j[0] * A_ji_0 + omega_j[1] * A_ji_1 + omega_j[2] * A_ji_2;
     const jg_real t36 = omega_i[1] * t23;
-    jac_phi_q_v_A_i[2] = t36 - omega_i[0] * t15 - (t31 + s_j_in_i_0 * t17 - (t34 + omega_j_in_i_0 * t15));
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
     const jg_real t38 = t20 * h_j_in_i_1;
     const jg_real t39 = C_j[6] * t11 + C_j[7] * t13 + C_j[8] * t14;
     const jg_real t40 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t41 = t40 * omega_j_in_i_1;
-    const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
-    const jg_real t43 = t38 + omega_j_in_i_0 * t39 - (h_j_in_i_0 * t17 + t41);
+    const jg_real t41 = omega_j_in_i_1 * t40;
+    const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + A_ji_2 * C_j[8];
+    const jg_real t43 = t38 + omega_j_in_i_0 * t39 - (t17 * h_j_in_i_0 + t41);
     const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
     const jg_real t45 = t17 * h_j_in_i_2 - omega_j_in_i_2 * t39;
     const jg_real t46 = omega_j_in_i_2 * t40 - t20 * h_j_in_i_2;
@@ -307,53 +301,59 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t48 = omega_i[0] * t39 - t47;
     const jg_real t49 = omega_i[2] * t39;
     const jg_real t50 = omega_i[2] * t40;
+    jac_phi_q_v_velocity[21] = A_ji_1;
+    jac_phi_q_v_velocity[19] = A_ji_3;
+    jac_phi_q_v_velocity[18] = A_ji_0;
+    jac_phi_q_v_velocity[22] = A_ji_4;
+    jac_phi_q_v_velocity[25] = A_ji_5;
+    jac_phi_q_v_A_i[2] = t36 - omega_i[0] * t15 - (t31 + s_j_in_i_0 * t17 - (t34 + omega_j_in_i_0 * t15));
     jac_phi_q_v_A_i[3] = C_i[0] * t45 + C_i[1] * t46 + C_i[2] * t43 - (C_i[1] * t50 - C_i[0] * t49 + C_i[2] * t48);
     jac_phi_q_v_A_i[4] = C_i[3] * t45 + C_i[4] * t46 + C_i[5] * t43 - (C_i[4] * t50 - C_i[3] * t49 + C_i[5] * t48);
     /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_0 = C_j[0] * A_ji_0 + C_j[1] * A_ji_1 + C_j[2] * A_ji_2;
+    const jg_real f_j_in_i_0 = C_j[0] * A_ji_0 + C_j[1] * A_ji_1 + A_ji_2 * C_j[2];
     const jg_real f_j_in_i_2 = C_j[0] * A_ji_6 + C_j[1] * A_ji_7 + C_j[2] * A_ji_8;
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_1 = C_i[2] * f_j_in_i_0 - C_i[0] * f_j_in_i_2;
-    jac_phi_q_v_velocity[12] = f_i_cross_f_j_in_i_1;
     const jg_real t54 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real t55 = C_i[2] * t54;
     const jg_real f_j_in_i_1 = C_j[0] * A_ji_3 + C_j[1] * A_ji_4 + C_j[2] * A_ji_5;
     const jg_real f_i_cross_f_j_in_i_0 = C_i[1] * f_j_in_i_2 - C_i[2] * f_j_in_i_1;
-    jac_phi_q_v_velocity[7] = f_i_cross_f_j_in_i_0;
     const jg_real t58 = C_j[0] * t11 + C_j[1] * t13 + C_j[2] * t14;
     const jg_real t59 = C_i[2] * t58;
     const jg_real t60 = C_i[1] * t54;
     const jg_real t61 = C_i[0] * t58 - t60;
-    jac_phi_q_v_A_i[5] = omega_i[1] * t55 - omega_i[0] * t59 + omega_i[2] * t61 - (t20 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t59 + (t17 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t55) + omega_j_in_i_2 * t61);
     const jg_real t62 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t63 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t64 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t65 = s_j[0] * t62 + s_j[1] * t63 + s_j[2] * t64;
     const jg_real t66 = omega_j[0] * t62 + omega_j[1] * t63 + omega_j[2] * t64;
     const jg_real t67 = A_j[4] * v_j[1] + A_j[1] * v_j[0] + A_j[7] * v_j[2];
-    jac_phi_q_v_A_i[6] = omega_i[2] * t65 - (omega_j_in_i_2 * t65 - s_j_in_i_2 * t66) + t67;
     const jg_real t68 = A_j[4] * omega_j[1] + A_j[1] * omega_j[0] + A_j[7] * omega_j[2];
     const jg_real t69 = A_j[4] * s_j[1] + s_j[0] * A_j[1] + A_j[7] * s_j[2];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t71 = v_0_world_1 + t69;
-    jac_phi_q_v_A_i[7] = v_j[0] * t62 + v_j[1] * t63 + v_j[2] * t64 - (t68 * s_j_in_i_2 - omega_j_in_i_2 * t69 +
-        omega_i[2] * t71);
     const jg_real t72 = t69 * omega_j_in_i_1;
     const jg_real t73 = t68 * s_j_in_i_1;
     const jg_real t74 = omega_i[1] * t71;
-    jac_phi_q_v_A_i[8] = t74 - omega_i[0] * t65 - (t72 + s_j_in_i_0 * t66 - (t73 + omega_j_in_i_0 * t65));
     const jg_real t75 = t68 * h_j_in_i_1;
     const jg_real t76 = C_j[6] * t62 + C_j[7] * t63 + C_j[8] * t64;
     const jg_real t77 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t78 = t77 * omega_j_in_i_1;
-    const jg_real t79 = t75 + omega_j_in_i_0 * t76 - (h_j_in_i_0 * t66 + t78);
+    const jg_real t78 = omega_j_in_i_1 * t77;
+    const jg_real t79 = t75 + omega_j_in_i_0 * t76 - (t66 * h_j_in_i_0 + t78);
     const jg_real t80 = t66 * h_j_in_i_2 - omega_j_in_i_2 * t76;
     const jg_real t81 = omega_j_in_i_2 * t77 - t68 * h_j_in_i_2;
     const jg_real t82 = omega_i[1] * t77;
     const jg_real t83 = omega_i[0] * t76 - t82;
     const jg_real t84 = omega_i[2] * t76;
     const jg_real t85 = omega_i[2] * t77;
+    jac_phi_q_v_velocity[12] = f_i_cross_f_j_in_i_1;
+    jac_phi_q_v_velocity[7] = f_i_cross_f_j_in_i_0;
+    jac_phi_q_v_A_i[5] = omega_i[1] * t55 - omega_i[0] * t59 + omega_i[2] * t61 - (t20 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t59 + (t17 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t55) + omega_j_in_i_2 * t61);
+    jac_phi_q_v_A_i[6] = omega_i[2] * t65 - (omega_j_in_i_2 * t65 - s_j_in_i_2 * t66) + t67;
+    jac_phi_q_v_A_i[7] = v_j[0] * t62 + v_j[1] * t63 + v_j[2] * t64 - (t68 * s_j_in_i_2 - omega_j_in_i_2 * t69 +
+        omega_i[2] * t71);
+    jac_phi_q_v_A_i[8] = t74 - omega_i[0] * t65 - (t72 + s_j_in_i_0 * t66 - (t73 + omega_j_in_i_0 * t65));
     jac_phi_q_v_A_i[9] = C_i[0] * t80 + C_i[1] * t81 + C_i[2] * t79 - (C_i[1] * t85 - C_i[0] * t84 + C_i[2] * t83);
     jac_phi_q_v_A_i[10] = C_i[3] * t80 + C_i[4] * t81 + C_i[5] * t79 - (C_i[4] * t85 - C_i[3] * t84 + C_i[5] * t83);
     const jg_real t86 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
@@ -362,59 +362,59 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t89 = C_i[2] * t88;
     const jg_real t90 = C_i[1] * t86;
     const jg_real t91 = C_i[0] * t88 - t90;
-    jac_phi_q_v_A_i[11] = omega_i[1] * t87 - omega_i[0] * t89 + omega_i[2] * t91 - (t68 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t89 + (t66 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t87) + omega_j_in_i_2 * t91);
     const jg_real t92 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t93 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t94 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t95 = s_j[0] * t92 + s_j[1] * t93 + s_j[2] * t94;
     const jg_real t96 = omega_j[0] * t92 + omega_j[1] * t93 + omega_j[2] * t94;
     const jg_real t97 = A_j[5] * v_j[1] + A_j[2] * v_j[0] + A_j[8] * v_j[2];
-    jac_phi_q_v_A_i[12] = omega_i[2] * t95 - (omega_j_in_i_2 * t95 - s_j_in_i_2 * t96) + t97;
     const jg_real t98 = A_j[5] * omega_j[1] + A_j[2] * omega_j[0] + A_j[8] * omega_j[2];
     const jg_real t99 = A_j[5] * s_j[1] + s_j[0] * A_j[2] + A_j[8] * s_j[2];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t101 = v_0_world_2 + t99;
-    jac_phi_q_v_A_i[13] = v_j[0] * t92 + v_j[1] * t93 + v_j[2] * t94 - (t98 * s_j_in_i_2 - omega_j_in_i_2 * t99 +
-        omega_i[2] * t101);
     const jg_real t102 = t99 * omega_j_in_i_1;
     const jg_real t103 = t98 * s_j_in_i_1;
     const jg_real t104 = omega_i[1] * t101;
-    jac_phi_q_v_A_i[14] = t104 - omega_i[0] * t95 - (t102 + s_j_in_i_0 * t96 - (t103 + omega_j_in_i_0 * t95));
     const jg_real t105 = t98 * h_j_in_i_1;
     const jg_real t106 = C_j[6] * t92 + C_j[7] * t93 + C_j[8] * t94;
     const jg_real t107 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t108 = t107 * omega_j_in_i_1;
-    const jg_real t109 = t105 + omega_j_in_i_0 * t106 - (h_j_in_i_0 * t96 + t108);
+    const jg_real t108 = omega_j_in_i_1 * t107;
+    const jg_real t109 = t105 + omega_j_in_i_0 * t106 - (t96 * h_j_in_i_0 + t108);
     const jg_real t110 = t96 * h_j_in_i_2 - omega_j_in_i_2 * t106;
     const jg_real t111 = omega_j_in_i_2 * t107 - t98 * h_j_in_i_2;
     const jg_real t112 = omega_i[1] * t107;
     const jg_real t113 = omega_i[0] * t106 - t112;
     const jg_real t114 = omega_i[2] * t106;
     const jg_real t115 = omega_i[2] * t107;
-    jac_phi_q_v_A_i[15] = C_i[0] * t110 + C_i[1] * t111 + C_i[2] * t109 - (C_i[1] * t115 - C_i[0] * t114 + C_i[2] *
-        t113);
-    jac_phi_q_v_A_i[16] = C_i[3] * t110 + C_i[4] * t111 + C_i[5] * t109 - (C_i[4] * t115 - C_i[3] * t114 + C_i[5] *
-        t113);
     const jg_real t116 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real t117 = C_i[2] * t116;
     const jg_real t118 = C_j[0] * t92 + C_j[1] * t93 + C_j[2] * t94;
     const jg_real t119 = C_i[2] * t118;
     const jg_real t120 = C_i[1] * t116;
     const jg_real t121 = C_i[0] * t118 - t120;
+    jac_phi_q_v_A_i[11] = omega_i[1] * t87 - omega_i[0] * t89 + omega_i[2] * t91 - (t68 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t89 + (t66 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t87) + omega_j_in_i_2 * t91);
+    jac_phi_q_v_A_i[12] = omega_i[2] * t95 - (omega_j_in_i_2 * t95 - s_j_in_i_2 * t96) + t97;
+    jac_phi_q_v_A_i[13] = v_j[0] * t92 + v_j[1] * t93 + v_j[2] * t94 - (t98 * s_j_in_i_2 - omega_j_in_i_2 * t99 +
+        omega_i[2] * t101);
+    jac_phi_q_v_A_i[14] = t104 - omega_i[0] * t95 - (t102 + s_j_in_i_0 * t96 - (t103 + omega_j_in_i_0 * t95));
+    jac_phi_q_v_A_i[15] = C_i[0] * t110 + C_i[1] * t111 + C_i[2] * t109 - (C_i[1] * t115 - C_i[0] * t114 + C_i[2] *
+        t113);
+    jac_phi_q_v_A_i[16] = C_i[3] * t110 + C_i[4] * t111 + C_i[5] * t109 - (C_i[4] * t115 - C_i[3] * t114 + C_i[5] *
+        t113);
     jac_phi_q_v_A_i[17] = omega_i[1] * t117 - omega_i[0] * t119 + omega_i[2] * t121 - (t98 * f_i_cross_f_j_in_i_0 -
         omega_j_in_i_0 * t119 + (t96 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t117) + omega_j_in_i_2 * t121);
     jac_phi_q_v_A_i[18] = v_0_world_0 * omega_i[2];
-    jac_phi_q_v_A_i[19] = -(v_0_world_0 * omega_i[0]);
-    jac_phi_q_v_A_i[20] = v_0_world_1 * omega_i[2];
-    jac_phi_q_v_A_i[21] = -(v_0_world_1 * omega_i[0]);
-    jac_phi_q_v_A_i[22] = v_0_world_2 * omega_i[2];
-    jac_phi_q_v_A_i[23] = -(v_0_world_2 * omega_i[0]);
     const jg_real t122 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t123 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t124 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t125 = s_j[0] * t122 + s_j[1] * t123 + s_j[2] * t124;
     const jg_real t126 = omega_j[0] * t122 + omega_j[1] * t123 + omega_j[2] * t124;
+    jac_phi_q_v_A_i[19] = -(v_0_world_0 * omega_i[0]);
+    jac_phi_q_v_A_i[20] = v_0_world_1 * omega_i[2];
+    jac_phi_q_v_A_i[21] = -(v_0_world_1 * omega_i[0]);
+    jac_phi_q_v_A_i[22] = v_0_world_2 * omega_i[2];
+    jac_phi_q_v_A_i[23] = -(v_0_world_2 * omega_i[0]);
     jac_phi_q_v_A_i[24] = omega_i[2] * t125 - t36 - (omega_j_in_i_2 * t125 + t34 - (t31 + s_j_in_i_2 * t126));
     jac_phi_q_v_A_i[25] = v_j[0] * t122 + v_j[1] * t123 + v_j[2] * t124 + (omega_i[0] * t23 - (t21 * omega_j_in_i_0
         - t20 * s_j_in_i_0));
@@ -422,72 +422,72 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t127 = C_j[6] * t122 + C_j[7] * t123 + C_j[8] * t124;
     const jg_real t128 = t41 + t126 * h_j_in_i_2 - (t38 + omega_j_in_i_2 * t127);
     const jg_real t129 = t20 * h_j_in_i_0 - omega_j_in_i_0 * t40;
-    const jg_real t130 = omega_j_in_i_0 * t127 - h_j_in_i_0 * t126;
+    const jg_real t130 = omega_j_in_i_0 * t127 - t126 * h_j_in_i_0;
     const jg_real t131 = omega_i[0] * t127;
     const jg_real t132 = t47 - omega_i[2] * t127;
     const jg_real t133 = omega_i[0] * t40;
-    jac_phi_q_v_A_i[27] = C_i[0] * t128 + C_i[1] * t129 + C_i[2] * t130 - (C_i[0] * t132 - C_i[1] * t133 + C_i[2] *
-        t131);
-    jac_phi_q_v_A_i[28] = C_i[3] * t128 + C_i[4] * t129 + C_i[5] * t130 - (C_i[3] * t132 - C_i[4] * t133 + C_i[5] *
-        t131);
     const jg_real t134 = C_i[0] * t54;
     const jg_real t135 = C_j[0] * t122 + C_j[1] * t123 + C_j[2] * t124;
     const jg_real t136 = t60 - C_i[2] * t135;
     const jg_real f_i_cross_f_j_in_i_2 = C_i[0] * f_j_in_i_1 - C_i[1] * f_j_in_i_0;
-    jac_phi_q_v_velocity[17] = f_i_cross_f_j_in_i_2;
     const jg_real t138 = C_i[0] * t135;
-    jac_phi_q_v_A_i[29] = omega_i[0] * t136 - omega_i[1] * t134 + omega_i[2] * t138 - (t20 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t138 + (t126 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t134 + omega_j_in_i_0 * t136));
     const jg_real t139 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t140 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t141 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t142 = s_j[0] * t139 + s_j[1] * t140 + s_j[2] * t141;
     const jg_real t143 = omega_j[0] * t139 + omega_j[1] * t140 + omega_j[2] * t141;
+    const jg_real t144 = C_j[6] * t139 + C_j[7] * t140 + C_j[8] * t141;
+    const jg_real t145 = t78 + t143 * h_j_in_i_2 - (t75 + omega_j_in_i_2 * t144);
+    const jg_real t146 = t68 * h_j_in_i_0 - omega_j_in_i_0 * t77;
+    const jg_real t147 = omega_j_in_i_0 * t144 - t143 * h_j_in_i_0;
+    const jg_real t148 = omega_i[0] * t144;
+    const jg_real t149 = t82 - omega_i[2] * t144;
+    const jg_real t150 = omega_i[0] * t77;
+    jac_phi_q_v_A_i[27] = C_i[0] * t128 + C_i[1] * t129 + C_i[2] * t130 - (C_i[0] * t132 - C_i[1] * t133 + C_i[2] *
+        t131);
+    jac_phi_q_v_A_i[28] = C_i[3] * t128 + C_i[4] * t129 + C_i[5] * t130 - (C_i[3] * t132 - C_i[4] * t133 + C_i[5] *
+        t131);
+    jac_phi_q_v_velocity[17] = f_i_cross_f_j_in_i_2;
+    jac_phi_q_v_A_i[29] = omega_i[0] * t136 - omega_i[1] * t134 + omega_i[2] * t138 - (t20 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t138 + (t126 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t134 + omega_j_in_i_0 * t136));
     jac_phi_q_v_A_i[30] = omega_i[2] * t142 - t74 - (omega_j_in_i_2 * t142 + t73 - (t72 + s_j_in_i_2 * t143));
     jac_phi_q_v_A_i[31] = v_j[0] * t139 + v_j[1] * t140 + v_j[2] * t141 + (omega_i[0] * t71 - (t69 * omega_j_in_i_0
         - t68 * s_j_in_i_0));
     jac_phi_q_v_A_i[32] = t67 - (s_j_in_i_0 * t143 - omega_j_in_i_0 * t142 + omega_i[0] * t142);
-    const jg_real t144 = C_j[6] * t139 + C_j[7] * t140 + C_j[8] * t141;
-    const jg_real t145 = t78 + t143 * h_j_in_i_2 - (t75 + omega_j_in_i_2 * t144);
-    const jg_real t146 = t68 * h_j_in_i_0 - omega_j_in_i_0 * t77;
-    const jg_real t147 = omega_j_in_i_0 * t144 - h_j_in_i_0 * t143;
-    const jg_real t148 = omega_i[0] * t144;
-    const jg_real t149 = t82 - omega_i[2] * t144;
-    const jg_real t150 = omega_i[0] * t77;
     jac_phi_q_v_A_i[33] = C_i[0] * t145 + C_i[1] * t146 + C_i[2] * t147 - (C_i[0] * t149 - C_i[1] * t150 + C_i[2] *
-        t148);
-    jac_phi_q_v_A_i[34] = C_i[3] * t145 + C_i[4] * t146 + C_i[5] * t147 - (C_i[3] * t149 - C_i[4] * t150 + C_i[5] *
         t148);
     const jg_real t151 = C_i[0] * t86;
     const jg_real t152 = C_j[0] * t139 + C_j[1] * t140 + C_j[2] * t141;
     const jg_real t153 = t90 - C_i[2] * t152;
     const jg_real t154 = C_i[0] * t152;
-    jac_phi_q_v_A_i[35] = omega_i[0] * t153 - omega_i[1] * t151 + omega_i[2] * t154 - (t68 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t154 + (t143 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t151 + omega_j_in_i_0 * t153));
     const jg_real t155 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t156 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t157 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t158 = s_j[0] * t155 + s_j[1] * t156 + s_j[2] * t157;
     const jg_real t159 = omega_j[0] * t155 + omega_j[1] * t156 + omega_j[2] * t157;
-    jac_phi_q_v_A_i[36] = omega_i[2] * t158 - t104 - (omega_j_in_i_2 * t158 + t103 - (t102 + s_j_in_i_2 * t159));
-    jac_phi_q_v_A_i[37] = v_j[0] * t155 + v_j[1] * t156 + v_j[2] * t157 + (omega_i[0] * t101 - (t99 * omega_j_in_i_0
-        - t98 * s_j_in_i_0));
-    jac_phi_q_v_A_i[38] = t97 - (s_j_in_i_0 * t159 - omega_j_in_i_0 * t158 + omega_i[0] * t158);
     const jg_real t160 = C_j[6] * t155 + C_j[7] * t156 + C_j[8] * t157;
     const jg_real t161 = t108 + t159 * h_j_in_i_2 - (t105 + omega_j_in_i_2 * t160);
     const jg_real t162 = t98 * h_j_in_i_0 - omega_j_in_i_0 * t107;
-    const jg_real t163 = omega_j_in_i_0 * t160 - h_j_in_i_0 * t159;
+    const jg_real t163 = omega_j_in_i_0 * t160 - t159 * h_j_in_i_0;
     const jg_real t164 = omega_i[0] * t160;
     const jg_real t165 = t112 - omega_i[2] * t160;
     const jg_real t166 = omega_i[0] * t107;
-    jac_phi_q_v_A_i[39] = C_i[0] * t161 + C_i[1] * t162 + C_i[2] * t163 - (C_i[0] * t165 - C_i[1] * t166 + C_i[2] *
-        t164);
-    jac_phi_q_v_A_i[40] = C_i[3] * t161 + C_i[4] * t162 + C_i[5] * t163 - (C_i[3] * t165 - C_i[4] * t166 + C_i[5] *
-        t164);
     const jg_real t167 = C_i[0] * t116;
     const jg_real t168 = C_j[0] * t155 + C_j[1] * t156 + C_j[2] * t157;
     const jg_real t169 = t120 - C_i[2] * t168;
     const jg_real t170 = C_i[0] * t168;
+    jac_phi_q_v_A_i[34] = C_i[3] * t145 + C_i[4] * t146 + C_i[5] * t147 - (C_i[3] * t149 - C_i[4] * t150 + C_i[5] *
+        t148);
+    jac_phi_q_v_A_i[35] = omega_i[0] * t153 - omega_i[1] * t151 + omega_i[2] * t154 - (t68 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t154 + (t143 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t151 + omega_j_in_i_0 * t153));
+    jac_phi_q_v_A_i[36] = omega_i[2] * t158 - t104 - (omega_j_in_i_2 * t158 + t103 - (t102 + s_j_in_i_2 * t159));
+    jac_phi_q_v_A_i[37] = v_j[0] * t155 + v_j[1] * t156 + v_j[2] * t157 + (omega_i[0] * t101 - (t99 * omega_j_in_i_0
+        - t98 * s_j_in_i_0));
+    jac_phi_q_v_A_i[38] = t97 - (s_j_in_i_0 * t159 - omega_j_in_i_0 * t158 + omega_i[0] * t158);
+    jac_phi_q_v_A_i[39] = C_i[0] * t161 + C_i[1] * t162 + C_i[2] * t163 - (C_i[0] * t165 - C_i[1] * t166 + C_i[2] *
+        t164);
+    jac_phi_q_v_A_i[40] = C_i[3] * t161 + C_i[4] * t162 + C_i[5] * t163 - (C_i[3] * t165 - C_i[4] * t166 + C_i[5] *
+        t164);
     jac_phi_q_v_A_i[41] = omega_i[0] * t169 - omega_i[1] * t167 + omega_i[2] * t170 - (t98 * f_i_cross_f_j_in_i_2 +
         omega_j_in_i_2 * t170 + (t159 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t167 + omega_j_in_i_0 * t169));
     const jg_real t171 = A_i[6] * omega_j[0];
@@ -496,98 +496,96 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t174 = s_j[1] * t172 + s_j[2] * t173;
     const jg_real t175 = A_i[6] * s_j[0];
     const jg_real t176 = omega_j[1] * t172 + omega_j[2] * t173;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t171 * s_j_in_i_1 - omega_j_in_i_2 * t174 - (t175 * omega_j_in_i_1 -
-        s_j_in_i_2 * t176) + (omega_i[1] * t175 + omega_i[2] * t174));
     const jg_real t177 = A_i[0] * omega_j[0];
     const jg_real t178 = A_i[0] * s_j[0];
-    jac_phi_q_v_A_j[1] = omega_i[0] * t175 - omega_i[2] * t178 - (t175 * omega_j_in_i_0 + t177 * s_j_in_i_2 - (t178
-        * omega_j_in_i_2 + t171 * s_j_in_i_0)) - (v_j[1] * t172 + v_j[2] * t173);
-    jac_phi_q_v_A_j[2] = omega_i[1] * t178 + omega_i[0] * t174 - (t178 * omega_j_in_i_1 - s_j_in_i_0 * t176 - (t177
-        * s_j_in_i_1 - omega_j_in_i_0 * t174)) + A_i[6] * v_j[0];
     const jg_real t179 = C_j[7] * t172 + C_j[8] * t173;
     const jg_real t180 = A_i[0] * C_j[6];
-    const jg_real t181 = t177 * h_j_in_i_1 - omega_j_in_i_0 * t179 - (t180 * omega_j_in_i_1 - h_j_in_i_0 * t176);
+    const jg_real t181 = t177 * h_j_in_i_1 - omega_j_in_i_0 * t179 - (omega_j_in_i_1 * t180 - t176 * h_j_in_i_0);
     const jg_real t182 = A_i[6] * C_j[6];
-    const jg_real t183 = t182 * omega_j_in_i_1 - t176 * h_j_in_i_2 - (t171 * h_j_in_i_1 - omega_j_in_i_2 * t179);
-    const jg_real t184 = t171 * h_j_in_i_0 + t180 * omega_j_in_i_2 - (t177 * h_j_in_i_2 + t182 * omega_j_in_i_0);
+    const jg_real t183 = omega_j_in_i_1 * t182 - t176 * h_j_in_i_2 - (t171 * h_j_in_i_1 - omega_j_in_i_2 * t179);
+    const jg_real t184 = t171 * h_j_in_i_0 + omega_j_in_i_2 * t180 - (t177 * h_j_in_i_2 + omega_j_in_i_0 * t182);
     const jg_real t185 = omega_i[2] * t179 + omega_i[1] * t182;
     const jg_real t186 = omega_i[2] * t180 - omega_i[0] * t182;
-    const jg_real t187 = omega_i[1] * t180 + omega_i[0] * t179;
-    jac_phi_q_v_A_j[3] = C_i[0] * t183 + C_i[1] * t184 + C_i[2] * t181 - (C_i[0] * t185 + C_i[1] * t186 - C_i[2] *
-        t187);
-    jac_phi_q_v_A_j[4] = C_i[3] * t183 + C_i[4] * t184 + C_i[5] * t181 - (C_i[3] * t185 + C_i[4] * t186 - C_i[5] *
-        t187);
+    const jg_real t187 = omega_i[0] * t179 + omega_i[1] * t180;
     const jg_real t188 = A_i[0] * C_j[0];
     const jg_real t189 = A_i[6] * C_j[0];
     const jg_real t190 = C_i[2] * t188 - C_i[0] * t189;
     const jg_real t191 = C_j[1] * t172 + C_j[2] * t173;
     const jg_real t192 = C_i[2] * t191 + C_i[1] * t189;
     const jg_real t193 = C_i[0] * t191 + C_i[1] * t188;
-    jac_phi_q_v_A_j[5] = omega_i[0] * t192 + omega_i[1] * t190 - omega_i[2] * t193 - (t171 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t193 + (t177 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t192 + (omega_j_in_i_1 * t190 - t176
-        * f_i_cross_f_j_in_i_1)));
     const jg_real t194 = A_i[7] * omega_j[0];
     const jg_real t195 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
     const jg_real t196 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
     const jg_real t197 = s_j[1] * t195 + s_j[2] * t196;
     const jg_real t198 = A_i[7] * s_j[0];
     const jg_real t199 = omega_j[1] * t195 + omega_j[2] * t196;
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t194 * s_j_in_i_1 - omega_j_in_i_2 * t197 - (t198 * omega_j_in_i_1 -
-        s_j_in_i_2 * t199) + (omega_i[1] * t198 + omega_i[2] * t197));
     const jg_real t200 = A_i[1] * omega_j[0];
     const jg_real t201 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t171 * s_j_in_i_1 - omega_j_in_i_2 * t174 - (t175 * omega_j_in_i_1 -
+        s_j_in_i_2 * t176) + (omega_i[1] * t175 + omega_i[2] * t174));
+    jac_phi_q_v_A_j[1] = omega_i[0] * t175 - omega_i[2] * t178 - (t175 * omega_j_in_i_0 + t177 * s_j_in_i_2 - (t178
+        * omega_j_in_i_2 + t171 * s_j_in_i_0)) - (v_j[1] * t172 + v_j[2] * t173);
+    jac_phi_q_v_A_j[2] = omega_i[0] * t174 + omega_i[1] * t178 - (t178 * omega_j_in_i_1 - s_j_in_i_0 * t176 - (t177
+        * s_j_in_i_1 - omega_j_in_i_0 * t174)) + A_i[6] * v_j[0];
+    jac_phi_q_v_A_j[3] = C_i[0] * t183 + C_i[1] * t184 + C_i[2] * t181 - (C_i[0] * t185 + C_i[1] * t186 - C_i[2] *
+        t187);
+    jac_phi_q_v_A_j[4] = C_i[3] * t183 + C_i[4] * t184 + C_i[5] * t181 - (C_i[3] * t185 + C_i[4] * t186 - C_i[5] *
+        t187);
+    jac_phi_q_v_A_j[5] = omega_i[0] * t192 + omega_i[1] * t190 - omega_i[2] * t193 - (t171 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t193 + (t177 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t192 + (omega_j_in_i_1 * t190 - t176
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t194 * s_j_in_i_1 - omega_j_in_i_2 * t197 - (t198 * omega_j_in_i_1 -
+        s_j_in_i_2 * t199) + (omega_i[1] * t198 + omega_i[2] * t197));
     jac_phi_q_v_A_j[7] = omega_i[0] * t198 - omega_i[2] * t201 - (t198 * omega_j_in_i_0 + t200 * s_j_in_i_2 - (t201
         * omega_j_in_i_2 + t194 * s_j_in_i_0)) - (v_j[1] * t195 + v_j[2] * t196);
-    jac_phi_q_v_A_j[8] = omega_i[1] * t201 + omega_i[0] * t197 - (t201 * omega_j_in_i_1 - s_j_in_i_0 * t199 - (t200
-        * s_j_in_i_1 - omega_j_in_i_0 * t197)) + A_i[7] * v_j[0];
     const jg_real t202 = C_j[7] * t195 + C_j[8] * t196;
     const jg_real t203 = A_i[1] * C_j[6];
-    const jg_real t204 = t200 * h_j_in_i_1 - omega_j_in_i_0 * t202 - (t203 * omega_j_in_i_1 - h_j_in_i_0 * t199);
+    const jg_real t204 = t200 * h_j_in_i_1 - omega_j_in_i_0 * t202 - (omega_j_in_i_1 * t203 - t199 * h_j_in_i_0);
     const jg_real t205 = A_i[7] * C_j[6];
-    const jg_real t206 = t205 * omega_j_in_i_1 - t199 * h_j_in_i_2 - (t194 * h_j_in_i_1 - omega_j_in_i_2 * t202);
-    const jg_real t207 = t194 * h_j_in_i_0 + t203 * omega_j_in_i_2 - (t200 * h_j_in_i_2 + t205 * omega_j_in_i_0);
+    const jg_real t206 = omega_j_in_i_1 * t205 - t199 * h_j_in_i_2 - (t194 * h_j_in_i_1 - omega_j_in_i_2 * t202);
+    const jg_real t207 = t194 * h_j_in_i_0 + omega_j_in_i_2 * t203 - (t200 * h_j_in_i_2 + omega_j_in_i_0 * t205);
     const jg_real t208 = omega_i[2] * t202 + omega_i[1] * t205;
     const jg_real t209 = omega_i[2] * t203 - omega_i[0] * t205;
-    const jg_real t210 = omega_i[1] * t203 + omega_i[0] * t202;
-    jac_phi_q_v_A_j[9] = C_i[0] * t206 + C_i[1] * t207 + C_i[2] * t204 - (C_i[0] * t208 + C_i[1] * t209 - C_i[2] *
-        t210);
-    jac_phi_q_v_A_j[10] = C_i[3] * t206 + C_i[4] * t207 + C_i[5] * t204 - (C_i[3] * t208 + C_i[4] * t209 - C_i[5] *
-        t210);
+    const jg_real t210 = omega_i[0] * t202 + omega_i[1] * t203;
     const jg_real t211 = A_i[1] * C_j[0];
     const jg_real t212 = A_i[7] * C_j[0];
     const jg_real t213 = C_i[2] * t211 - C_i[0] * t212;
     const jg_real t214 = C_j[1] * t195 + C_j[2] * t196;
     const jg_real t215 = C_i[2] * t214 + C_i[1] * t212;
     const jg_real t216 = C_i[0] * t214 + C_i[1] * t211;
-    jac_phi_q_v_A_j[11] = omega_i[0] * t215 + omega_i[1] * t213 - omega_i[2] * t216 - (t194 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t216 + (t200 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t215 + (omega_j_in_i_1 * t213 - t199
-        * f_i_cross_f_j_in_i_1)));
     const jg_real t217 = A_i[8] * omega_j[0];
     const jg_real t218 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
     const jg_real t219 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
     const jg_real t220 = s_j[1] * t218 + s_j[2] * t219;
     const jg_real t221 = A_i[8] * s_j[0];
     const jg_real t222 = omega_j[1] * t218 + omega_j[2] * t219;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t217 * s_j_in_i_1 - omega_j_in_i_2 * t220 - (t221 * omega_j_in_i_1 -
-        s_j_in_i_2 * t222) + (omega_i[1] * t221 + omega_i[2] * t220));
     const jg_real t223 = A_i[2] * omega_j[0];
     const jg_real t224 = A_i[2] * s_j[0];
-    jac_phi_q_v_A_j[13] = omega_i[0] * t221 - omega_i[2] * t224 - (t221 * omega_j_in_i_0 + t223 * s_j_in_i_2 - (t224
-        * omega_j_in_i_2 + t217 * s_j_in_i_0)) - (v_j[1] * t218 + v_j[2] * t219);
-    jac_phi_q_v_A_j[14] = omega_i[1] * t224 + omega_i[0] * t220 - (t224 * omega_j_in_i_1 - s_j_in_i_0 * t222 - (t223
-        * s_j_in_i_1 - omega_j_in_i_0 * t220)) + A_i[8] * v_j[0];
     const jg_real t225 = C_j[7] * t218 + C_j[8] * t219;
     const jg_real t226 = A_i[2] * C_j[6];
-    const jg_real t227 = t223 * h_j_in_i_1 - omega_j_in_i_0 * t225 - (t226 * omega_j_in_i_1 - h_j_in_i_0 * t222);
+    const jg_real t227 = t223 * h_j_in_i_1 - omega_j_in_i_0 * t225 - (omega_j_in_i_1 * t226 - t222 * h_j_in_i_0);
     const jg_real t228 = A_i[8] * C_j[6];
-    const jg_real t229 = t228 * omega_j_in_i_1 - t222 * h_j_in_i_2 - (t217 * h_j_in_i_1 - omega_j_in_i_2 * t225);
-    const jg_real t230 = t217 * h_j_in_i_0 + t226 * omega_j_in_i_2 - (t223 * h_j_in_i_2 + t228 * omega_j_in_i_0);
+    const jg_real t229 = omega_j_in_i_1 * t228 - t222 * h_j_in_i_2 - (t217 * h_j_in_i_1 - omega_j_in_i_2 * t225);
+    const jg_real t230 = t217 * h_j_in_i_0 + omega_j_in_i_2 * t226 - (t223 * h_j_in_i_2 + omega_j_in_i_0 * t228);
     const jg_real t231 = omega_i[2] * t225 + omega_i[1] * t228;
     const jg_real t232 = omega_i[2] * t226 - omega_i[0] * t228;
-    const jg_real t233 = omega_i[1] * t226 + omega_i[0] * t225;
+    const jg_real t233 = omega_i[0] * t225 + omega_i[1] * t226;
+    jac_phi_q_v_A_j[8] = omega_i[0] * t197 + omega_i[1] * t201 - (t201 * omega_j_in_i_1 - s_j_in_i_0 * t199 - (t200
+        * s_j_in_i_1 - omega_j_in_i_0 * t197)) + A_i[7] * v_j[0];
+    jac_phi_q_v_A_j[9] = C_i[0] * t206 + C_i[1] * t207 + C_i[2] * t204 - (C_i[0] * t208 + C_i[1] * t209 - C_i[2] *
+        t210);
+    jac_phi_q_v_A_j[10] = C_i[3] * t206 + C_i[4] * t207 + C_i[5] * t204 - (C_i[3] * t208 + C_i[4] * t209 - C_i[5] *
+        t210);
+    jac_phi_q_v_A_j[11] = omega_i[0] * t215 + omega_i[1] * t213 - omega_i[2] * t216 - (t194 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t216 + (t200 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t215 + (omega_j_in_i_1 * t213 - t199
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t217 * s_j_in_i_1 - omega_j_in_i_2 * t220 - (t221 * omega_j_in_i_1 -
+        s_j_in_i_2 * t222) + (omega_i[1] * t221 + omega_i[2] * t220));
+    jac_phi_q_v_A_j[13] = omega_i[0] * t221 - omega_i[2] * t224 - (t221 * omega_j_in_i_0 + t223 * s_j_in_i_2 - (t224
+        * omega_j_in_i_2 + t217 * s_j_in_i_0)) - (v_j[1] * t218 + v_j[2] * t219);
+    jac_phi_q_v_A_j[14] = omega_i[0] * t220 + omega_i[1] * t224 - (t224 * omega_j_in_i_1 - s_j_in_i_0 * t222 - (t223
+        * s_j_in_i_1 - omega_j_in_i_0 * t220)) + A_i[8] * v_j[0];
     jac_phi_q_v_A_j[15] = C_i[0] * t229 + C_i[1] * t230 + C_i[2] * t227 - (C_i[0] * t231 + C_i[1] * t232 - C_i[2] *
-        t233);
-    jac_phi_q_v_A_j[16] = C_i[3] * t229 + C_i[4] * t230 + C_i[5] * t227 - (C_i[3] * t231 + C_i[4] * t232 - C_i[5] *
         t233);
     const jg_real t234 = A_i[2] * C_j[0];
     const jg_real t235 = A_i[8] * C_j[0];
@@ -595,41 +593,43 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t237 = C_j[1] * t218 + C_j[2] * t219;
     const jg_real t238 = C_i[2] * t237 + C_i[1] * t235;
     const jg_real t239 = C_i[0] * t237 + C_i[1] * t234;
-    jac_phi_q_v_A_j[17] = omega_i[0] * t238 + omega_i[1] * t236 - omega_i[2] * t239 - (t217 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t239 + (t223 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t238 + (omega_j_in_i_1 * t236 - t222
-        * f_i_cross_f_j_in_i_1)));
     const jg_real t240 = A_i[6] * omega_j[1];
     const jg_real t241 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
     const jg_real t242 = s_j[0] * t172 - s_j[2] * t241;
     const jg_real t243 = A_i[6] * s_j[1];
     const jg_real t244 = omega_j[0] * t172 - omega_j[2] * t241;
-    jac_phi_q_v_A_j[18] = omega_i[2] * t242 - omega_i[1] * t243 - (omega_j_in_i_2 * t242 + t240 * s_j_in_i_1 - (t243
-        * omega_j_in_i_1 + s_j_in_i_2 * t244)) + A_i[0] * v_j[1];
     const jg_real t245 = A_i[0] * omega_j[1];
     const jg_real t246 = A_i[0] * s_j[1];
-    jac_phi_q_v_A_j[19] = v_j[0] * t172 - v_j[2] * t241 + (omega_i[0] * t243 - omega_i[2] * t246 - (t243 *
-        omega_j_in_i_0 + t245 * s_j_in_i_2 - (t246 * omega_j_in_i_2 + t240 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[20] = omega_i[1] * t246 - omega_i[0] * t242 - (t246 * omega_j_in_i_1 + s_j_in_i_0 * t244 -
-        (omega_j_in_i_0 * t242 + t245 * s_j_in_i_1)) + A_i[6] * v_j[1];
     const jg_real t247 = C_j[6] * t172 - C_j[8] * t241;
     const jg_real t248 = A_i[0] * C_j[7];
-    const jg_real t249 = t245 * h_j_in_i_1 + omega_j_in_i_0 * t247 - (h_j_in_i_0 * t244 + t248 * omega_j_in_i_1);
+    const jg_real t249 = t245 * h_j_in_i_1 + omega_j_in_i_0 * t247 - (t244 * h_j_in_i_0 + omega_j_in_i_1 * t248);
     const jg_real t250 = A_i[6] * C_j[7];
-    const jg_real t251 = t244 * h_j_in_i_2 + t250 * omega_j_in_i_1 - (t240 * h_j_in_i_1 + omega_j_in_i_2 * t247);
-    const jg_real t252 = t240 * h_j_in_i_0 + t248 * omega_j_in_i_2 - (t245 * h_j_in_i_2 + omega_j_in_i_0 * t250);
+    const jg_real t251 = t244 * h_j_in_i_2 + omega_j_in_i_1 * t250 - (t240 * h_j_in_i_1 + omega_j_in_i_2 * t247);
+    const jg_real t252 = t240 * h_j_in_i_0 + omega_j_in_i_2 * t248 - (t245 * h_j_in_i_2 + omega_j_in_i_0 * t250);
     const jg_real t253 = omega_i[0] * t247 - omega_i[1] * t248;
     const jg_real t254 = omega_i[1] * t250 - omega_i[2] * t247;
     const jg_real t255 = omega_i[2] * t248 - omega_i[0] * t250;
-    jac_phi_q_v_A_j[21] = C_i[0] * t251 + C_i[1] * t252 + C_i[2] * t249 - (C_i[0] * t254 + C_i[1] * t255 + C_i[2] *
-        t253);
-    jac_phi_q_v_A_j[22] = C_i[3] * t251 + C_i[4] * t252 + C_i[5] * t249 - (C_i[3] * t254 + C_i[4] * t255 + C_i[5] *
-        t253);
     const jg_real t256 = A_i[0] * C_j[1];
     const jg_real t257 = A_i[6] * C_j[1];
     const jg_real t258 = C_i[2] * t256 - C_i[0] * t257;
     const jg_real t259 = C_j[0] * t172 - C_j[2] * t241;
     const jg_real t260 = C_i[1] * t257 - C_i[2] * t259;
     const jg_real t261 = C_i[0] * t259 - C_i[1] * t256;
+    jac_phi_q_v_A_j[16] = C_i[3] * t229 + C_i[4] * t230 + C_i[5] * t227 - (C_i[3] * t231 + C_i[4] * t232 - C_i[5] *
+        t233);
+    jac_phi_q_v_A_j[17] = omega_i[0] * t238 + omega_i[1] * t236 - omega_i[2] * t239 - (t217 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t239 + (t223 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t238 + (omega_j_in_i_1 * t236 - t222
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[18] = omega_i[2] * t242 - omega_i[1] * t243 - (omega_j_in_i_2 * t242 + t240 * s_j_in_i_1 - (t243
+        * omega_j_in_i_1 + s_j_in_i_2 * t244)) + A_i[0] * v_j[1];
+    jac_phi_q_v_A_j[19] = v_j[0] * t172 - v_j[2] * t241 + (omega_i[0] * t243 - omega_i[2] * t246 - (t243 *
+        omega_j_in_i_0 + t245 * s_j_in_i_2 - (t246 * omega_j_in_i_2 + t240 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[20] = omega_i[1] * t246 - omega_i[0] * t242 - (t246 * omega_j_in_i_1 + s_j_in_i_0 * t244 -
+        (omega_j_in_i_0 * t242 + t245 * s_j_in_i_1)) + A_i[6] * v_j[1];
+    jac_phi_q_v_A_j[21] = C_i[0] * t251 + C_i[1] * t252 + C_i[2] * t249 - (C_i[0] * t254 + C_i[1] * t255 + C_i[2] *
+        t253);
+    jac_phi_q_v_A_j[22] = C_i[3] * t251 + C_i[4] * t252 + C_i[5] * t249 - (C_i[3] * t254 + C_i[4] * t255 + C_i[5] *
+        t253);
     jac_phi_q_v_A_j[23] = omega_i[0] * t260 + omega_i[1] * t258 + omega_i[2] * t261 - (t240 * f_i_cross_f_j_in_i_2 +
         omega_j_in_i_2 * t261 + (t245 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t260 + (t244 * f_i_cross_f_j_in_i_1
         + omega_j_in_i_1 * t258)));
@@ -638,95 +638,93 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t264 = s_j[0] * t195 - s_j[2] * t263;
     const jg_real t265 = A_i[7] * s_j[1];
     const jg_real t266 = omega_j[0] * t195 - omega_j[2] * t263;
-    jac_phi_q_v_A_j[24] = omega_i[2] * t264 - omega_i[1] * t265 - (omega_j_in_i_2 * t264 + t262 * s_j_in_i_1 - (t265
-        * omega_j_in_i_1 + s_j_in_i_2 * t266)) + A_i[1] * v_j[1];
     const jg_real t267 = A_i[1] * omega_j[1];
     const jg_real t268 = A_i[1] * s_j[1];
-    jac_phi_q_v_A_j[25] = v_j[0] * t195 - v_j[2] * t263 + (omega_i[0] * t265 - omega_i[2] * t268 - (t265 *
-        omega_j_in_i_0 + t267 * s_j_in_i_2 - (t268 * omega_j_in_i_2 + t262 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[26] = omega_i[1] * t268 - omega_i[0] * t264 - (t268 * omega_j_in_i_1 + s_j_in_i_0 * t266 -
-        (omega_j_in_i_0 * t264 + t267 * s_j_in_i_1)) + A_i[7] * v_j[1];
     const jg_real t269 = C_j[6] * t195 - C_j[8] * t263;
     const jg_real t270 = A_i[1] * C_j[7];
-    const jg_real t271 = t267 * h_j_in_i_1 + omega_j_in_i_0 * t269 - (h_j_in_i_0 * t266 + t270 * omega_j_in_i_1);
+    const jg_real t271 = t267 * h_j_in_i_1 + omega_j_in_i_0 * t269 - (t266 * h_j_in_i_0 + omega_j_in_i_1 * t270);
     const jg_real t272 = A_i[7] * C_j[7];
-    const jg_real t273 = t266 * h_j_in_i_2 + t272 * omega_j_in_i_1 - (t262 * h_j_in_i_1 + omega_j_in_i_2 * t269);
-    const jg_real t274 = t262 * h_j_in_i_0 + t270 * omega_j_in_i_2 - (t267 * h_j_in_i_2 + omega_j_in_i_0 * t272);
+    const jg_real t273 = t266 * h_j_in_i_2 + omega_j_in_i_1 * t272 - (t262 * h_j_in_i_1 + omega_j_in_i_2 * t269);
+    const jg_real t274 = t262 * h_j_in_i_0 + omega_j_in_i_2 * t270 - (t267 * h_j_in_i_2 + omega_j_in_i_0 * t272);
     const jg_real t275 = omega_i[0] * t269 - omega_i[1] * t270;
     const jg_real t276 = omega_i[1] * t272 - omega_i[2] * t269;
     const jg_real t277 = omega_i[2] * t270 - omega_i[0] * t272;
-    jac_phi_q_v_A_j[27] = C_i[0] * t273 + C_i[1] * t274 + C_i[2] * t271 - (C_i[0] * t276 + C_i[1] * t277 + C_i[2] *
-        t275);
-    jac_phi_q_v_A_j[28] = C_i[3] * t273 + C_i[4] * t274 + C_i[5] * t271 - (C_i[3] * t276 + C_i[4] * t277 + C_i[5] *
-        t275);
     const jg_real t278 = A_i[1] * C_j[1];
     const jg_real t279 = A_i[7] * C_j[1];
     const jg_real t280 = C_i[2] * t278 - C_i[0] * t279;
     const jg_real t281 = C_j[0] * t195 - C_j[2] * t263;
     const jg_real t282 = C_i[1] * t279 - C_i[2] * t281;
     const jg_real t283 = C_i[0] * t281 - C_i[1] * t278;
-    jac_phi_q_v_A_j[29] = omega_i[0] * t282 + omega_i[1] * t280 + omega_i[2] * t283 - (t262 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t283 + (t267 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t282 + (t266 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t280)));
     const jg_real t284 = A_i[8] * omega_j[1];
     const jg_real t285 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
     const jg_real t286 = s_j[0] * t218 - s_j[2] * t285;
     const jg_real t287 = A_i[8] * s_j[1];
     const jg_real t288 = omega_j[0] * t218 - omega_j[2] * t285;
-    jac_phi_q_v_A_j[30] = omega_i[2] * t286 - omega_i[1] * t287 - (omega_j_in_i_2 * t286 + t284 * s_j_in_i_1 - (t287
-        * omega_j_in_i_1 + s_j_in_i_2 * t288)) + A_i[2] * v_j[1];
     const jg_real t289 = A_i[2] * omega_j[1];
     const jg_real t290 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[24] = omega_i[2] * t264 - omega_i[1] * t265 - (omega_j_in_i_2 * t264 + t262 * s_j_in_i_1 - (t265
+        * omega_j_in_i_1 + s_j_in_i_2 * t266)) + A_i[1] * v_j[1];
+    jac_phi_q_v_A_j[25] = v_j[0] * t195 - v_j[2] * t263 + (omega_i[0] * t265 - omega_i[2] * t268 - (t265 *
+        omega_j_in_i_0 + t267 * s_j_in_i_2 - (t268 * omega_j_in_i_2 + t262 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[26] = omega_i[1] * t268 - omega_i[0] * t264 - (t268 * omega_j_in_i_1 + s_j_in_i_0 * t266 -
+        (omega_j_in_i_0 * t264 + t267 * s_j_in_i_1)) + A_i[7] * v_j[1];
+    jac_phi_q_v_A_j[27] = C_i[0] * t273 + C_i[1] * t274 + C_i[2] * t271 - (C_i[0] * t276 + C_i[1] * t277 + C_i[2] *
+        t275);
+    jac_phi_q_v_A_j[28] = C_i[3] * t273 + C_i[4] * t274 + C_i[5] * t271 - (C_i[3] * t276 + C_i[4] * t277 + C_i[5] *
+        t275);
+    jac_phi_q_v_A_j[29] = omega_i[0] * t282 + omega_i[1] * t280 + omega_i[2] * t283 - (t262 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t283 + (t267 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t282 + (t266 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t280)));
+    jac_phi_q_v_A_j[30] = omega_i[2] * t286 - omega_i[1] * t287 - (omega_j_in_i_2 * t286 + t284 * s_j_in_i_1 - (t287
+        * omega_j_in_i_1 + s_j_in_i_2 * t288)) + A_i[2] * v_j[1];
     jac_phi_q_v_A_j[31] = v_j[0] * t218 - v_j[2] * t285 + (omega_i[0] * t287 - omega_i[2] * t290 - (t287 *
         omega_j_in_i_0 + t289 * s_j_in_i_2 - (t290 * omega_j_in_i_2 + t284 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[32] = omega_i[1] * t290 - omega_i[0] * t286 - (t290 * omega_j_in_i_1 + s_j_in_i_0 * t288 -
-        (omega_j_in_i_0 * t286 + t289 * s_j_in_i_1)) + A_i[8] * v_j[1];
     const jg_real t291 = C_j[6] * t218 - C_j[8] * t285;
     const jg_real t292 = A_i[2] * C_j[7];
-    const jg_real t293 = t289 * h_j_in_i_1 + omega_j_in_i_0 * t291 - (h_j_in_i_0 * t288 + t292 * omega_j_in_i_1);
+    const jg_real t293 = t289 * h_j_in_i_1 + omega_j_in_i_0 * t291 - (t288 * h_j_in_i_0 + omega_j_in_i_1 * t292);
     const jg_real t294 = A_i[8] * C_j[7];
-    const jg_real t295 = t288 * h_j_in_i_2 + t294 * omega_j_in_i_1 - (t284 * h_j_in_i_1 + omega_j_in_i_2 * t291);
-    const jg_real t296 = t284 * h_j_in_i_0 + t292 * omega_j_in_i_2 - (t289 * h_j_in_i_2 + omega_j_in_i_0 * t294);
+    const jg_real t295 = t288 * h_j_in_i_2 + omega_j_in_i_1 * t294 - (t284 * h_j_in_i_1 + omega_j_in_i_2 * t291);
+    const jg_real t296 = t284 * h_j_in_i_0 + omega_j_in_i_2 * t292 - (t289 * h_j_in_i_2 + omega_j_in_i_0 * t294);
     const jg_real t297 = omega_i[0] * t291 - omega_i[1] * t292;
     const jg_real t298 = omega_i[1] * t294 - omega_i[2] * t291;
     const jg_real t299 = omega_i[2] * t292 - omega_i[0] * t294;
-    jac_phi_q_v_A_j[33] = C_i[0] * t295 + C_i[1] * t296 + C_i[2] * t293 - (C_i[0] * t298 + C_i[1] * t299 + C_i[2] *
-        t297);
-    jac_phi_q_v_A_j[34] = C_i[3] * t295 + C_i[4] * t296 + C_i[5] * t293 - (C_i[3] * t298 + C_i[4] * t299 + C_i[5] *
-        t297);
     const jg_real t300 = A_i[2] * C_j[1];
     const jg_real t301 = A_i[8] * C_j[1];
     const jg_real t302 = C_i[2] * t300 - C_i[0] * t301;
     const jg_real t303 = C_j[0] * t218 - C_j[2] * t285;
     const jg_real t304 = C_i[1] * t301 - C_i[2] * t303;
     const jg_real t305 = C_i[0] * t303 - C_i[1] * t300;
-    jac_phi_q_v_A_j[35] = omega_i[0] * t304 + omega_i[1] * t302 + omega_i[2] * t305 - (t284 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t305 + (t289 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t304 + (t288 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t302)));
     const jg_real t306 = A_i[6] * omega_j[2];
     const jg_real t307 = s_j[0] * t173 + s_j[1] * t241;
     const jg_real t308 = A_i[6] * s_j[2];
     const jg_real t309 = omega_j[0] * t173 + omega_j[1] * t241;
-    jac_phi_q_v_A_j[36] = omega_i[2] * t307 - omega_i[1] * t308 - (omega_j_in_i_2 * t307 + t306 * s_j_in_i_1 - (t308
-        * omega_j_in_i_1 + s_j_in_i_2 * t309)) + A_i[0] * v_j[2];
     const jg_real t310 = A_i[0] * omega_j[2];
     const jg_real t311 = A_i[0] * s_j[2];
-    jac_phi_q_v_A_j[37] = v_j[0] * t173 + v_j[1] * t241 + (omega_i[0] * t308 - omega_i[2] * t311 - (t308 *
-        omega_j_in_i_0 + t310 * s_j_in_i_2 - (t311 * omega_j_in_i_2 + t306 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[38] = omega_i[1] * t311 - omega_i[0] * t307 - (t311 * omega_j_in_i_1 + s_j_in_i_0 * t309 -
-        (omega_j_in_i_0 * t307 + t310 * s_j_in_i_1)) + A_i[6] * v_j[2];
     const jg_real t312 = C_j[6] * t173 + C_j[7] * t241;
     const jg_real t313 = A_i[0] * C_j[8];
-    const jg_real t314 = t310 * h_j_in_i_1 + omega_j_in_i_0 * t312 - (t309 * h_j_in_i_0 + t313 * omega_j_in_i_1);
+    const jg_real t314 = t310 * h_j_in_i_1 + omega_j_in_i_0 * t312 - (t309 * h_j_in_i_0 + omega_j_in_i_1 * t313);
     const jg_real t315 = A_i[6] * C_j[8];
-    const jg_real t316 = t309 * h_j_in_i_2 + t315 * omega_j_in_i_1 - (t306 * h_j_in_i_1 + omega_j_in_i_2 * t312);
-    const jg_real t317 = t306 * h_j_in_i_0 + t313 * omega_j_in_i_2 - (t310 * h_j_in_i_2 + omega_j_in_i_0 * t315);
+    const jg_real t316 = t309 * h_j_in_i_2 + omega_j_in_i_1 * t315 - (t306 * h_j_in_i_1 + omega_j_in_i_2 * t312);
+    const jg_real t317 = t306 * h_j_in_i_0 + omega_j_in_i_2 * t313 - (t310 * h_j_in_i_2 + omega_j_in_i_0 * t315);
     const jg_real t318 = omega_i[0] * t312 - omega_i[1] * t313;
     const jg_real t319 = omega_i[1] * t315 - omega_i[2] * t312;
     const jg_real t320 = omega_i[2] * t313 - omega_i[0] * t315;
+    jac_phi_q_v_A_j[32] = omega_i[1] * t290 - omega_i[0] * t286 - (t290 * omega_j_in_i_1 + s_j_in_i_0 * t288 -
+        (omega_j_in_i_0 * t286 + t289 * s_j_in_i_1)) + A_i[8] * v_j[1];
+    jac_phi_q_v_A_j[33] = C_i[0] * t295 + C_i[1] * t296 + C_i[2] * t293 - (C_i[0] * t298 + C_i[1] * t299 + C_i[2] *
+        t297);
+    jac_phi_q_v_A_j[34] = C_i[3] * t295 + C_i[4] * t296 + C_i[5] * t293 - (C_i[3] * t298 + C_i[4] * t299 + C_i[5] *
+        t297);
+    jac_phi_q_v_A_j[35] = omega_i[0] * t304 + omega_i[1] * t302 + omega_i[2] * t305 - (t284 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t305 + (t289 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t304 + (t288 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t302)));
+    jac_phi_q_v_A_j[36] = omega_i[2] * t307 - omega_i[1] * t308 - (omega_j_in_i_2 * t307 + t306 * s_j_in_i_1 - (t308
+        * omega_j_in_i_1 + s_j_in_i_2 * t309)) + A_i[0] * v_j[2];
+    jac_phi_q_v_A_j[37] = v_j[0] * t173 + v_j[1] * t241 + (omega_i[0] * t308 - omega_i[2] * t311 - (t308 *
+        omega_j_in_i_0 + t310 * s_j_in_i_2 - (t311 * omega_j_in_i_2 + t306 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[38] = omega_i[1] * t311 - omega_i[0] * t307 - (t311 * omega_j_in_i_1 + t309 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t307 + t310 * s_j_in_i_1)) + A_i[6] * v_j[2];
     jac_phi_q_v_A_j[39] = C_i[0] * t316 + C_i[1] * t317 + C_i[2] * t314 - (C_i[0] * t319 + C_i[1] * t320 + C_i[2] *
-        t318);
-    jac_phi_q_v_A_j[40] = C_i[3] * t316 + C_i[4] * t317 + C_i[5] * t314 - (C_i[3] * t319 + C_i[4] * t320 + C_i[5] *
         t318);
     const jg_real t321 = A_i[0] * C_j[2];
     const jg_real t322 = A_i[6] * C_j[2];
@@ -734,40 +732,42 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t324 = C_j[0] * t173 + C_j[1] * t241;
     const jg_real t325 = C_i[1] * t322 - C_i[2] * t324;
     const jg_real t326 = C_i[0] * t324 - C_i[1] * t321;
-    jac_phi_q_v_A_j[41] = omega_i[0] * t325 + omega_i[1] * t323 + omega_i[2] * t326 - (t306 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t326 + (t310 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t325 + (t309 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t323)));
     const jg_real t327 = A_i[7] * omega_j[2];
     const jg_real t328 = s_j[0] * t196 + s_j[1] * t263;
     const jg_real t329 = A_i[7] * s_j[2];
     const jg_real t330 = omega_j[0] * t196 + omega_j[1] * t263;
-    jac_phi_q_v_A_j[42] = omega_i[2] * t328 - omega_i[1] * t329 - (omega_j_in_i_2 * t328 + t327 * s_j_in_i_1 - (t329
-        * omega_j_in_i_1 + s_j_in_i_2 * t330)) + A_i[1] * v_j[2];
     const jg_real t331 = A_i[1] * omega_j[2];
     const jg_real t332 = A_i[1] * s_j[2];
-    jac_phi_q_v_A_j[43] = v_j[0] * t196 + v_j[1] * t263 + (omega_i[0] * t329 - omega_i[2] * t332 - (t329 *
-        omega_j_in_i_0 + t331 * s_j_in_i_2 - (t332 * omega_j_in_i_2 + t327 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[44] = omega_i[1] * t332 - omega_i[0] * t328 - (t332 * omega_j_in_i_1 + s_j_in_i_0 * t330 -
-        (omega_j_in_i_0 * t328 + t331 * s_j_in_i_1)) + A_i[7] * v_j[2];
     const jg_real t333 = C_j[6] * t196 + C_j[7] * t263;
     const jg_real t334 = A_i[1] * C_j[8];
-    const jg_real t335 = t331 * h_j_in_i_1 + omega_j_in_i_0 * t333 - (t330 * h_j_in_i_0 + t334 * omega_j_in_i_1);
+    const jg_real t335 = t331 * h_j_in_i_1 + omega_j_in_i_0 * t333 - (t330 * h_j_in_i_0 + omega_j_in_i_1 * t334);
     const jg_real t336 = A_i[7] * C_j[8];
-    const jg_real t337 = t330 * h_j_in_i_2 + t336 * omega_j_in_i_1 - (t327 * h_j_in_i_1 + omega_j_in_i_2 * t333);
-    const jg_real t338 = t327 * h_j_in_i_0 + t334 * omega_j_in_i_2 - (t331 * h_j_in_i_2 + omega_j_in_i_0 * t336);
+    const jg_real t337 = t330 * h_j_in_i_2 + omega_j_in_i_1 * t336 - (t327 * h_j_in_i_1 + omega_j_in_i_2 * t333);
+    const jg_real t338 = t327 * h_j_in_i_0 + omega_j_in_i_2 * t334 - (t331 * h_j_in_i_2 + omega_j_in_i_0 * t336);
     const jg_real t339 = omega_i[0] * t333 - omega_i[1] * t334;
     const jg_real t340 = omega_i[1] * t336 - omega_i[2] * t333;
     const jg_real t341 = omega_i[2] * t334 - omega_i[0] * t336;
-    jac_phi_q_v_A_j[45] = C_i[0] * t337 + C_i[1] * t338 + C_i[2] * t335 - (C_i[0] * t340 + C_i[1] * t341 + C_i[2] *
-        t339);
-    jac_phi_q_v_A_j[46] = C_i[3] * t337 + C_i[4] * t338 + C_i[5] * t335 - (C_i[3] * t340 + C_i[4] * t341 + C_i[5] *
-        t339);
     const jg_real t342 = A_i[1] * C_j[2];
     const jg_real t343 = A_i[7] * C_j[2];
     const jg_real t344 = C_i[2] * t342 - C_i[0] * t343;
     const jg_real t345 = C_j[0] * t196 + C_j[1] * t263;
     const jg_real t346 = C_i[1] * t343 - C_i[2] * t345;
     const jg_real t347 = C_i[0] * t345 - C_i[1] * t342;
+    jac_phi_q_v_A_j[40] = C_i[3] * t316 + C_i[4] * t317 + C_i[5] * t314 - (C_i[3] * t319 + C_i[4] * t320 + C_i[5] *
+        t318);
+    jac_phi_q_v_A_j[41] = omega_i[0] * t325 + omega_i[1] * t323 + omega_i[2] * t326 - (t306 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t326 + (t310 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t325 + (t309 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t323)));
+    jac_phi_q_v_A_j[42] = omega_i[2] * t328 - omega_i[1] * t329 - (omega_j_in_i_2 * t328 + t327 * s_j_in_i_1 - (t329
+        * omega_j_in_i_1 + s_j_in_i_2 * t330)) + A_i[1] * v_j[2];
+    jac_phi_q_v_A_j[43] = v_j[0] * t196 + v_j[1] * t263 + (omega_i[0] * t329 - omega_i[2] * t332 - (t329 *
+        omega_j_in_i_0 + t331 * s_j_in_i_2 - (t332 * omega_j_in_i_2 + t327 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[44] = omega_i[1] * t332 - omega_i[0] * t328 - (t332 * omega_j_in_i_1 + t330 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t328 + t331 * s_j_in_i_1)) + A_i[7] * v_j[2];
+    jac_phi_q_v_A_j[45] = C_i[0] * t337 + C_i[1] * t338 + C_i[2] * t335 - (C_i[0] * t340 + C_i[1] * t341 + C_i[2] *
+        t339);
+    jac_phi_q_v_A_j[46] = C_i[3] * t337 + C_i[4] * t338 + C_i[5] * t335 - (C_i[3] * t340 + C_i[4] * t341 + C_i[5] *
+        t339);
     jac_phi_q_v_A_j[47] = omega_i[0] * t346 + omega_i[1] * t344 + omega_i[2] * t347 - (t327 * f_i_cross_f_j_in_i_2 +
         omega_j_in_i_2 * t347 + (t331 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t346 + (t330 * f_i_cross_f_j_in_i_1
         + omega_j_in_i_1 * t344)));
@@ -775,156 +775,159 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     const jg_real t349 = s_j[0] * t219 + s_j[1] * t285;
     const jg_real t350 = A_i[8] * s_j[2];
     const jg_real t351 = omega_j[0] * t219 + omega_j[1] * t285;
-    jac_phi_q_v_A_j[48] = omega_i[2] * t349 - omega_i[1] * t350 - (omega_j_in_i_2 * t349 + t348 * s_j_in_i_1 - (t350
-        * omega_j_in_i_1 + s_j_in_i_2 * t351)) + A_i[2] * v_j[2];
     const jg_real t352 = A_i[2] * omega_j[2];
     const jg_real t353 = A_i[2] * s_j[2];
-    jac_phi_q_v_A_j[49] = v_j[0] * t219 + v_j[1] * t285 + (omega_i[0] * t350 - omega_i[2] * t353 - (t350 *
-        omega_j_in_i_0 + t352 * s_j_in_i_2 - (t353 * omega_j_in_i_2 + t348 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[50] = omega_i[1] * t353 - omega_i[0] * t349 - (t353 * omega_j_in_i_1 + s_j_in_i_0 * t351 -
-        (omega_j_in_i_0 * t349 + t352 * s_j_in_i_1)) + A_i[8] * v_j[2];
     const jg_real t354 = C_j[6] * t219 + C_j[7] * t285;
     const jg_real t355 = A_i[2] * C_j[8];
-    const jg_real t356 = t352 * h_j_in_i_1 + omega_j_in_i_0 * t354 - (t351 * h_j_in_i_0 + t355 * omega_j_in_i_1);
+    const jg_real t356 = t352 * h_j_in_i_1 + omega_j_in_i_0 * t354 - (t351 * h_j_in_i_0 + omega_j_in_i_1 * t355);
     const jg_real t357 = A_i[8] * C_j[8];
-    const jg_real t358 = t351 * h_j_in_i_2 + t357 * omega_j_in_i_1 - (t348 * h_j_in_i_1 + omega_j_in_i_2 * t354);
-    const jg_real t359 = t348 * h_j_in_i_0 + t355 * omega_j_in_i_2 - (t352 * h_j_in_i_2 + omega_j_in_i_0 * t357);
+    const jg_real t358 = t351 * h_j_in_i_2 + omega_j_in_i_1 * t357 - (t348 * h_j_in_i_1 + omega_j_in_i_2 * t354);
+    const jg_real t359 = t348 * h_j_in_i_0 + omega_j_in_i_2 * t355 - (t352 * h_j_in_i_2 + omega_j_in_i_0 * t357);
     const jg_real t360 = omega_i[0] * t354 - omega_i[1] * t355;
     const jg_real t361 = omega_i[1] * t357 - omega_i[2] * t354;
     const jg_real t362 = omega_i[2] * t355 - omega_i[0] * t357;
-    jac_phi_q_v_A_j[51] = C_i[0] * t358 + C_i[1] * t359 + C_i[2] * t356 - (C_i[0] * t361 + C_i[1] * t362 + C_i[2] *
-        t360);
-    jac_phi_q_v_A_j[52] = C_i[3] * t358 + C_i[4] * t359 + C_i[5] * t356 - (C_i[3] * t361 + C_i[4] * t362 + C_i[5] *
-        t360);
     const jg_real t363 = A_i[2] * C_j[2];
     const jg_real t364 = A_i[8] * C_j[2];
     const jg_real t365 = C_i[2] * t363 - C_i[0] * t364;
     const jg_real t366 = C_j[0] * t219 + C_j[1] * t285;
     const jg_real t367 = C_i[1] * t364 - C_i[2] * t366;
     const jg_real t368 = C_i[0] * t366 - C_i[1] * t363;
-    jac_phi_q_v_A_j[53] = omega_i[0] * t367 + omega_i[1] * t365 + omega_i[2] * t368 - (t348 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t368 + (t352 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t367 + (t351 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t365)));
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jac_phi_q_v_alpha[0] = cosine_0 * alphadot;
     /* omega_j_cross_h_j_in_i = omega_j x h_j, axes of body i */
     const jg_real omega_j_cross_h_j_in_i_0 = omega_j_in_i_1 * h_j_in_i_2 - omega_j_in_i_2 * h_j_in_i_1;
     /* omega_i_cross_h_j_in_i = omega_i x h_j, axes of body i */
     const jg_real omega_i_cross_h_j_in_i_0 = omega_i[1] * h_j_in_i_2 - omega_i[2] * h_j_in_i_1;
     const jg_real t373 = omega_j_cross_h_j_in_i_0 - omega_i_cross_h_j_in_i_0;
+    jac_phi_q_v_A_j[48] = omega_i[2] * t349 - omega_i[1] * t350 - (omega_j_in_i_2 * t349 + t348 * s_j_in_i_1 - (t350
+        * omega_j_in_i_1 + s_j_in_i_2 * t351)) + A_i[2] * v_j[2];
+    jac_phi_q_v_A_j[49] = v_j[0] * t219 + v_j[1] * t285 + (omega_i[0] * t350 - omega_i[2] * t353 - (t350 *
+        omega_j_in_i_0 + t352 * s_j_in_i_2 - (t353 * omega_j_in_i_2 + t348 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[50] = omega_i[1] * t353 - omega_i[0] * t349 - (t353 * omega_j_in_i_1 + t351 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t349 + t352 * s_j_in_i_1)) + A_i[8] * v_j[2];
+    jac_phi_q_v_A_j[51] = C_i[0] * t358 + C_i[1] * t359 + C_i[2] * t356 - (C_i[0] * t361 + C_i[1] * t362 + C_i[2] *
+        t360);
+    jac_phi_q_v_A_j[52] = C_i[3] * t358 + C_i[4] * t359 + C_i[5] * t356 - (C_i[3] * t361 + C_i[4] * t362 + C_i[5] *
+        t360);
+    jac_phi_q_v_A_j[53] = omega_i[0] * t367 + omega_i[1] * t365 + omega_i[2] * t368 - (t348 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t368 + (t352 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t367 + (t351 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t365)));
+    jac_phi_q_v_alpha[0] = cosine_0 * alphadot;
     jac_phi_q_v_geometry[0] = t373;
     jac_phi_q_v_geometry[6] = t373;
-    jac_phi_q_v_geometry[1] = omega_i[2] * f_j_in_i_1 - omega_i[1] * f_j_in_i_2 - (omega_j_in_i_2 * f_j_in_i_1 -
-        omega_j_in_i_1 * f_j_in_i_2);
     const jg_real omega_j_cross_h_j_in_i_1 = omega_j_in_i_2 * h_j_in_i_0 - omega_j_in_i_0 * h_j_in_i_2;
     const jg_real omega_i_cross_h_j_in_i_1 = omega_i[2] * h_j_in_i_0 - omega_i[0] * h_j_in_i_2;
     const jg_real t376 = omega_j_cross_h_j_in_i_1 - omega_i_cross_h_j_in_i_1;
+    const jg_real omega_j_cross_h_j_in_i_2 = omega_j_in_i_0 * h_j_in_i_1 - omega_j_in_i_1 * h_j_in_i_0;
+    const jg_real omega_i_cross_h_j_in_i_2 = omega_i[0] * h_j_in_i_1 - omega_i[1] * h_j_in_i_0;
+    const jg_real t379 = omega_j_cross_h_j_in_i_2 - omega_i_cross_h_j_in_i_2;
+    const jg_real t380 = A_ji_3 * omega_j_in_i_2 - A_ji_6 * omega_j_in_i_1;
+    const jg_real t381 = omega_i[2] * A_ji_3 - omega_i[1] * A_ji_6;
+    jac_phi_q_v_geometry[1] = omega_i[2] * f_j_in_i_1 - omega_i[1] * f_j_in_i_2 - (omega_j_in_i_2 * f_j_in_i_1 -
+        omega_j_in_i_1 * f_j_in_i_2);
     jac_phi_q_v_geometry[2] = t376;
     jac_phi_q_v_geometry[7] = t376;
     jac_phi_q_v_geometry[3] = omega_i[0] * f_j_in_i_2 - omega_i[2] * f_j_in_i_0 - (omega_j_in_i_0 * f_j_in_i_2 -
         omega_j_in_i_2 * f_j_in_i_0);
-    const jg_real omega_j_cross_h_j_in_i_2 = omega_j_in_i_0 * h_j_in_i_1 - h_j_in_i_0 * omega_j_in_i_1;
-    const jg_real omega_i_cross_h_j_in_i_2 = omega_i[0] * h_j_in_i_1 - omega_i[1] * h_j_in_i_0;
-    const jg_real t379 = omega_j_cross_h_j_in_i_2 - omega_i_cross_h_j_in_i_2;
     jac_phi_q_v_geometry[4] = t379;
     jac_phi_q_v_geometry[8] = t379;
     jac_phi_q_v_geometry[5] = omega_i[1] * f_j_in_i_0 - omega_i[0] * f_j_in_i_1 - (omega_j_in_i_1 * f_j_in_i_0 -
         omega_j_in_i_0 * f_j_in_i_1);
-    const jg_real t380 = A_ji_3 * omega_j_in_i_2 - A_ji_6 * omega_j_in_i_1;
-    const jg_real t381 = omega_i[2] * A_ji_3 - omega_i[1] * A_ji_6;
     jac_phi_q_v_geometry[9] = t381 - t380;
     const jg_real t382 = A_ji_6 * omega_j_in_i_0 - A_ji_0 * omega_j_in_i_2;
     const jg_real t383 = omega_i[0] * A_ji_6 - omega_i[2] * A_ji_0;
-    jac_phi_q_v_geometry[10] = t383 - t382;
     const jg_real t384 = A_ji_0 * omega_j_in_i_1 - A_ji_3 * omega_j_in_i_0;
-    const jg_real t385 = omega_i[0] * A_ji_3 - omega_i[1] * A_ji_0;
-    jac_phi_q_v_geometry[11] = -(t384 + t385);
+    const jg_real t385 = omega_i[1] * A_ji_0 - omega_i[0] * A_ji_3;
     const jg_real t386 = A_ji_4 * omega_j_in_i_2 - A_ji_7 * omega_j_in_i_1;
     const jg_real t387 = omega_i[2] * A_ji_4 - omega_i[1] * A_ji_7;
-    jac_phi_q_v_geometry[12] = t387 - t386;
     const jg_real t388 = A_ji_7 * omega_j_in_i_0 - A_ji_1 * omega_j_in_i_2;
     const jg_real t389 = omega_i[0] * A_ji_7 - omega_i[2] * A_ji_1;
-    jac_phi_q_v_geometry[13] = t389 - t388;
     const jg_real t390 = A_ji_1 * omega_j_in_i_1 - A_ji_4 * omega_j_in_i_0;
-    const jg_real t391 = omega_i[0] * A_ji_4 - omega_i[1] * A_ji_1;
-    jac_phi_q_v_geometry[14] = -(t390 + t391);
+    const jg_real t391 = omega_i[1] * A_ji_1 - omega_i[0] * A_ji_4;
     const jg_real t392 = A_ji_5 * omega_j_in_i_2 - A_ji_8 * omega_j_in_i_1;
     const jg_real t393 = omega_i[2] * A_ji_5 - omega_i[1] * A_ji_8;
-    jac_phi_q_v_geometry[15] = t393 - t392;
     const jg_real t394 = A_ji_8 * omega_j_in_i_0 - A_ji_2 * omega_j_in_i_2;
-    const jg_real t395 = omega_i[0] * A_ji_8 - omega_i[2] * A_ji_2;
-    jac_phi_q_v_geometry[16] = t395 - t394;
+    const jg_real t395 = omega_i[0] * A_ji_8 - A_ji_2 * omega_i[2];
     const jg_real t396 = A_ji_2 * omega_j_in_i_1 - A_ji_5 * omega_j_in_i_0;
-    const jg_real t397 = omega_i[0] * A_ji_5 - omega_i[1] * A_ji_2;
-    jac_phi_q_v_geometry[17] = -(t396 + t397);
+    const jg_real t397 = A_ji_2 * omega_i[1] - omega_i[0] * A_ji_5;
+    jac_phi_q_v_geometry[10] = t383 - t382;
+    jac_phi_q_v_geometry[11] = t385 - t384;
+    jac_phi_q_v_geometry[12] = t387 - t386;
+    jac_phi_q_v_geometry[13] = t389 - t388;
+    jac_phi_q_v_geometry[14] = t391 - t390;
+    jac_phi_q_v_geometry[15] = t393 - t392;
+    jac_phi_q_v_geometry[16] = t395 - t394;
+    jac_phi_q_v_geometry[17] = t397 - t396;
     const jg_real t398 = C_i[0] * A_ji_3 - C_i[1] * A_ji_0;
     const jg_real t399 = C_i[1] * A_ji_6 - C_i[2] * A_ji_3;
     const jg_real t400 = C_i[2] * A_ji_0 - C_i[0] * A_ji_6;
-    jac_phi_q_v_geometry[18] = omega_i[0] * t399 + omega_i[1] * t400 + omega_i[2] * t398 - (omega_j_in_i_0 * t399 +
-        omega_j_in_i_1 * t400 + omega_j_in_i_2 * t398);
     const jg_real t401 = C_i[0] * A_ji_4 - C_i[1] * A_ji_1;
     const jg_real t402 = C_i[1] * A_ji_7 - C_i[2] * A_ji_4;
     const jg_real t403 = C_i[2] * A_ji_1 - C_i[0] * A_ji_7;
+    const jg_real t404 = C_i[0] * A_ji_5 - A_ji_2 * C_i[1];
+    const jg_real t405 = C_i[1] * A_ji_8 - C_i[2] * A_ji_5;
+    const jg_real t406 = A_ji_2 * C_i[2] - C_i[0] * A_ji_8;
+    jac_phi_q_v_geometry[18] = omega_i[0] * t399 + omega_i[1] * t400 + omega_i[2] * t398 - (omega_j_in_i_0 * t399 +
+        omega_j_in_i_1 * t400 + omega_j_in_i_2 * t398);
     jac_phi_q_v_geometry[19] = omega_i[0] * t402 + omega_i[1] * t403 + omega_i[2] * t401 - (omega_j_in_i_0 * t402 +
         omega_j_in_i_1 * t403 + omega_j_in_i_2 * t401);
-    const jg_real t404 = C_i[0] * A_ji_5 - C_i[1] * A_ji_2;
-    const jg_real t405 = C_i[1] * A_ji_8 - C_i[2] * A_ji_5;
-    const jg_real t406 = C_i[2] * A_ji_2 - C_i[0] * A_ji_8;
     jac_phi_q_v_geometry[20] = omega_i[0] * t405 + omega_i[1] * t406 + omega_i[2] * t404 - (omega_j_in_i_0 * t405 +
         omega_j_in_i_1 * t406 + omega_j_in_i_2 * t404);
-    jac_phi_q_v_geometry[21] = -(C_i[0] * t380 + C_i[1] * t382 + C_i[2] * t384 + (C_i[2] * t385 - (C_i[0] * t381 +
-        C_i[1] * t383)));
-    jac_phi_q_v_geometry[22] = -(C_i[3] * t380 + C_i[4] * t382 + C_i[5] * t384 + (C_i[5] * t385 - (C_i[3] * t381 +
-        C_i[4] * t383)));
-    jac_phi_q_v_geometry[23] = -(C_i[0] * t386 + C_i[1] * t388 + C_i[2] * t390 + (C_i[2] * t391 - (C_i[0] * t387 +
-        C_i[1] * t389)));
-    jac_phi_q_v_geometry[24] = -(C_i[3] * t386 + C_i[4] * t388 + C_i[5] * t390 + (C_i[5] * t391 - (C_i[3] * t387 +
-        C_i[4] * t389)));
-    jac_phi_q_v_geometry[25] = -(C_i[0] * t392 + C_i[1] * t394 + C_i[2] * t396 + (C_i[2] * t397 - (C_i[0] * t393 +
-        C_i[1] * t395)));
-    jac_phi_q_v_geometry[26] = -(C_i[3] * t392 + C_i[4] * t394 + C_i[5] * t396 + (C_i[5] * t397 - (C_i[3] * t393 +
-        C_i[4] * t395)));
-    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
-    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
-    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    jac_phi_q_v_geometry[21] = C_i[0] * t381 + C_i[1] * t383 + C_i[2] * t385 - (C_i[0] * t380 + C_i[1] * t382 +
+        C_i[2] * t384);
+    jac_phi_q_v_geometry[22] = C_i[3] * t381 + C_i[4] * t383 + C_i[5] * t385 - (C_i[3] * t380 + C_i[4] * t382 +
+        C_i[5] * t384);
+    jac_phi_q_v_geometry[23] = C_i[0] * t387 + C_i[1] * t389 + C_i[2] * t391 - (C_i[0] * t386 + C_i[1] * t388 +
+        C_i[2] * t390);
+    jac_phi_q_v_geometry[24] = C_i[3] * t387 + C_i[4] * t389 + C_i[5] * t391 - (C_i[3] * t386 + C_i[4] * t388 +
+        C_i[5] * t390);
+    jac_phi_q_v_geometry[25] = C_i[0] * t393 + C_i[1] * t395 + C_i[2] * t397 - (C_i[0] * t392 + C_i[1] * t394 +
+        C_i[2] * t396);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
-    jac_phi_q_v_velocity[3] = e_ij_in_i_2;
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
     const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
+    jac_phi_q_v_geometry[26] = C_i[3] * t393 + C_i[4] * t395 + C_i[5] * t397 - (C_i[3] * t392 + C_i[4] * t394 +
+        C_i[5] * t396);
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[3] = e_ij_in_i_2;
     jac_phi_q_v_velocity[13] = e_ij_in_i_1;
     jac_phi_q_v_velocity[4] = -e_ij_in_i_1;
     jac_phi_q_v_velocity[5] = C_i[1] * h_j_in_i_2 - C_i[2] * h_j_in_i_1;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
     jac_phi_q_v_velocity[6] = C_i[4] * h_j_in_i_2 - C_i[5] * h_j_in_i_1;
     jac_phi_q_v_velocity[8] = -e_ij_in_i_2;
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     jac_phi_q_v_velocity[9] = e_ij_in_i_0;
     jac_phi_q_v_velocity[10] = C_i[2] * h_j_in_i_0 - C_i[0] * h_j_in_i_2;
     jac_phi_q_v_velocity[11] = C_i[5] * h_j_in_i_0 - C_i[3] * h_j_in_i_2;
     jac_phi_q_v_velocity[14] = -e_ij_in_i_0;
     jac_phi_q_v_velocity[15] = C_i[0] * h_j_in_i_1 - C_i[1] * h_j_in_i_0;
     jac_phi_q_v_velocity[16] = C_i[3] * h_j_in_i_1 - C_i[4] * h_j_in_i_0;
-    jac_phi_q_v_velocity[27] = A_ji_3 * s_j_in_i_2 - A_ji_6 * s_j_in_i_1;
-    jac_phi_q_v_velocity[28] = A_ji_6 * s_j_in_i_0 - A_ji_0 * s_j_in_i_2;
-    jac_phi_q_v_velocity[29] = A_ji_0 * s_j_in_i_1 - A_ji_3 * s_j_in_i_0;
     const jg_real t413 = A_ji_0 * h_j_in_i_1 - A_ji_3 * h_j_in_i_0;
     const jg_real t414 = A_ji_3 * h_j_in_i_2 - A_ji_6 * h_j_in_i_1;
     const jg_real t415 = A_ji_6 * h_j_in_i_0 - A_ji_0 * h_j_in_i_2;
+    jac_phi_q_v_velocity[27] = A_ji_3 * s_j_in_i_2 - A_ji_6 * s_j_in_i_1;
+    jac_phi_q_v_velocity[28] = A_ji_6 * s_j_in_i_0 - A_ji_0 * s_j_in_i_2;
+    jac_phi_q_v_velocity[29] = A_ji_0 * s_j_in_i_1 - A_ji_3 * s_j_in_i_0;
     jac_phi_q_v_velocity[30] = C_i[0] * t414 + C_i[1] * t415 + C_i[2] * t413;
     jac_phi_q_v_velocity[31] = C_i[3] * t414 + C_i[4] * t415 + C_i[5] * t413;
     jac_phi_q_v_velocity[32] = -(A_ji_0 * f_i_cross_f_j_in_i_0 + A_ji_3 * f_i_cross_f_j_in_i_1 + A_ji_6 *
         f_i_cross_f_j_in_i_2);
     jac_phi_q_v_velocity[33] = A_ji_4 * s_j_in_i_2 - A_ji_7 * s_j_in_i_1;
     jac_phi_q_v_velocity[34] = A_ji_7 * s_j_in_i_0 - A_ji_1 * s_j_in_i_2;
-    jac_phi_q_v_velocity[35] = A_ji_1 * s_j_in_i_1 - A_ji_4 * s_j_in_i_0;
     const jg_real t416 = A_ji_1 * h_j_in_i_1 - A_ji_4 * h_j_in_i_0;
     const jg_real t417 = A_ji_4 * h_j_in_i_2 - A_ji_7 * h_j_in_i_1;
     const jg_real t418 = A_ji_7 * h_j_in_i_0 - A_ji_1 * h_j_in_i_2;
+    const jg_real t419 = A_ji_2 * h_j_in_i_1 - A_ji_5 * h_j_in_i_0;
+    const jg_real t420 = A_ji_5 * h_j_in_i_2 - A_ji_8 * h_j_in_i_1;
+    const jg_real t421 = A_ji_8 * h_j_in_i_0 - A_ji_2 * h_j_in_i_2;
+    jac_phi_q_v_velocity[35] = A_ji_1 * s_j_in_i_1 - A_ji_4 * s_j_in_i_0;
     jac_phi_q_v_velocity[36] = C_i[0] * t417 + C_i[1] * t418 + C_i[2] * t416;
     jac_phi_q_v_velocity[37] = C_i[3] * t417 + C_i[4] * t418 + C_i[5] * t416;
     jac_phi_q_v_velocity[38] = -(A_ji_1 * f_i_cross_f_j_in_i_0 + A_ji_4 * f_i_cross_f_j_in_i_1 + A_ji_7 *
@@ -932,9 +935,6 @@ static void jg_revolute_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RES
     jac_phi_q_v_velocity[39] = A_ji_5 * s_j_in_i_2 - A_ji_8 * s_j_in_i_1;
     jac_phi_q_v_velocity[40] = A_ji_8 * s_j_in_i_0 - A_ji_2 * s_j_in_i_2;
     jac_phi_q_v_velocity[41] = A_ji_2 * s_j_in_i_1 - A_ji_5 * s_j_in_i_0;
-    const jg_real t419 = A_ji_2 * h_j_in_i_1 - A_ji_5 * h_j_in_i_0;
-    const jg_real t420 = A_ji_5 * h_j_in_i_2 - A_ji_8 * h_j_in_i_1;
-    const jg_real t421 = A_ji_8 * h_j_in_i_0 - A_ji_2 * h_j_in_i_2;
     jac_phi_q_v_velocity[42] = C_i[0] * t420 + C_i[1] * t421 + C_i[2] * t419;
     jac_phi_q_v_velocity[43] = C_i[3] * t420 + C_i[4] * t421 + C_i[5] * t419;
     jac_phi_q_v_velocity[44] = -(A_ji_2 * f_i_cross_f_j_in_i_0 + A_ji_5 * f_i_cross_f_j_in_i_1 + A_ji_8 *
@@ -954,56 +954,51 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
     /* v_2_in_i = lambda_3 f_i + lambda_4 g_i, axes of body i */
     const jg_real v_2_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
     const jg_real v_2_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real v_2_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     /* v_2_in_j = lambda_3 f_i + lambda_4 g_i, axes of body j */
     const jg_real v_2_in_j_2 = v_2_in_i_0 * A_ji_2 + v_2_in_i_1 * A_ji_5 + v_2_in_i_2 * A_ji_8;
-    jac_phi_q_t_lambda_geometry[74] = v_2_in_j_2;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
-    const jg_real v_2_in_j_1 = v_2_in_i_0 * A_ji_1 + v_2_in_i_1 * A_ji_4 + v_2_in_i_2 * A_ji_7;
-    jac_phi_q_t_lambda_geometry[70] = v_2_in_j_1;
+    const jg_real v_2_in_j_1 = A_ji_1 * v_2_in_i_0 + v_2_in_i_1 * A_ji_4 + A_ji_7 * v_2_in_i_2;
     /* v_3_in_j = lambda_3 h_j x f_i + lambda_4 h_j x g_i, axes of body j */
     const jg_real v_3_in_j_0 = C_j[7] * v_2_in_j_2 - C_j[8] * v_2_in_j_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
-    jac_phi_q_t_lambda_geometry[44] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[40] = lambda_0_1_2_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* f_i_in_j = f_i, axes of body j */
@@ -1022,21 +1017,23 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t35 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
     const jg_real t36 = A_j[3] * v_2_in_i_0 + v_2_in_i_1 * t35;
     const jg_real t37 = lambda[0] * A_j[6] + lambda[1] * t33;
-    jac_phi_q_t_lambda_A_i[5] = t37;
     const jg_real t38 = lambda[0] * A_j[3] + lambda[1] * t35;
-    jac_phi_q_t_lambda_A_i[4] = t38;
     const jg_real t39 = C_i[0] * A_j[6] + C_i[1] * t33;
     const jg_real t40 = A_j[3] * C_i[0] + C_i[1] * t35;
     const jg_real t41 = v_4_in_j_1 * t39 - v_4_in_j_2 * t40 + (C_j[7] * t34 - C_j[8] * t36 + (s_j[1] * t37 - s_j[2]
         * t38));
+    jac_phi_q_t_lambda_geometry[74] = v_2_in_j_2;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
+    jac_phi_q_t_lambda_geometry[70] = v_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[44] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[40] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_A_i[5] = t37;
+    jac_phi_q_t_lambda_A_i[4] = t38;
     jac_phi_q_t_lambda_A_i[6] = t41;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
     const jg_real v_2_in_j_0 = v_2_in_i_0 * A_ji_0 + v_2_in_i_1 * A_ji_3 + A_ji_6 * v_2_in_i_2;
-    jac_phi_q_t_lambda_geometry[80] = v_2_in_j_0;
     const jg_real v_3_in_j_1 = C_j[8] * v_2_in_j_0 - C_j[6] * v_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
     const jg_real v_4_in_j_0 = lambda[5] * C_j[0];
@@ -1046,11 +1043,9 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t52 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     const jg_real t53 = A_j[0] * v_2_in_i_0 + v_2_in_i_1 * t52;
     const jg_real t54 = lambda[0] * A_j[0] + lambda[1] * t52;
-    jac_phi_q_t_lambda_A_i[3] = t54;
     const jg_real t55 = A_j[0] * C_i[0] + C_i[1] * t52;
     const jg_real t56 = v_4_in_j_2 * t55 - v_4_in_j_0 * t39 + (C_j[8] * t53 - C_j[6] * t34 + (s_j[2] * t54 - s_j[0]
         * t37));
-    jac_phi_q_t_lambda_A_i[7] = t56;
     const jg_real v_3_in_j_2 = C_j[6] * v_2_in_j_1 - C_j[7] * v_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real v_5_in_j_2 = v_4_in_j_0 * f_i_in_j_1 - v_4_in_j_1 * f_i_in_j_0;
@@ -1058,168 +1053,173 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t61 = A_j[6] * v_6_in_j_2;
     const jg_real t62 = v_4_in_j_0 * t40 - v_4_in_j_1 * t55 + (C_j[6] * t36 - C_j[7] * t53 + (s_j[0] * t38 - s_j[1]
         * t54));
-    jac_phi_q_t_lambda_A_i[8] = t62;
-    jac_phi_q_t_lambda_A_i[0] = -(t61 + A_ji_2 * t62 + (t32 + A_ji_0 * t41 + (t51 + A_ji_1 * t56)));
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t64 = lambda[2] * v_0_world_0;
+    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
+    jac_phi_q_t_lambda_geometry[80] = v_2_in_j_0;
+    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_A_i[3] = t54;
+    jac_phi_q_t_lambda_A_i[7] = t56;
+    jac_phi_q_t_lambda_A_i[8] = t62;
+    jac_phi_q_t_lambda_A_i[0] = -(t61 + A_ji_2 * t62 + (t32 + A_ji_0 * t41 + (t51 + A_ji_1 * t56)));
     jac_phi_q_t_lambda_A_i[1] = t64 - (t33 * v_6_in_j_2 + A_ji_5 * t62 + (t52 * v_6_in_j_0 + A_ji_3 * t41 + (t35 *
         v_6_in_j_1 + A_ji_4 * t56)));
     const jg_real t65 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t41 + A_ji_7 * t56 + A_ji_8 * t62 + t65);
     const jg_real t66 = A_j[1] * v_6_in_j_0;
     const jg_real t67 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t68 = A_j[7] * v_2_in_i_0 + v_2_in_i_1 * t67;
     const jg_real t69 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t70 = A_j[4] * v_2_in_i_0 + v_2_in_i_1 * t69;
     const jg_real t71 = lambda[0] * A_j[7] + lambda[1] * t67;
-    jac_phi_q_t_lambda_A_i[14] = t71;
     const jg_real t72 = lambda[0] * A_j[4] + lambda[1] * t69;
-    jac_phi_q_t_lambda_A_i[13] = t72;
     const jg_real t73 = C_i[0] * A_j[7] + C_i[1] * t67;
     const jg_real t74 = A_j[4] * C_i[0] + C_i[1] * t69;
     const jg_real t75 = v_4_in_j_1 * t73 - v_4_in_j_2 * t74 + (C_j[7] * t68 - C_j[8] * t70 + (s_j[1] * t71 - s_j[2]
         * t72));
-    jac_phi_q_t_lambda_A_i[15] = t75;
     const jg_real t76 = A_j[4] * v_6_in_j_1;
     const jg_real t77 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t78 = A_j[1] * v_2_in_i_0 + v_2_in_i_1 * t77;
     const jg_real t79 = lambda[0] * A_j[1] + lambda[1] * t77;
-    jac_phi_q_t_lambda_A_i[12] = t79;
     const jg_real t80 = A_j[1] * C_i[0] + C_i[1] * t77;
     const jg_real t81 = v_4_in_j_2 * t80 - v_4_in_j_0 * t73 + (C_j[8] * t78 - C_j[6] * t68 + (s_j[2] * t79 - s_j[0]
         * t71));
-    jac_phi_q_t_lambda_A_i[16] = t81;
     const jg_real t82 = A_j[7] * v_6_in_j_2;
     const jg_real t83 = v_4_in_j_0 * t74 - v_4_in_j_1 * t80 + (C_j[6] * t70 - C_j[7] * t78 + (s_j[0] * t72 - s_j[1]
         * t79));
+    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t41 + A_ji_7 * t56 + A_ji_8 * t62 + t65);
+    jac_phi_q_t_lambda_A_i[14] = t71;
+    jac_phi_q_t_lambda_A_i[13] = t72;
+    jac_phi_q_t_lambda_A_i[15] = t75;
+    jac_phi_q_t_lambda_A_i[12] = t79;
+    jac_phi_q_t_lambda_A_i[16] = t81;
     jac_phi_q_t_lambda_A_i[17] = t83;
     jac_phi_q_t_lambda_A_i[9] = -(t82 + A_ji_2 * t83 + (t66 + A_ji_0 * t75 + (t76 + A_ji_1 * t81)));
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t85 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[10] = t85 - (t67 * v_6_in_j_2 + A_ji_5 * t83 + (t77 * v_6_in_j_0 + A_ji_3 * t75 + (t69 *
-        v_6_in_j_1 + A_ji_4 * t81)));
     const jg_real t86 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[11] = -(A_ji_6 * t75 + A_ji_7 * t81 + A_ji_8 * t83 + t86);
     const jg_real t87 = A_j[2] * v_6_in_j_0;
     const jg_real t88 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t89 = A_j[8] * v_2_in_i_0 + v_2_in_i_1 * t88;
     const jg_real t90 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t91 = A_j[5] * v_2_in_i_0 + v_2_in_i_1 * t90;
     const jg_real t92 = lambda[0] * A_j[8] + lambda[1] * t88;
-    jac_phi_q_t_lambda_A_i[23] = t92;
     const jg_real t93 = lambda[0] * A_j[5] + lambda[1] * t90;
-    jac_phi_q_t_lambda_A_i[22] = t93;
     const jg_real t94 = C_i[0] * A_j[8] + C_i[1] * t88;
     const jg_real t95 = A_j[5] * C_i[0] + C_i[1] * t90;
     const jg_real t96 = v_4_in_j_1 * t94 - v_4_in_j_2 * t95 + (C_j[7] * t89 - C_j[8] * t91 + (s_j[1] * t92 - s_j[2]
         * t93));
-    jac_phi_q_t_lambda_A_i[24] = t96;
     const jg_real t97 = A_j[5] * v_6_in_j_1;
     const jg_real t98 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t99 = A_j[2] * v_2_in_i_0 + v_2_in_i_1 * t98;
     const jg_real t100 = lambda[0] * A_j[2] + lambda[1] * t98;
-    jac_phi_q_t_lambda_A_i[21] = t100;
     const jg_real t101 = A_j[2] * C_i[0] + C_i[1] * t98;
     const jg_real t102 = v_4_in_j_2 * t101 - v_4_in_j_0 * t94 + (C_j[8] * t99 - C_j[6] * t89 + (s_j[2] * t100 -
         s_j[0] * t92));
-    jac_phi_q_t_lambda_A_i[25] = t102;
     const jg_real t103 = A_j[8] * v_6_in_j_2;
     const jg_real t104 = v_4_in_j_0 * t95 - v_4_in_j_1 * t101 + (C_j[6] * t91 - C_j[7] * t99 + (s_j[0] * t93 -
         s_j[1] * t100));
+    jac_phi_q_t_lambda_A_i[10] = t85 - (t67 * v_6_in_j_2 + A_ji_5 * t83 + (t77 * v_6_in_j_0 + A_ji_3 * t75 + (t69 *
+        v_6_in_j_1 + A_ji_4 * t81)));
+    jac_phi_q_t_lambda_A_i[11] = -(A_ji_6 * t75 + A_ji_7 * t81 + A_ji_8 * t83 + t86);
+    jac_phi_q_t_lambda_A_i[23] = t92;
+    jac_phi_q_t_lambda_A_i[22] = t93;
+    jac_phi_q_t_lambda_A_i[24] = t96;
+    jac_phi_q_t_lambda_A_i[21] = t100;
+    jac_phi_q_t_lambda_A_i[25] = t102;
     jac_phi_q_t_lambda_A_i[26] = t104;
-    jac_phi_q_t_lambda_A_i[18] = -(t103 + A_ji_2 * t104 + (t87 + A_ji_0 * t96 + (t97 + A_ji_1 * t102)));
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t106 = lambda[2] * v_0_world_2;
+    const jg_real t107 = lambda[1] * v_0_world_2;
+    const jg_real t108 = lambda[0] * v_0_world_0;
+    const jg_real t109 = lambda[0] * v_0_world_1;
+    jac_phi_q_t_lambda_A_i[18] = -(t103 + A_ji_2 * t104 + (t87 + A_ji_0 * t96 + (t97 + A_ji_1 * t102)));
     jac_phi_q_t_lambda_A_i[19] = t106 - (t88 * v_6_in_j_2 + A_ji_5 * t104 + (t98 * v_6_in_j_0 + A_ji_3 * t96 + (t90
         * v_6_in_j_1 + A_ji_4 * t102)));
-    const jg_real t107 = lambda[1] * v_0_world_2;
     jac_phi_q_t_lambda_A_i[20] = -(A_ji_6 * t96 + A_ji_7 * t102 + A_ji_8 * t104 + t107);
     jac_phi_q_t_lambda_A_i[27] = -t64;
-    const jg_real t108 = lambda[0] * v_0_world_0;
     jac_phi_q_t_lambda_A_i[28] = t108;
     jac_phi_q_t_lambda_A_i[29] = -t85;
-    const jg_real t109 = lambda[0] * v_0_world_1;
     jac_phi_q_t_lambda_A_i[30] = t109;
     jac_phi_q_t_lambda_A_i[31] = -t106;
     const jg_real t110 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[32] = t110;
     const jg_real t111 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t112 = A_j[6] * v_2_in_i_2 + v_2_in_i_1 * t111;
     const jg_real t113 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t114 = A_j[3] * v_2_in_i_2 + v_2_in_i_1 * t113;
     const jg_real t115 = lambda[2] * A_j[6] + lambda[1] * t111;
-    jac_phi_q_t_lambda_A_i[38] = t115;
     const jg_real t116 = lambda[2] * A_j[3] + lambda[1] * t113;
-    jac_phi_q_t_lambda_A_i[37] = t116;
     const jg_real t117 = A_j[6] * C_i[2] + C_i[1] * t111;
     const jg_real t118 = A_j[3] * C_i[2] + C_i[1] * t113;
     const jg_real t119 = v_4_in_j_1 * t117 - v_4_in_j_2 * t118 + (C_j[7] * t112 - C_j[8] * t114 + (s_j[1] * t115 -
         s_j[2] * t116));
-    jac_phi_q_t_lambda_A_i[39] = t119;
     const jg_real t120 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t121 = A_j[0] * v_2_in_i_2 + v_2_in_i_1 * t120;
     const jg_real t122 = lambda[2] * A_j[0] + lambda[1] * t120;
-    jac_phi_q_t_lambda_A_i[36] = t122;
     const jg_real t123 = A_j[0] * C_i[2] + C_i[1] * t120;
     const jg_real t124 = v_4_in_j_2 * t123 - v_4_in_j_0 * t117 + (C_j[8] * t121 - C_j[6] * t112 + (s_j[2] * t122 -
         s_j[0] * t115));
-    jac_phi_q_t_lambda_A_i[40] = t124;
     const jg_real t125 = v_4_in_j_0 * t118 - v_4_in_j_1 * t123 + (C_j[6] * t114 - C_j[7] * t121 + (s_j[0] * t116 -
         s_j[1] * t122));
+    jac_phi_q_t_lambda_A_i[32] = t110;
+    jac_phi_q_t_lambda_A_i[38] = t115;
+    jac_phi_q_t_lambda_A_i[37] = t116;
+    jac_phi_q_t_lambda_A_i[39] = t119;
+    jac_phi_q_t_lambda_A_i[36] = t122;
+    jac_phi_q_t_lambda_A_i[40] = t124;
     jac_phi_q_t_lambda_A_i[41] = t125;
     jac_phi_q_t_lambda_A_i[33] = t65 - (A_ji_0 * t119 + A_ji_1 * t124 + A_ji_2 * t125);
-    jac_phi_q_t_lambda_A_i[34] = -(t111 * v_6_in_j_2 + A_ji_5 * t125 + (t120 * v_6_in_j_0 + A_ji_3 * t119 + (t113 *
-        v_6_in_j_1 + A_ji_4 * t124)) + t108);
-    jac_phi_q_t_lambda_A_i[35] = -(t61 + A_ji_8 * t125 + (t32 + A_ji_6 * t119 + (t51 + A_ji_7 * t124)));
     const jg_real t126 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t127 = A_j[7] * v_2_in_i_2 + v_2_in_i_1 * t126;
     const jg_real t128 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t129 = A_j[4] * v_2_in_i_2 + v_2_in_i_1 * t128;
     const jg_real t130 = lambda[2] * A_j[7] + lambda[1] * t126;
-    jac_phi_q_t_lambda_A_i[47] = t130;
     const jg_real t131 = lambda[2] * A_j[4] + lambda[1] * t128;
-    jac_phi_q_t_lambda_A_i[46] = t131;
     const jg_real t132 = A_j[7] * C_i[2] + C_i[1] * t126;
     const jg_real t133 = A_j[4] * C_i[2] + C_i[1] * t128;
     const jg_real t134 = v_4_in_j_1 * t132 - v_4_in_j_2 * t133 + (C_j[7] * t127 - C_j[8] * t129 + (s_j[1] * t130 -
         s_j[2] * t131));
-    jac_phi_q_t_lambda_A_i[48] = t134;
     const jg_real t135 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t136 = A_j[1] * v_2_in_i_2 + v_2_in_i_1 * t135;
     const jg_real t137 = lambda[2] * A_j[1] + lambda[1] * t135;
-    jac_phi_q_t_lambda_A_i[45] = t137;
     const jg_real t138 = A_j[1] * C_i[2] + C_i[1] * t135;
     const jg_real t139 = v_4_in_j_2 * t138 - v_4_in_j_0 * t132 + (C_j[8] * t136 - C_j[6] * t127 + (s_j[2] * t137 -
         s_j[0] * t130));
-    jac_phi_q_t_lambda_A_i[49] = t139;
     const jg_real t140 = v_4_in_j_0 * t133 - v_4_in_j_1 * t138 + (C_j[6] * t129 - C_j[7] * t136 + (s_j[0] * t131 -
         s_j[1] * t137));
+    jac_phi_q_t_lambda_A_i[34] = -(t111 * v_6_in_j_2 + A_ji_5 * t125 + (t120 * v_6_in_j_0 + A_ji_3 * t119 + (t113 *
+        v_6_in_j_1 + A_ji_4 * t124)) + t108);
+    jac_phi_q_t_lambda_A_i[35] = -(t61 + A_ji_8 * t125 + (t32 + A_ji_6 * t119 + (t51 + A_ji_7 * t124)));
+    jac_phi_q_t_lambda_A_i[47] = t130;
+    jac_phi_q_t_lambda_A_i[46] = t131;
+    jac_phi_q_t_lambda_A_i[48] = t134;
+    jac_phi_q_t_lambda_A_i[45] = t137;
+    jac_phi_q_t_lambda_A_i[49] = t139;
     jac_phi_q_t_lambda_A_i[50] = t140;
-    jac_phi_q_t_lambda_A_i[42] = t86 - (A_ji_0 * t134 + A_ji_1 * t139 + A_ji_2 * t140);
-    jac_phi_q_t_lambda_A_i[43] = -(t126 * v_6_in_j_2 + A_ji_5 * t140 + (t135 * v_6_in_j_0 + A_ji_3 * t134 + (t128 *
-        v_6_in_j_1 + A_ji_4 * t139)) + t109);
-    jac_phi_q_t_lambda_A_i[44] = -(t82 + A_ji_8 * t140 + (t66 + A_ji_6 * t134 + (t76 + A_ji_7 * t139)));
     const jg_real t141 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t142 = A_j[8] * v_2_in_i_2 + v_2_in_i_1 * t141;
     const jg_real t143 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t144 = A_j[5] * v_2_in_i_2 + v_2_in_i_1 * t143;
     const jg_real t145 = lambda[2] * A_j[8] + lambda[1] * t141;
-    jac_phi_q_t_lambda_A_i[56] = t145;
     const jg_real t146 = lambda[2] * A_j[5] + lambda[1] * t143;
-    jac_phi_q_t_lambda_A_i[55] = t146;
     const jg_real t147 = A_j[8] * C_i[2] + C_i[1] * t141;
     const jg_real t148 = A_j[5] * C_i[2] + C_i[1] * t143;
     const jg_real t149 = v_4_in_j_1 * t147 - v_4_in_j_2 * t148 + (C_j[7] * t142 - C_j[8] * t144 + (s_j[1] * t145 -
         s_j[2] * t146));
-    jac_phi_q_t_lambda_A_i[57] = t149;
     const jg_real t150 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t151 = A_j[2] * v_2_in_i_2 + v_2_in_i_1 * t150;
     const jg_real t152 = lambda[2] * A_j[2] + lambda[1] * t150;
-    jac_phi_q_t_lambda_A_i[54] = t152;
     const jg_real t153 = A_j[2] * C_i[2] + C_i[1] * t150;
     const jg_real t154 = v_4_in_j_2 * t153 - v_4_in_j_0 * t147 + (C_j[8] * t151 - C_j[6] * t142 + (s_j[2] * t152 -
         s_j[0] * t145));
+    jac_phi_q_t_lambda_A_i[42] = t86 - (A_ji_0 * t134 + A_ji_1 * t139 + A_ji_2 * t140);
+    jac_phi_q_t_lambda_A_i[43] = -(t126 * v_6_in_j_2 + A_ji_5 * t140 + (t135 * v_6_in_j_0 + A_ji_3 * t134 + (t128 *
+        v_6_in_j_1 + A_ji_4 * t139)) + t109);
+    jac_phi_q_t_lambda_A_i[44] = -(t82 + A_ji_8 * t140 + (t66 + A_ji_6 * t134 + (t76 + A_ji_7 * t139)));
+    jac_phi_q_t_lambda_A_i[56] = t145;
+    jac_phi_q_t_lambda_A_i[55] = t146;
+    jac_phi_q_t_lambda_A_i[57] = t149;
+    jac_phi_q_t_lambda_A_i[54] = t152;
     jac_phi_q_t_lambda_A_i[58] = t154;
     const jg_real t155 = v_4_in_j_0 * t148 - v_4_in_j_1 * t153 + (C_j[6] * t144 - C_j[7] * t151 + (s_j[0] * t146 -
         s_j[1] * t152));
@@ -1232,11 +1232,6 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_r_j[1] = -t1;
     jac_phi_q_t_lambda_r_j[2] = -t2;
     jac_phi_q_t_lambda_r_j[3] = -t3;
-    jac_phi_q_t_lambda_r_j[4] = -t4;
-    jac_phi_q_t_lambda_r_j[5] = -t5;
-    jac_phi_q_t_lambda_r_j[6] = -t6;
-    jac_phi_q_t_lambda_r_j[7] = -t7;
-    jac_phi_q_t_lambda_r_j[8] = -t8;
     const jg_real t156 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
     const jg_real t157 = v_2_in_i_1 * t156;
     const jg_real t158 = C_j[7] * t157;
@@ -1244,32 +1239,37 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t160 = v_2_in_i_1 * t159;
     const jg_real t161 = C_j[8] * t160;
     const jg_real t162 = lambda[1] * t156;
-    jac_phi_q_t_lambda_A_j[5] = t162;
     const jg_real t163 = s_j[1] * t162;
     const jg_real t164 = lambda[1] * t159;
-    jac_phi_q_t_lambda_A_j[4] = t164;
     const jg_real t165 = s_j[2] * t164;
     const jg_real t166 = C_i[1] * t156;
     const jg_real t167 = v_4_in_j_1 * t166;
     const jg_real t168 = C_i[1] * t159;
     const jg_real t169 = v_4_in_j_2 * t168;
     const jg_real t170 = t167 - t169 + (t158 - t161 + (t163 - t165));
+    jac_phi_q_t_lambda_r_j[4] = -t4;
+    jac_phi_q_t_lambda_r_j[5] = -t5;
+    jac_phi_q_t_lambda_r_j[6] = -t6;
+    jac_phi_q_t_lambda_r_j[7] = -t7;
+    jac_phi_q_t_lambda_r_j[8] = -t8;
+    jac_phi_q_t_lambda_A_j[5] = t162;
+    jac_phi_q_t_lambda_A_j[4] = t164;
     jac_phi_q_t_lambda_A_j[6] = t170;
     const jg_real t171 = A_i[0] * v_2_in_i_0 + A_i[6] * v_2_in_i_2;
     const jg_real t172 = C_j[8] * t171;
     const jg_real t173 = lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t173;
-    jac_phi_q_t_lambda_A_j[31] = t173;
-    jac_phi_q_t_lambda_A_j[59] = t173;
     const jg_real t174 = s_j[2] * t173;
     const jg_real t175 = A_i[0] * C_i[0] + A_i[6] * C_i[2];
     const jg_real t176 = v_4_in_j_2 * t175;
     const jg_real t177 = t176 - v_4_in_j_0 * t166 + (t172 - C_j[6] * t157 + (t174 - s_j[0] * t162));
-    jac_phi_q_t_lambda_A_j[7] = t177;
     const jg_real t178 = C_j[7] * t171;
     const jg_real t179 = s_j[1] * t173;
     const jg_real t180 = v_4_in_j_1 * t175;
     const jg_real t181 = v_4_in_j_0 * t168 - t180 + (C_j[6] * t160 - t178 + (s_j[0] * t164 - t179));
+    jac_phi_q_t_lambda_A_j[3] = t173;
+    jac_phi_q_t_lambda_A_j[31] = t173;
+    jac_phi_q_t_lambda_A_j[59] = t173;
+    jac_phi_q_t_lambda_A_j[7] = t177;
     jac_phi_q_t_lambda_A_j[8] = t181;
     jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_6_in_j_0 + A_ji_0 * t170 + A_ji_1 * t177 + A_ji_2 * t181);
     jac_phi_q_t_lambda_A_j[1] = -(t156 * v_6_in_j_2 + A_ji_5 * t181 + (t159 * v_6_in_j_1 + A_ji_4 * t177 + A_ji_3 *
@@ -1282,37 +1282,33 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t186 = v_2_in_i_1 * t185;
     const jg_real t187 = C_j[8] * t186;
     const jg_real t188 = lambda[1] * t182;
-    jac_phi_q_t_lambda_A_j[14] = t188;
     const jg_real t189 = s_j[1] * t188;
     const jg_real t190 = lambda[1] * t185;
-    jac_phi_q_t_lambda_A_j[13] = t190;
     const jg_real t191 = s_j[2] * t190;
     const jg_real t192 = C_i[1] * t182;
     const jg_real t193 = v_4_in_j_1 * t192;
     const jg_real t194 = C_i[1] * t185;
     const jg_real t195 = v_4_in_j_2 * t194;
     const jg_real t196 = t193 - t195 + (t184 - t187 + (t189 - t191));
-    jac_phi_q_t_lambda_A_j[15] = t196;
     const jg_real t197 = A_i[1] * v_2_in_i_0 + A_i[7] * v_2_in_i_2;
     const jg_real t198 = C_j[8] * t197;
     const jg_real t199 = lambda[0] * A_i[1] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[12] = t199;
-    jac_phi_q_t_lambda_A_j[40] = t199;
-    jac_phi_q_t_lambda_A_j[68] = t199;
     const jg_real t200 = s_j[2] * t199;
     const jg_real t201 = A_i[1] * C_i[0] + A_i[7] * C_i[2];
     const jg_real t202 = v_4_in_j_2 * t201;
     const jg_real t203 = t202 - v_4_in_j_0 * t192 + (t198 - C_j[6] * t183 + (t200 - s_j[0] * t188));
-    jac_phi_q_t_lambda_A_j[16] = t203;
     const jg_real t204 = C_j[7] * t197;
     const jg_real t205 = s_j[1] * t199;
     const jg_real t206 = v_4_in_j_1 * t201;
     const jg_real t207 = v_4_in_j_0 * t194 - t206 + (C_j[6] * t186 - t204 + (s_j[0] * t190 - t205));
+    jac_phi_q_t_lambda_A_j[14] = t188;
+    jac_phi_q_t_lambda_A_j[13] = t190;
+    jac_phi_q_t_lambda_A_j[15] = t196;
+    jac_phi_q_t_lambda_A_j[12] = t199;
+    jac_phi_q_t_lambda_A_j[40] = t199;
+    jac_phi_q_t_lambda_A_j[68] = t199;
+    jac_phi_q_t_lambda_A_j[16] = t203;
     jac_phi_q_t_lambda_A_j[17] = t207;
-    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_6_in_j_0 + A_ji_0 * t196 + A_ji_1 * t203 + A_ji_2 * t207);
-    jac_phi_q_t_lambda_A_j[10] = -(t182 * v_6_in_j_2 + A_ji_5 * t207 + (t185 * v_6_in_j_1 + A_ji_4 * t203 + A_ji_3 *
-        t196));
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_6_in_j_0 + A_ji_6 * t196 + A_ji_7 * t203 + A_ji_8 * t207);
     const jg_real t208 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t209 = v_2_in_i_1 * t208;
     const jg_real t210 = C_j[7] * t209;
@@ -1320,20 +1316,24 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t212 = v_2_in_i_1 * t211;
     const jg_real t213 = C_j[8] * t212;
     const jg_real t214 = lambda[1] * t208;
-    jac_phi_q_t_lambda_A_j[23] = t214;
     const jg_real t215 = s_j[1] * t214;
     const jg_real t216 = lambda[1] * t211;
-    jac_phi_q_t_lambda_A_j[22] = t216;
     const jg_real t217 = s_j[2] * t216;
     const jg_real t218 = C_i[1] * t208;
     const jg_real t219 = v_4_in_j_1 * t218;
     const jg_real t220 = C_i[1] * t211;
     const jg_real t221 = v_4_in_j_2 * t220;
     const jg_real t222 = t219 - t221 + (t210 - t213 + (t215 - t217));
-    jac_phi_q_t_lambda_A_j[24] = t222;
     const jg_real t223 = A_i[2] * v_2_in_i_0 + A_i[8] * v_2_in_i_2;
     const jg_real t224 = C_j[8] * t223;
     const jg_real t225 = lambda[0] * A_i[2] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[9] = -(A_i[1] * v_6_in_j_0 + A_ji_0 * t196 + A_ji_1 * t203 + A_ji_2 * t207);
+    jac_phi_q_t_lambda_A_j[10] = -(t182 * v_6_in_j_2 + A_ji_5 * t207 + (t185 * v_6_in_j_1 + A_ji_4 * t203 + A_ji_3 *
+        t196));
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_6_in_j_0 + A_ji_6 * t196 + A_ji_7 * t203 + A_ji_8 * t207);
+    jac_phi_q_t_lambda_A_j[23] = t214;
+    jac_phi_q_t_lambda_A_j[22] = t216;
+    jac_phi_q_t_lambda_A_j[24] = t222;
     jac_phi_q_t_lambda_A_j[21] = t225;
     jac_phi_q_t_lambda_A_j[49] = t225;
     jac_phi_q_t_lambda_A_j[77] = t225;
@@ -1341,154 +1341,154 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t227 = A_i[2] * C_i[0] + A_i[8] * C_i[2];
     const jg_real t228 = v_4_in_j_2 * t227;
     const jg_real t229 = t228 - v_4_in_j_0 * t218 + (t224 - C_j[6] * t209 + (t226 - s_j[0] * t214));
-    jac_phi_q_t_lambda_A_j[25] = t229;
     const jg_real t230 = C_j[7] * t223;
     const jg_real t231 = s_j[1] * t225;
     const jg_real t232 = v_4_in_j_1 * t227;
     const jg_real t233 = v_4_in_j_0 * t220 - t232 + (C_j[6] * t212 - t230 + (s_j[0] * t216 - t231));
-    jac_phi_q_t_lambda_A_j[26] = t233;
-    jac_phi_q_t_lambda_A_j[18] = -(A_i[2] * v_6_in_j_0 + A_ji_0 * t222 + A_ji_1 * t229 + A_ji_2 * t233);
-    jac_phi_q_t_lambda_A_j[19] = -(t208 * v_6_in_j_2 + A_ji_5 * t233 + (t211 * v_6_in_j_1 + A_ji_4 * t229 + A_ji_3 *
-        t222));
-    jac_phi_q_t_lambda_A_j[20] = -(A_i[8] * v_6_in_j_0 + A_ji_6 * t222 + A_ji_7 * t229 + A_ji_8 * t233);
     const jg_real t234 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
     const jg_real t235 = v_2_in_i_1 * t234;
     const jg_real t236 = C_j[6] * t235;
     const jg_real t237 = lambda[1] * t234;
-    jac_phi_q_t_lambda_A_j[32] = t237;
     const jg_real t238 = s_j[0] * t237;
     const jg_real t239 = C_i[1] * t234;
     const jg_real t240 = v_4_in_j_0 * t239;
     const jg_real t241 = t240 + t169 + (t236 + t161 + (t238 + t165));
     const jg_real t242 = v_4_in_j_1 * t239 - t176 + (C_j[7] * t235 - t172 + (s_j[1] * t237 - t174));
-    jac_phi_q_t_lambda_A_j[33] = t242;
     const jg_real t243 = C_j[6] * t171;
     const jg_real t244 = s_j[0] * t173;
     const jg_real t245 = v_4_in_j_0 * t175;
     const jg_real t246 = t245 + v_4_in_j_1 * t168 + (t243 + C_j[7] * t160 + (t244 + s_j[1] * t164));
+    jac_phi_q_t_lambda_A_j[25] = t229;
+    jac_phi_q_t_lambda_A_j[26] = t233;
+    jac_phi_q_t_lambda_A_j[18] = -(A_i[2] * v_6_in_j_0 + A_ji_0 * t222 + A_ji_1 * t229 + A_ji_2 * t233);
+    jac_phi_q_t_lambda_A_j[19] = -(t208 * v_6_in_j_2 + A_ji_5 * t233 + (t211 * v_6_in_j_1 + A_ji_4 * t229 + A_ji_3 *
+        t222));
+    jac_phi_q_t_lambda_A_j[20] = -(A_i[8] * v_6_in_j_0 + A_ji_6 * t222 + A_ji_7 * t229 + A_ji_8 * t233);
+    jac_phi_q_t_lambda_A_j[32] = t237;
+    jac_phi_q_t_lambda_A_j[33] = t242;
     jac_phi_q_t_lambda_A_j[35] = t246;
+    const jg_real t247 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
+    const jg_real t248 = v_2_in_i_1 * t247;
+    const jg_real t249 = C_j[6] * t248;
+    const jg_real t250 = lambda[1] * t247;
+    const jg_real t251 = s_j[0] * t250;
+    const jg_real t252 = C_i[1] * t247;
+    const jg_real t253 = v_4_in_j_0 * t252;
+    const jg_real t254 = t253 + t195 + (t249 + t187 + (t251 + t191));
+    const jg_real t255 = v_4_in_j_1 * t252 - t202 + (C_j[7] * t248 - t198 + (s_j[1] * t250 - t200));
+    const jg_real t256 = C_j[6] * t197;
+    const jg_real t257 = s_j[0] * t199;
+    const jg_real t258 = v_4_in_j_0 * t201;
+    const jg_real t259 = t258 + v_4_in_j_1 * t194 + (t256 + C_j[7] * t186 + (t257 + s_j[1] * t190));
     jac_phi_q_t_lambda_A_j[27] = -(A_i[0] * v_6_in_j_1 - A_ji_1 * t241 + A_ji_0 * t242 + A_ji_2 * t246);
     jac_phi_q_t_lambda_A_j[28] = -(t234 * v_6_in_j_2 + A_ji_5 * t246 + (A_ji_3 * t242 - t159 * v_6_in_j_0 - A_ji_4 *
         t241));
     jac_phi_q_t_lambda_A_j[29] = -(A_i[6] * v_6_in_j_1 - A_ji_7 * t241 + A_ji_6 * t242 + A_ji_8 * t246);
     jac_phi_q_t_lambda_A_j[30] = -t164;
     jac_phi_q_t_lambda_A_j[34] = -t241;
-    const jg_real t247 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
-    const jg_real t248 = v_2_in_i_1 * t247;
-    const jg_real t249 = C_j[6] * t248;
-    const jg_real t250 = lambda[1] * t247;
     jac_phi_q_t_lambda_A_j[41] = t250;
-    const jg_real t251 = s_j[0] * t250;
-    const jg_real t252 = C_i[1] * t247;
-    const jg_real t253 = v_4_in_j_0 * t252;
-    const jg_real t254 = t253 + t195 + (t249 + t187 + (t251 + t191));
-    const jg_real t255 = v_4_in_j_1 * t252 - t202 + (C_j[7] * t248 - t198 + (s_j[1] * t250 - t200));
     jac_phi_q_t_lambda_A_j[42] = t255;
-    const jg_real t256 = C_j[6] * t197;
-    const jg_real t257 = s_j[0] * t199;
-    const jg_real t258 = v_4_in_j_0 * t201;
-    const jg_real t259 = t258 + v_4_in_j_1 * t194 + (t256 + C_j[7] * t186 + (t257 + s_j[1] * t190));
     jac_phi_q_t_lambda_A_j[44] = t259;
+    const jg_real t260 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t261 = v_2_in_i_1 * t260;
+    const jg_real t262 = C_j[6] * t261;
+    const jg_real t263 = lambda[1] * t260;
+    const jg_real t264 = s_j[0] * t263;
+    const jg_real t265 = C_i[1] * t260;
+    const jg_real t266 = v_4_in_j_0 * t265;
+    const jg_real t267 = t266 + t221 + (t262 + t213 + (t264 + t217));
+    const jg_real t268 = v_4_in_j_1 * t265 - t228 + (C_j[7] * t261 - t224 + (s_j[1] * t263 - t226));
+    const jg_real t269 = C_j[6] * t223;
+    const jg_real t270 = s_j[0] * t225;
+    const jg_real t271 = v_4_in_j_0 * t227;
+    const jg_real t272 = t271 + v_4_in_j_1 * t220 + (t269 + C_j[7] * t212 + (t270 + s_j[1] * t216));
     jac_phi_q_t_lambda_A_j[36] = -(A_i[1] * v_6_in_j_1 - A_ji_1 * t254 + A_ji_0 * t255 + A_ji_2 * t259);
     jac_phi_q_t_lambda_A_j[37] = -(t247 * v_6_in_j_2 + A_ji_5 * t259 + (A_ji_3 * t255 - t185 * v_6_in_j_0 - A_ji_4 *
         t254));
     jac_phi_q_t_lambda_A_j[38] = -(A_i[7] * v_6_in_j_1 - A_ji_7 * t254 + A_ji_6 * t255 + A_ji_8 * t259);
     jac_phi_q_t_lambda_A_j[39] = -t190;
     jac_phi_q_t_lambda_A_j[43] = -t254;
-    const jg_real t260 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t261 = v_2_in_i_1 * t260;
-    const jg_real t262 = C_j[6] * t261;
-    const jg_real t263 = lambda[1] * t260;
     jac_phi_q_t_lambda_A_j[50] = t263;
-    const jg_real t264 = s_j[0] * t263;
-    const jg_real t265 = C_i[1] * t260;
-    const jg_real t266 = v_4_in_j_0 * t265;
-    const jg_real t267 = t266 + t221 + (t262 + t213 + (t264 + t217));
-    const jg_real t268 = v_4_in_j_1 * t265 - t228 + (C_j[7] * t261 - t224 + (s_j[1] * t263 - t226));
     jac_phi_q_t_lambda_A_j[51] = t268;
-    const jg_real t269 = C_j[6] * t223;
-    const jg_real t270 = s_j[0] * t225;
-    const jg_real t271 = v_4_in_j_0 * t227;
-    const jg_real t272 = t271 + v_4_in_j_1 * t220 + (t269 + C_j[7] * t212 + (t270 + s_j[1] * t216));
     jac_phi_q_t_lambda_A_j[53] = t272;
+    const jg_real t273 = t167 - t240 + (t158 - t236 + (t163 - t238));
+    const jg_real t274 = t180 + v_4_in_j_2 * t239 + (t178 + C_j[8] * t235 + (t179 + s_j[2] * t237));
+    const jg_real t275 = t245 + v_4_in_j_2 * t166 + (t243 + C_j[8] * t157 + (t244 + s_j[2] * t162));
     jac_phi_q_t_lambda_A_j[45] = -(A_i[2] * v_6_in_j_1 - A_ji_1 * t267 + A_ji_0 * t268 + A_ji_2 * t272);
     jac_phi_q_t_lambda_A_j[46] = -(t260 * v_6_in_j_2 + A_ji_5 * t272 + (A_ji_3 * t268 - t211 * v_6_in_j_0 - A_ji_4 *
         t267));
     jac_phi_q_t_lambda_A_j[47] = -(A_i[8] * v_6_in_j_1 - A_ji_7 * t267 + A_ji_6 * t268 + A_ji_8 * t272);
     jac_phi_q_t_lambda_A_j[48] = -t216;
     jac_phi_q_t_lambda_A_j[52] = -t267;
-    const jg_real t273 = t167 - t240 + (t158 - t236 + (t163 - t238));
     jac_phi_q_t_lambda_A_j[62] = t273;
-    const jg_real t274 = t180 + v_4_in_j_2 * t239 + (t178 + C_j[8] * t235 + (t179 + s_j[2] * t237));
     jac_phi_q_t_lambda_A_j[60] = t274;
-    const jg_real t275 = t245 + v_4_in_j_2 * t166 + (t243 + C_j[8] * t157 + (t244 + s_j[2] * t162));
     jac_phi_q_t_lambda_A_j[54] = -(A_i[0] * v_6_in_j_2 + A_ji_2 * t273 + (A_ji_0 * t274 - A_ji_1 * t275));
+    const jg_real t276 = t193 - t253 + (t184 - t249 + (t189 - t251));
+    const jg_real t277 = t206 + v_4_in_j_2 * t252 + (t204 + C_j[8] * t248 + (t205 + s_j[2] * t250));
+    const jg_real t278 = t258 + v_4_in_j_2 * t192 + (t256 + C_j[8] * t183 + (t257 + s_j[2] * t188));
     jac_phi_q_t_lambda_A_j[55] = -(A_ji_3 * t274 - t156 * v_6_in_j_0 - (t234 * v_6_in_j_1 + A_ji_4 * t275) + A_ji_5
         * t273);
     jac_phi_q_t_lambda_A_j[56] = -(A_i[6] * v_6_in_j_2 + A_ji_8 * t273 + (A_ji_6 * t274 - A_ji_7 * t275));
     jac_phi_q_t_lambda_A_j[57] = -t162;
     jac_phi_q_t_lambda_A_j[58] = -t237;
     jac_phi_q_t_lambda_A_j[61] = -t275;
-    const jg_real t276 = t193 - t253 + (t184 - t249 + (t189 - t251));
     jac_phi_q_t_lambda_A_j[71] = t276;
-    const jg_real t277 = t206 + v_4_in_j_2 * t252 + (t204 + C_j[8] * t248 + (t205 + s_j[2] * t250));
     jac_phi_q_t_lambda_A_j[69] = t277;
-    const jg_real t278 = t258 + v_4_in_j_2 * t192 + (t256 + C_j[8] * t183 + (t257 + s_j[2] * t188));
     jac_phi_q_t_lambda_A_j[63] = -(A_i[1] * v_6_in_j_2 + A_ji_2 * t276 + (A_ji_0 * t277 - A_ji_1 * t278));
+    const jg_real t279 = t219 - t266 + (t210 - t262 + (t215 - t264));
+    const jg_real t280 = t232 + v_4_in_j_2 * t265 + (t230 + C_j[8] * t261 + (t231 + s_j[2] * t263));
+    const jg_real t281 = t271 + v_4_in_j_2 * t218 + (t269 + C_j[8] * t209 + (t270 + s_j[2] * t214));
     jac_phi_q_t_lambda_A_j[64] = -(A_ji_3 * t277 - t182 * v_6_in_j_0 - (t247 * v_6_in_j_1 + A_ji_4 * t278) + A_ji_5
         * t276);
     jac_phi_q_t_lambda_A_j[65] = -(A_i[7] * v_6_in_j_2 + A_ji_8 * t276 + (A_ji_6 * t277 - A_ji_7 * t278));
     jac_phi_q_t_lambda_A_j[66] = -t188;
     jac_phi_q_t_lambda_A_j[67] = -t250;
     jac_phi_q_t_lambda_A_j[70] = -t278;
-    const jg_real t279 = t219 - t266 + (t210 - t262 + (t215 - t264));
     jac_phi_q_t_lambda_A_j[80] = t279;
-    const jg_real t280 = t232 + v_4_in_j_2 * t265 + (t230 + C_j[8] * t261 + (t231 + s_j[2] * t263));
     jac_phi_q_t_lambda_A_j[78] = t280;
-    const jg_real t281 = t271 + v_4_in_j_2 * t218 + (t269 + C_j[8] * t209 + (t270 + s_j[2] * t214));
     jac_phi_q_t_lambda_A_j[72] = -(A_i[2] * v_6_in_j_2 + A_ji_2 * t279 + (A_ji_0 * t280 - A_ji_1 * t281));
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    const jg_real t284 = lambda[3] * A_ji_2;
+    const jg_real t285 = lambda[3] * A_ji_1;
+    const jg_real t286 = C_j[7] * t284 - C_j[8] * t285 + (v_4_in_j_1 * A_ji_2 - A_ji_1 * v_4_in_j_2);
+    const jg_real t287 = lambda[3] * A_ji_0;
+    const jg_real t288 = C_j[8] * t287 - C_j[6] * t284 + (A_ji_0 * v_4_in_j_2 - A_ji_2 * v_4_in_j_0);
     jac_phi_q_t_lambda_A_j[73] = -(A_ji_3 * t280 - t208 * v_6_in_j_0 - (t260 * v_6_in_j_1 + A_ji_4 * t281) + A_ji_5
         * t279);
     jac_phi_q_t_lambda_A_j[74] = -(A_i[8] * v_6_in_j_2 + A_ji_8 * t279 + (A_ji_6 * t280 - A_ji_7 * t281));
     jac_phi_q_t_lambda_A_j[75] = -t214;
     jac_phi_q_t_lambda_A_j[76] = -t263;
     jac_phi_q_t_lambda_A_j[79] = -t281;
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jac_phi_q_t_lambda_alpha[0] = lambda[5] * cosine_0;
-    const jg_real t284 = lambda[3] * A_ji_2;
-    const jg_real t285 = lambda[3] * A_ji_1;
-    const jg_real t286 = C_j[7] * t284 - C_j[8] * t285 + (v_4_in_j_1 * A_ji_2 - v_4_in_j_2 * A_ji_1);
     jac_phi_q_t_lambda_geometry[3] = t286;
-    const jg_real t287 = lambda[3] * A_ji_0;
-    const jg_real t288 = C_j[8] * t287 - C_j[6] * t284 + (v_4_in_j_2 * A_ji_0 - v_4_in_j_0 * A_ji_2);
     jac_phi_q_t_lambda_geometry[4] = t288;
-    const jg_real t289 = C_j[6] * t285 - C_j[7] * t287 + (v_4_in_j_0 * A_ji_1 - v_4_in_j_1 * A_ji_0);
+    const jg_real t289 = t285 * C_j[6] - C_j[7] * t287 + (A_ji_1 * v_4_in_j_0 - A_ji_0 * v_4_in_j_1);
+    const jg_real t290 = lambda[3] * A_ji_5;
+    const jg_real t291 = lambda[3] * A_ji_4;
+    const jg_real t292 = C_j[7] * t290 - C_j[8] * t291 + (v_4_in_j_1 * A_ji_5 - v_4_in_j_2 * A_ji_4);
+    const jg_real t293 = lambda[3] * A_ji_3;
+    const jg_real t294 = C_j[8] * t293 - C_j[6] * t290 + (v_4_in_j_2 * A_ji_3 - v_4_in_j_0 * A_ji_5);
+    const jg_real t295 = C_j[6] * t291 - C_j[7] * t293 + (v_4_in_j_0 * A_ji_4 - v_4_in_j_1 * A_ji_3);
     jac_phi_q_t_lambda_geometry[5] = t289;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t286 + A_ji_1 * t288 + A_ji_2 * t289);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t286 + A_ji_4 * t288 + A_ji_5 * t289);
     jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t286 + A_ji_7 * t288 + A_ji_8 * t289);
-    const jg_real t290 = lambda[3] * A_ji_5;
-    const jg_real t291 = lambda[3] * A_ji_4;
-    const jg_real t292 = C_j[7] * t290 - C_j[8] * t291 + (v_4_in_j_1 * A_ji_5 - v_4_in_j_2 * A_ji_4);
     jac_phi_q_t_lambda_geometry[9] = t292;
-    const jg_real t293 = lambda[3] * A_ji_3;
-    const jg_real t294 = C_j[8] * t293 - C_j[6] * t290 + (v_4_in_j_2 * A_ji_3 - v_4_in_j_0 * A_ji_5);
     jac_phi_q_t_lambda_geometry[10] = t294;
-    const jg_real t295 = C_j[6] * t291 - C_j[7] * t293 + (v_4_in_j_0 * A_ji_4 - v_4_in_j_1 * A_ji_3);
     jac_phi_q_t_lambda_geometry[11] = t295;
     jac_phi_q_t_lambda_geometry[6] = -(A_ji_0 * t292 + A_ji_1 * t294 + A_ji_2 * t295);
-    jac_phi_q_t_lambda_geometry[7] = -(A_ji_3 * t292 + A_ji_4 * t294 + A_ji_5 * t295);
-    jac_phi_q_t_lambda_geometry[8] = -(A_ji_6 * t292 + A_ji_7 * t294 + A_ji_8 * t295);
     const jg_real t296 = lambda[3] * A_ji_8;
     const jg_real t297 = lambda[3] * A_ji_7;
-    const jg_real t298 = C_j[7] * t296 - C_j[8] * t297 + (v_4_in_j_1 * A_ji_8 - v_4_in_j_2 * A_ji_7);
-    jac_phi_q_t_lambda_geometry[15] = t298;
+    const jg_real t298 = C_j[7] * t296 - C_j[8] * t297 + (v_4_in_j_1 * A_ji_8 - A_ji_7 * v_4_in_j_2);
     const jg_real t299 = lambda[3] * A_ji_6;
-    const jg_real t300 = C_j[8] * t299 - C_j[6] * t296 + (v_4_in_j_2 * A_ji_6 - v_4_in_j_0 * A_ji_8);
+    const jg_real t300 = C_j[8] * t299 - C_j[6] * t296 + (A_ji_6 * v_4_in_j_2 - A_ji_8 * v_4_in_j_0);
+    const jg_real t301 = C_j[6] * t297 - C_j[7] * t299 + (A_ji_7 * v_4_in_j_0 - A_ji_6 * v_4_in_j_1);
+    jac_phi_q_t_lambda_geometry[7] = -(A_ji_3 * t292 + A_ji_4 * t294 + A_ji_5 * t295);
+    jac_phi_q_t_lambda_geometry[8] = -(A_ji_6 * t292 + A_ji_7 * t294 + A_ji_8 * t295);
+    jac_phi_q_t_lambda_geometry[15] = t298;
     jac_phi_q_t_lambda_geometry[16] = t300;
-    const jg_real t301 = C_j[6] * t297 - C_j[7] * t299 + (v_4_in_j_0 * A_ji_7 - v_4_in_j_1 * A_ji_6);
     jac_phi_q_t_lambda_geometry[17] = t301;
     jac_phi_q_t_lambda_geometry[12] = -(A_ji_0 * t298 + A_ji_1 * t300 + A_ji_2 * t301);
     jac_phi_q_t_lambda_geometry[13] = -(A_ji_3 * t298 + A_ji_4 * t300 + A_ji_5 * t301);
@@ -1496,35 +1496,35 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     const jg_real t302 = lambda[4] * A_ji_2;
     const jg_real t303 = lambda[4] * A_ji_1;
     const jg_real t304 = C_j[7] * t302 - C_j[8] * t303;
-    jac_phi_q_t_lambda_geometry[21] = t304;
     const jg_real t305 = lambda[4] * A_ji_0;
     const jg_real t306 = C_j[8] * t305 - C_j[6] * t302;
+    const jg_real t307 = t303 * C_j[6] - C_j[7] * t305;
+    const jg_real t308 = lambda[4] * A_ji_5;
+    const jg_real t309 = lambda[4] * A_ji_4;
+    const jg_real t310 = C_j[7] * t308 - C_j[8] * t309;
+    const jg_real t311 = lambda[4] * A_ji_3;
+    const jg_real t312 = C_j[8] * t311 - C_j[6] * t308;
+    jac_phi_q_t_lambda_geometry[21] = t304;
     jac_phi_q_t_lambda_geometry[22] = t306;
-    const jg_real t307 = C_j[6] * t303 - C_j[7] * t305;
     jac_phi_q_t_lambda_geometry[23] = t307;
     jac_phi_q_t_lambda_geometry[18] = -(A_ji_0 * t304 + A_ji_1 * t306 + A_ji_2 * t307);
     jac_phi_q_t_lambda_geometry[19] = -(A_ji_3 * t304 + A_ji_4 * t306 + A_ji_5 * t307);
     jac_phi_q_t_lambda_geometry[20] = -(A_ji_6 * t304 + A_ji_7 * t306 + A_ji_8 * t307);
-    const jg_real t308 = lambda[4] * A_ji_5;
-    const jg_real t309 = lambda[4] * A_ji_4;
-    const jg_real t310 = C_j[7] * t308 - C_j[8] * t309;
     jac_phi_q_t_lambda_geometry[27] = t310;
-    const jg_real t311 = lambda[4] * A_ji_3;
-    const jg_real t312 = C_j[8] * t311 - C_j[6] * t308;
     jac_phi_q_t_lambda_geometry[28] = t312;
     const jg_real t313 = C_j[6] * t309 - C_j[7] * t311;
+    const jg_real t314 = lambda[4] * A_ji_8;
+    const jg_real t315 = lambda[4] * A_ji_7;
+    const jg_real t316 = C_j[7] * t314 - C_j[8] * t315;
+    const jg_real t317 = lambda[4] * A_ji_6;
+    const jg_real t318 = C_j[8] * t317 - C_j[6] * t314;
+    const jg_real t319 = C_j[6] * t315 - C_j[7] * t317;
     jac_phi_q_t_lambda_geometry[29] = t313;
     jac_phi_q_t_lambda_geometry[24] = -(A_ji_0 * t310 + A_ji_1 * t312 + A_ji_2 * t313);
     jac_phi_q_t_lambda_geometry[25] = -(A_ji_3 * t310 + A_ji_4 * t312 + A_ji_5 * t313);
     jac_phi_q_t_lambda_geometry[26] = -(A_ji_6 * t310 + A_ji_7 * t312 + A_ji_8 * t313);
-    const jg_real t314 = lambda[4] * A_ji_8;
-    const jg_real t315 = lambda[4] * A_ji_7;
-    const jg_real t316 = C_j[7] * t314 - C_j[8] * t315;
     jac_phi_q_t_lambda_geometry[33] = t316;
-    const jg_real t317 = lambda[4] * A_ji_6;
-    const jg_real t318 = C_j[8] * t317 - C_j[6] * t314;
     jac_phi_q_t_lambda_geometry[34] = t318;
-    const jg_real t319 = C_j[6] * t315 - C_j[7] * t317;
     jac_phi_q_t_lambda_geometry[35] = t319;
     jac_phi_q_t_lambda_geometry[30] = -(A_ji_0 * t316 + A_ji_1 * t318 + A_ji_2 * t319);
     jac_phi_q_t_lambda_geometry[31] = -(A_ji_3 * t316 + A_ji_4 * t318 + A_ji_5 * t319);
@@ -1535,21 +1535,21 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[39] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[41] = A_ji_2 * lambda_0_1_2_in_j_0 - A_ji_0 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[42] = A_ji_5 * lambda_0_1_2_in_j_0 - A_ji_3 * lambda_0_1_2_in_j_2;
+    const jg_real t320 = lambda[5] * f_i_in_j_2;
+    const jg_real t321 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[43] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[45] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[46] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[47] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[48] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[49] = -lambda_0_1_2_in_j_1;
-    const jg_real t320 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[59] = t320;
-    const jg_real t321 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[55] = t321;
+    const jg_real t322 = lambda[5] * f_i_in_j_0;
     jac_phi_q_t_lambda_geometry[51] = A_ji_1 * t320 - A_ji_2 * t321;
     jac_phi_q_t_lambda_geometry[52] = A_ji_4 * t320 - A_ji_5 * t321;
     jac_phi_q_t_lambda_geometry[53] = A_ji_7 * t320 - A_ji_8 * t321;
     jac_phi_q_t_lambda_geometry[54] = -t320;
-    const jg_real t322 = lambda[5] * f_i_in_j_0;
     jac_phi_q_t_lambda_geometry[65] = t322;
     jac_phi_q_t_lambda_geometry[56] = A_ji_2 * t322 - A_ji_0 * t320;
     jac_phi_q_t_lambda_geometry[57] = A_ji_5 * t322 - A_ji_3 * t320;
@@ -1570,67 +1570,67 @@ static void jg_revolute_parametric_table4_phi_q_t_lambda_jacobian(const jg_real 
     jac_phi_q_t_lambda_geometry[76] = A_ji_0 * v_2_in_j_1 - A_ji_1 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[77] = A_ji_3 * v_2_in_j_1 - A_ji_4 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[78] = A_ji_6 * v_2_in_j_1 - A_ji_7 * v_2_in_j_0;
+    const jg_real t323 = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    const jg_real t324 = A_ji_0 * s_j[2] - A_ji_2 * s_j[0];
+    const jg_real t325 = A_ji_1 * s_j[0] - A_ji_0 * s_j[1];
     jac_phi_q_t_lambda_geometry[79] = -v_2_in_j_1;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
-    const jg_real t323 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t323;
-    const jg_real t324 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t324;
-    const jg_real t325 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t325;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t323 + A_ji_1 * t324 + A_ji_2 * t325);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t323 + A_ji_4 * t324 + A_ji_5 * t325 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t323 + A_ji_7 * t324 + A_ji_8 * t325);
     const jg_real t328 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_t_lambda_lambda[17] = t328;
     const jg_real t329 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_t_lambda_lambda[18] = t329;
     const jg_real t330 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t323 + A_ji_4 * t324 + A_ji_5 * t325 + v_0_in_i_2);
+    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t323 + A_ji_7 * t324 + A_ji_8 * t325);
+    jac_phi_q_t_lambda_lambda[17] = t328;
+    jac_phi_q_t_lambda_lambda[18] = t329;
     jac_phi_q_t_lambda_lambda[19] = t330;
     jac_phi_q_t_lambda_lambda[11] = v_0_in_i_2 - (A_ji_0 * t328 + A_ji_1 * t329 + A_ji_2 * t330);
     jac_phi_q_t_lambda_lambda[12] = -(A_ji_3 * t328 + A_ji_4 * t329 + A_ji_5 * t330);
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t328 + A_ji_7 * t329 + A_ji_8 * t330 + v_0_in_i_0);
-    const jg_real t332 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    const jg_real t332 = s_j[1] * A_ji_8 - A_ji_7 * s_j[2];
+    const jg_real t333 = A_ji_6 * s_j[2] - s_j[0] * A_ji_8;
+    const jg_real t334 = A_ji_7 * s_j[0] - A_ji_6 * s_j[1];
+    const jg_real t335 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    const jg_real t336 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     jac_phi_q_t_lambda_lambda[27] = t332;
-    const jg_real t333 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_t_lambda_lambda[28] = t333;
-    const jg_real t334 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_t_lambda_lambda[29] = t334;
     jac_phi_q_t_lambda_lambda[21] = -(A_ji_0 * t332 + A_ji_1 * t333 + A_ji_2 * t334 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[22] = v_0_in_i_0 - (A_ji_3 * t332 + A_ji_4 * t333 + A_ji_5 * t334);
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_6 * t332 + A_ji_7 * t333 + A_ji_8 * t334);
-    const jg_real t335 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
     jac_phi_q_t_lambda_lambda[33] = t335;
-    const jg_real t336 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     jac_phi_q_t_lambda_lambda[34] = t336;
     const jg_real t337 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
+    const jg_real t338 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
+    const jg_real t339 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
+    const jg_real t340 = C_j[7] * t338 - C_j[8] * t339;
+    const jg_real t341 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real t342 = C_j[8] * t341 - C_j[6] * t338;
+    const jg_real t343 = C_j[6] * t339 - C_j[7] * t341;
     jac_phi_q_t_lambda_lambda[35] = t337;
     jac_phi_q_t_lambda_lambda[30] = -(A_ji_0 * t335 + A_ji_1 * t336 + A_ji_2 * t337);
     jac_phi_q_t_lambda_lambda[31] = -(A_ji_3 * t335 + A_ji_4 * t336 + A_ji_5 * t337);
     jac_phi_q_t_lambda_lambda[32] = -(A_ji_6 * t335 + A_ji_7 * t336 + A_ji_8 * t337);
-    const jg_real t338 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
-    const jg_real t339 = C_i[3] * A_ji_1 + C_i[4] * A_ji_4 + C_i[5] * A_ji_7;
-    const jg_real t340 = C_j[7] * t338 - C_j[8] * t339;
     jac_phi_q_t_lambda_lambda[39] = t340;
-    const jg_real t341 = C_i[3] * A_ji_0 + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
-    const jg_real t342 = C_j[8] * t341 - C_j[6] * t338;
     jac_phi_q_t_lambda_lambda[40] = t342;
-    const jg_real t343 = C_j[6] * t339 - C_j[7] * t341;
     jac_phi_q_t_lambda_lambda[41] = t343;
     jac_phi_q_t_lambda_lambda[36] = -(A_ji_0 * t340 + A_ji_1 * t342 + A_ji_2 * t343);
+    const jg_real t344 = C_j[1] * f_i_in_j_2 - C_j[2] * f_i_in_j_1;
+    const jg_real t345 = C_j[2] * f_i_in_j_0 - C_j[0] * f_i_in_j_2;
+    const jg_real t346 = C_j[0] * f_i_in_j_1 - C_j[1] * f_i_in_j_0;
     jac_phi_q_t_lambda_lambda[37] = -(A_ji_3 * t340 + A_ji_4 * t342 + A_ji_5 * t343);
     jac_phi_q_t_lambda_lambda[38] = -(A_ji_6 * t340 + A_ji_7 * t342 + A_ji_8 * t343);
-    const jg_real t344 = C_j[1] * f_i_in_j_2 - C_j[2] * f_i_in_j_1;
     jac_phi_q_t_lambda_lambda[45] = t344;
-    const jg_real t345 = C_j[2] * f_i_in_j_0 - C_j[0] * f_i_in_j_2;
     jac_phi_q_t_lambda_lambda[46] = t345;
-    const jg_real t346 = C_j[0] * f_i_in_j_1 - C_j[1] * f_i_in_j_0;
     jac_phi_q_t_lambda_lambda[47] = t346;
     jac_phi_q_t_lambda_lambda[42] = -(A_ji_0 * t344 + A_ji_1 * t345 + A_ji_2 * t346);
     jac_phi_q_t_lambda_lambda[43] = -(A_ji_3 * t344 + A_ji_4 * t345 + A_ji_5 * t346);

@@ -29,58 +29,58 @@ static void jg_rigid_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_i, c
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    const jg_real t0 = -s_i[0];
     jac_phi_r_i[0] = JG_REAL(-1.0);
     jac_phi_r_i[1] = JG_REAL(-1.0);
     jac_phi_r_i[2] = JG_REAL(-1.0);
-    const jg_real t0 = -s_i[0];
     jac_phi_A_i[0] = t0;
     jac_phi_A_i[4] = t0;
     jac_phi_A_i[8] = t0;
     jac_phi_geometry[18] = A_j[0];
     jac_phi_geometry[21] = A_j[3];
-    jac_phi_geometry[24] = A_j[6];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[1] = C_i[0] * h_j_world_0;
-    jac_phi_A_i[2] = C_i[3] * h_j_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    jac_phi_geometry[24] = A_j[6];
+    jac_phi_A_i[1] = C_i[0] * h_j_world_0;
+    jac_phi_A_i[2] = h_j_world_0 * C_i[3];
     jac_phi_A_i[3] = C_i[0] * g_j_world_0;
     jac_phi_geometry[19] = A_j[1];
     jac_phi_geometry[22] = A_j[4];
     jac_phi_geometry[25] = A_j[7];
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[5] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
     jac_phi_A_i[7] = C_i[0] * g_j_world_1;
     jac_phi_geometry[20] = A_j[2];
     jac_phi_geometry[23] = A_j[5];
     jac_phi_geometry[26] = A_j[8];
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[9] = C_i[0] * h_j_world_2;
     jac_phi_A_i[10] = C_i[3] * h_j_world_2;
-    const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     jac_phi_A_i[11] = C_i[0] * g_j_world_2;
     const jg_real t7 = -s_i[1];
     jac_phi_A_i[12] = t7;
     jac_phi_A_i[16] = t7;
     jac_phi_A_i[20] = t7;
     jac_phi_A_i[13] = C_i[1] * h_j_world_0;
-    jac_phi_A_i[14] = C_i[4] * h_j_world_0;
+    jac_phi_A_i[14] = h_j_world_0 * C_i[4];
     jac_phi_A_i[15] = C_i[1] * g_j_world_0;
     jac_phi_A_i[17] = C_i[1] * h_j_world_1;
     jac_phi_A_i[18] = C_i[4] * h_j_world_1;
+    const jg_real t8 = -s_i[2];
     jac_phi_A_i[19] = C_i[1] * g_j_world_1;
     jac_phi_A_i[21] = C_i[1] * h_j_world_2;
     jac_phi_A_i[22] = C_i[4] * h_j_world_2;
     jac_phi_A_i[23] = C_i[1] * g_j_world_2;
-    const jg_real t8 = -s_i[2];
     jac_phi_A_i[24] = t8;
     jac_phi_A_i[28] = t8;
     jac_phi_A_i[32] = t8;
     jac_phi_A_i[25] = C_i[2] * h_j_world_0;
-    jac_phi_A_i[26] = C_i[5] * h_j_world_0;
+    jac_phi_A_i[26] = h_j_world_0 * C_i[5];
     jac_phi_A_i[27] = C_i[2] * g_j_world_0;
     jac_phi_A_i[29] = C_i[2] * h_j_world_1;
     jac_phi_A_i[30] = C_i[5] * h_j_world_1;
@@ -88,29 +88,29 @@ static void jg_rigid_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_i, c
     jac_phi_A_i[33] = C_i[2] * h_j_world_2;
     jac_phi_A_i[34] = C_i[5] * h_j_world_2;
     jac_phi_A_i[35] = C_i[2] * g_j_world_2;
+    /* f_i_world = f_i, world axes */
+    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    /* g_i_world = g_i, world axes */
+    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_r_j[0] = JG_REAL(1.0);
     jac_phi_r_j[1] = JG_REAL(1.0);
     jac_phi_r_j[2] = JG_REAL(1.0);
     jac_phi_A_j[0] = s_j[0];
     jac_phi_A_j[4] = s_j[0];
     jac_phi_A_j[8] = s_j[0];
-    /* f_i_world = f_i, world axes */
-    const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
     jac_phi_A_j[1] = C_j[6] * f_i_world_0;
-    /* g_i_world = g_i, world axes */
-    const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     jac_phi_A_j[2] = C_j[6] * g_i_world_0;
-    jac_phi_A_j[3] = f_i_world_0 * C_j[3];
     const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    jac_phi_A_j[5] = C_j[6] * f_i_world_1;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    jac_phi_A_j[3] = f_i_world_0 * C_j[3];
+    jac_phi_A_j[5] = C_j[6] * f_i_world_1;
     jac_phi_A_j[6] = C_j[6] * g_i_world_1;
     jac_phi_A_j[7] = f_i_world_1 * C_j[3];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_A_j[9] = C_j[6] * f_i_world_2;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[10] = C_j[6] * g_i_world_2;
-    jac_phi_A_j[11] = C_j[3] * f_i_world_2;
+    jac_phi_A_j[11] = f_i_world_2 * C_j[3];
     jac_phi_A_j[12] = s_j[1];
     jac_phi_A_j[16] = s_j[1];
     jac_phi_A_j[20] = s_j[1];
@@ -138,31 +138,31 @@ static void jg_rigid_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_i, c
     jac_phi_geometry[0] = -A_i[0];
     jac_phi_geometry[1] = -A_i[1];
     jac_phi_geometry[2] = -A_i[2];
+    const jg_real t15 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[3] = -A_i[3];
     jac_phi_geometry[4] = -A_i[4];
     jac_phi_geometry[5] = -A_i[5];
     jac_phi_geometry[6] = -A_i[6];
     jac_phi_geometry[7] = -A_i[7];
     jac_phi_geometry[8] = -A_i[8];
-    const jg_real t15 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[9] = t15;
     jac_phi_geometry[15] = t15;
-    jac_phi_geometry[10] = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     const jg_real t16 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    const jg_real t17 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
+    const jg_real t18 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    jac_phi_geometry[10] = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     jac_phi_geometry[11] = t16;
     jac_phi_geometry[16] = t16;
     jac_phi_geometry[12] = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    const jg_real t17 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[13] = t17;
     jac_phi_geometry[17] = t17;
     jac_phi_geometry[14] = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
-    const jg_real t18 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[27] = t18;
     jac_phi_geometry[30] = t18;
     const jg_real t19 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
+    const jg_real t20 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[28] = t19;
     jac_phi_geometry[32] = t19;
-    const jg_real t20 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[29] = t20;
     jac_phi_geometry[34] = t20;
     jac_phi_geometry[31] = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
@@ -183,9 +183,6 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real *const omega_j = velocity + 9;
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
     const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
-    jac_phi_q_v_A_i[0] = s_i_cross_omega_i_in_i_0;
-    jac_phi_q_v_A_i[4] = s_i_cross_omega_i_in_i_0;
-    jac_phi_q_v_A_i[8] = s_i_cross_omega_i_in_i_0;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
@@ -207,7 +204,7 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ij_3 + omega_i[1] * A_ij_4 + omega_i[2] * A_ij_5;
     const jg_real t17 = A_j[0] * C_i[0];
     const jg_real t18 = omega_i[1] * t12 + omega_i[2] * t13;
-    const jg_real f_i_in_j_0 = A_ij_1 * C_i[1] + C_i[0] * A_ij_0 + A_ij_2 * C_i[2];
+    const jg_real f_i_in_j_0 = C_i[1] * A_ij_1 + C_i[0] * A_ij_0 + A_ij_2 * C_i[2];
     const jg_real t20 = t11 * f_i_in_j_1 - omega_i_in_j_0 * t14 - (t17 * omega_i_in_j_1 - f_i_in_j_0 * t18);
     const jg_real t21 = A_j[6] * C_i[0];
     const jg_real f_i_in_j_2 = A_ij_7 * C_i[1] + C_i[0] * A_ij_6 + C_i[2] * A_ij_8;
@@ -218,7 +215,6 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t27 = omega_j[1] * t21 + omega_j[2] * t14;
     const jg_real t28 = omega_j[2] * t17 - omega_j[0] * t21;
     const jg_real t29 = omega_j[1] * t17 + omega_j[0] * t14;
-    jac_phi_q_v_A_i[1] = C_j[7] * t26 + C_j[6] * t25 + C_j[8] * t20 - (C_j[7] * t28 + C_j[6] * t27 - C_j[8] * t29);
     const jg_real t30 = A_j[6] * C_i[3];
     const jg_real t31 = A_j[0] * C_i[3];
     const jg_real t32 = C_j[6] * t30 - C_j[8] * t31;
@@ -233,10 +229,6 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t39 = C_j[7] * t30 + C_j[8] * t38;
     const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
     const jg_real t41 = C_j[7] * t31 + C_j[6] * t38;
-    jac_phi_q_v_A_i[2] = t23 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t41 + (omega_i_in_j_1 * t32 - t18 *
-        g_i_cross_h_j_in_j_1 + (t11 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t39)) - (omega_j[1] * t32 - omega_j[0]
-        * t39 + omega_j[2] * t41);
-    jac_phi_q_v_A_i[3] = C_j[4] * t26 + C_j[3] * t25 + C_j[5] * t20 - (C_j[4] * t28 + C_j[3] * t27 - C_j[5] * t29);
     const jg_real t42 = omega_i[0] * A_j[1];
     const jg_real t43 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
     const jg_real t44 = A_j[1] * A_ij_7 - A_j[7] * A_ij_1;
@@ -251,17 +243,24 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t53 = omega_j[1] * t49 + omega_j[2] * t45;
     const jg_real t54 = omega_j[2] * t46 - omega_j[0] * t49;
     const jg_real t55 = omega_j[1] * t46 + omega_j[0] * t45;
-    jac_phi_q_v_A_i[5] = C_j[7] * t52 + C_j[6] * t51 + C_j[8] * t48 - (C_j[7] * t54 + C_j[6] * t53 - C_j[8] * t55);
     const jg_real t56 = A_j[7] * C_i[3];
     const jg_real t57 = A_j[1] * C_i[3];
     const jg_real t58 = C_j[6] * t56 - C_j[8] * t57;
     const jg_real t59 = C_i[4] * t43 + C_i[5] * t44;
     const jg_real t60 = C_j[7] * t56 + C_j[8] * t59;
     const jg_real t61 = C_j[7] * t57 + C_j[6] * t59;
+    jac_phi_q_v_A_i[0] = s_i_cross_omega_i_in_i_0;
+    jac_phi_q_v_A_i[4] = s_i_cross_omega_i_in_i_0;
+    jac_phi_q_v_A_i[8] = s_i_cross_omega_i_in_i_0;
+    jac_phi_q_v_A_i[1] = C_j[7] * t26 + C_j[6] * t25 + C_j[8] * t20 - (C_j[7] * t28 + C_j[6] * t27 - C_j[8] * t29);
+    jac_phi_q_v_A_i[2] = t23 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t41 + (omega_i_in_j_1 * t32 - t18 *
+        g_i_cross_h_j_in_j_1 + (t11 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t39)) - (omega_j[1] * t32 - omega_j[0]
+        * t39 + omega_j[2] * t41);
+    jac_phi_q_v_A_i[3] = C_j[4] * t26 + C_j[3] * t25 + C_j[5] * t20 - (C_j[4] * t28 + C_j[3] * t27 - C_j[5] * t29);
+    jac_phi_q_v_A_i[5] = C_j[7] * t52 + C_j[6] * t51 + C_j[8] * t48 - (C_j[7] * t54 + C_j[6] * t53 - C_j[8] * t55);
     jac_phi_q_v_A_i[6] = t50 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t61 + (omega_i_in_j_1 * t58 - t47 *
         g_i_cross_h_j_in_j_1 + (t42 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t60)) - (omega_j[1] * t58 - omega_j[0]
         * t60 + omega_j[2] * t61);
-    jac_phi_q_v_A_i[7] = C_j[4] * t52 + C_j[3] * t51 + C_j[5] * t48 - (C_j[4] * t54 + C_j[3] * t53 - C_j[5] * t55);
     const jg_real t62 = omega_i[0] * A_j[2];
     const jg_real t63 = A_j[8] * A_ij_2 - A_j[2] * A_ij_8;
     const jg_real t64 = A_j[2] * A_ij_7 - A_j[8] * A_ij_1;
@@ -276,21 +275,13 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t73 = omega_j[1] * t69 + omega_j[2] * t65;
     const jg_real t74 = omega_j[2] * t66 - omega_j[0] * t69;
     const jg_real t75 = omega_j[1] * t66 + omega_j[0] * t65;
-    jac_phi_q_v_A_i[9] = C_j[7] * t72 + C_j[6] * t71 + C_j[8] * t68 - (C_j[7] * t74 + C_j[6] * t73 - C_j[8] * t75);
     const jg_real t76 = A_j[8] * C_i[3];
     const jg_real t77 = A_j[2] * C_i[3];
     const jg_real t78 = C_j[6] * t76 - C_j[8] * t77;
     const jg_real t79 = C_i[4] * t63 + C_i[5] * t64;
     const jg_real t80 = C_j[7] * t76 + C_j[8] * t79;
     const jg_real t81 = C_j[7] * t77 + C_j[6] * t79;
-    jac_phi_q_v_A_i[10] = t70 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t81 + (omega_i_in_j_1 * t78 - t67 *
-        g_i_cross_h_j_in_j_1 + (t62 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t80)) - (omega_j[1] * t78 - omega_j[0]
-        * t80 + omega_j[2] * t81);
-    jac_phi_q_v_A_i[11] = C_j[4] * t72 + C_j[3] * t71 + C_j[5] * t68 - (C_j[4] * t74 + C_j[3] * t73 - C_j[5] * t75);
     const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - omega_i[2] * s_i[0];
-    jac_phi_q_v_A_i[12] = s_i_cross_omega_i_in_i_1;
-    jac_phi_q_v_A_i[16] = s_i_cross_omega_i_in_i_1;
-    jac_phi_q_v_A_i[20] = s_i_cross_omega_i_in_i_1;
     const jg_real t83 = omega_i[1] * A_j[0];
     const jg_real t84 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
     const jg_real t85 = C_i[0] * t12 - C_i[2] * t84;
@@ -304,6 +295,15 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t93 = omega_j[0] * t85 - omega_j[1] * t86;
     const jg_real t94 = omega_j[1] * t89 - omega_j[2] * t85;
     const jg_real t95 = omega_j[2] * t86 - omega_j[0] * t89;
+    jac_phi_q_v_A_i[7] = C_j[4] * t52 + C_j[3] * t51 + C_j[5] * t48 - (C_j[4] * t54 + C_j[3] * t53 - C_j[5] * t55);
+    jac_phi_q_v_A_i[9] = C_j[7] * t72 + C_j[6] * t71 + C_j[8] * t68 - (C_j[7] * t74 + C_j[6] * t73 - C_j[8] * t75);
+    jac_phi_q_v_A_i[10] = t70 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t81 + (omega_i_in_j_1 * t78 - t67 *
+        g_i_cross_h_j_in_j_1 + (t62 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t80)) - (omega_j[1] * t78 - omega_j[0]
+        * t80 + omega_j[2] * t81);
+    jac_phi_q_v_A_i[11] = C_j[4] * t72 + C_j[3] * t71 + C_j[5] * t68 - (C_j[4] * t74 + C_j[3] * t73 - C_j[5] * t75);
+    jac_phi_q_v_A_i[12] = s_i_cross_omega_i_in_i_1;
+    jac_phi_q_v_A_i[16] = s_i_cross_omega_i_in_i_1;
+    jac_phi_q_v_A_i[20] = s_i_cross_omega_i_in_i_1;
     jac_phi_q_v_A_i[13] = C_j[7] * t92 + C_j[6] * t91 + C_j[8] * t88 - (C_j[7] * t95 + C_j[6] * t94 + C_j[8] * t93);
     const jg_real t96 = A_j[6] * C_i[4];
     const jg_real t97 = A_j[0] * C_i[4];
@@ -311,10 +311,6 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t99 = C_i[3] * t12 - C_i[5] * t84;
     const jg_real t100 = C_j[8] * t99 - C_j[7] * t96;
     const jg_real t101 = C_j[7] * t97 - C_j[6] * t99;
-    jac_phi_q_v_A_i[14] = t90 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t101 + (t87 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t98 + (t83 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t100)) - (omega_j[1] * t98 +
-        omega_j[0] * t100 + omega_j[2] * t101);
-    jac_phi_q_v_A_i[15] = C_j[4] * t92 + C_j[3] * t91 + C_j[5] * t88 - (C_j[4] * t95 + C_j[3] * t94 + C_j[5] * t93);
     const jg_real t102 = omega_i[1] * A_j[1];
     const jg_real t103 = A_j[7] * A_ij_0 - A_j[1] * A_ij_6;
     const jg_real t104 = C_i[0] * t43 - C_i[2] * t103;
@@ -328,19 +324,12 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t112 = omega_j[0] * t104 - omega_j[1] * t105;
     const jg_real t113 = omega_j[1] * t108 - omega_j[2] * t104;
     const jg_real t114 = omega_j[2] * t105 - omega_j[0] * t108;
-    jac_phi_q_v_A_i[17] = C_j[7] * t111 + C_j[6] * t110 + C_j[8] * t107 - (C_j[7] * t114 + C_j[6] * t113 + C_j[8] *
-        t112);
     const jg_real t115 = A_j[7] * C_i[4];
     const jg_real t116 = A_j[1] * C_i[4];
     const jg_real t117 = C_j[6] * t115 - C_j[8] * t116;
     const jg_real t118 = C_i[3] * t43 - C_i[5] * t103;
     const jg_real t119 = C_j[8] * t118 - C_j[7] * t115;
     const jg_real t120 = C_j[7] * t116 - C_j[6] * t118;
-    jac_phi_q_v_A_i[18] = t109 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t120 + (t106 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t117 + (t102 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t119)) - (omega_j[1] * t117 +
-        omega_j[0] * t119 + omega_j[2] * t120);
-    jac_phi_q_v_A_i[19] = C_j[4] * t111 + C_j[3] * t110 + C_j[5] * t107 - (C_j[4] * t114 + C_j[3] * t113 + C_j[5] *
-        t112);
     const jg_real t121 = omega_i[1] * A_j[2];
     const jg_real t122 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
     const jg_real t123 = C_i[0] * t63 - C_i[2] * t122;
@@ -354,23 +343,31 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t131 = omega_j[0] * t123 - omega_j[1] * t124;
     const jg_real t132 = omega_j[1] * t127 - omega_j[2] * t123;
     const jg_real t133 = omega_j[2] * t124 - omega_j[0] * t127;
-    jac_phi_q_v_A_i[21] = C_j[7] * t130 + C_j[6] * t129 + C_j[8] * t126 - (C_j[7] * t133 + C_j[6] * t132 + C_j[8] *
-        t131);
     const jg_real t134 = A_j[8] * C_i[4];
     const jg_real t135 = A_j[2] * C_i[4];
     const jg_real t136 = C_j[6] * t134 - C_j[8] * t135;
     const jg_real t137 = C_i[3] * t63 - C_i[5] * t122;
     const jg_real t138 = C_j[8] * t137 - C_j[7] * t134;
     const jg_real t139 = C_j[7] * t135 - C_j[6] * t137;
+    jac_phi_q_v_A_i[14] = t90 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t101 + (t87 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t98 + (t83 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t100)) - (omega_j[1] * t98 +
+        omega_j[0] * t100 + omega_j[2] * t101);
+    jac_phi_q_v_A_i[15] = C_j[4] * t92 + C_j[3] * t91 + C_j[5] * t88 - (C_j[4] * t95 + C_j[3] * t94 + C_j[5] * t93);
+    jac_phi_q_v_A_i[17] = C_j[7] * t111 + C_j[6] * t110 + C_j[8] * t107 - (C_j[7] * t114 + C_j[6] * t113 + C_j[8] *
+        t112);
+    jac_phi_q_v_A_i[18] = t109 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t120 + (t106 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t117 + (t102 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t119)) - (omega_j[1] * t117 +
+        omega_j[0] * t119 + omega_j[2] * t120);
+    jac_phi_q_v_A_i[19] = C_j[4] * t111 + C_j[3] * t110 + C_j[5] * t107 - (C_j[4] * t114 + C_j[3] * t113 + C_j[5] *
+        t112);
+    jac_phi_q_v_A_i[21] = C_j[7] * t130 + C_j[6] * t129 + C_j[8] * t126 - (C_j[7] * t133 + C_j[6] * t132 + C_j[8] *
+        t131);
     jac_phi_q_v_A_i[22] = t128 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t139 + (t125 * g_i_cross_h_j_in_j_1 +
         omega_i_in_j_1 * t136 + (t121 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t138)) - (omega_j[1] * t136 +
         omega_j[0] * t138 + omega_j[2] * t139);
     jac_phi_q_v_A_i[23] = C_j[4] * t130 + C_j[3] * t129 + C_j[5] * t126 - (C_j[4] * t133 + C_j[3] * t132 + C_j[5] *
         t131);
     const jg_real s_i_cross_omega_i_in_i_2 = omega_i[1] * s_i[0] - s_i[1] * omega_i[0];
-    jac_phi_q_v_A_i[24] = s_i_cross_omega_i_in_i_2;
-    jac_phi_q_v_A_i[28] = s_i_cross_omega_i_in_i_2;
-    jac_phi_q_v_A_i[32] = s_i_cross_omega_i_in_i_2;
     const jg_real t141 = omega_i[2] * A_j[0];
     const jg_real t142 = C_i[0] * t13 + C_i[1] * t84;
     const jg_real t143 = A_j[0] * C_i[2];
@@ -383,19 +380,12 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t150 = omega_j[0] * t142 - omega_j[1] * t143;
     const jg_real t151 = omega_j[1] * t146 - omega_j[2] * t142;
     const jg_real t152 = omega_j[2] * t143 - omega_j[0] * t146;
-    jac_phi_q_v_A_i[25] = C_j[7] * t149 + C_j[6] * t148 + C_j[8] * t145 - (C_j[7] * t152 + C_j[6] * t151 + C_j[8] *
-        t150);
     const jg_real t153 = A_j[6] * C_i[5];
     const jg_real t154 = A_j[0] * C_i[5];
     const jg_real t155 = C_j[6] * t153 - C_j[8] * t154;
     const jg_real t156 = C_i[3] * t13 + C_i[4] * t84;
     const jg_real t157 = C_j[8] * t156 - C_j[7] * t153;
     const jg_real t158 = C_j[7] * t154 - C_j[6] * t156;
-    jac_phi_q_v_A_i[26] = t147 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t158 + (t144 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t155 + (t141 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t157)) - (omega_j[1] * t155 +
-        omega_j[0] * t157 + omega_j[2] * t158);
-    jac_phi_q_v_A_i[27] = C_j[4] * t149 + C_j[3] * t148 + C_j[5] * t145 - (C_j[4] * t152 + C_j[3] * t151 + C_j[5] *
-        t150);
     const jg_real t159 = omega_i[2] * A_j[1];
     const jg_real t160 = C_i[0] * t44 + C_i[1] * t103;
     const jg_real t161 = A_j[1] * C_i[2];
@@ -408,19 +398,27 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t168 = omega_j[0] * t160 - omega_j[1] * t161;
     const jg_real t169 = omega_j[1] * t164 - omega_j[2] * t160;
     const jg_real t170 = omega_j[2] * t161 - omega_j[0] * t164;
-    jac_phi_q_v_A_i[29] = C_j[7] * t167 + C_j[6] * t166 + C_j[8] * t163 - (C_j[7] * t170 + C_j[6] * t169 + C_j[8] *
-        t168);
     const jg_real t171 = A_j[7] * C_i[5];
     const jg_real t172 = A_j[1] * C_i[5];
     const jg_real t173 = C_j[6] * t171 - C_j[8] * t172;
     const jg_real t174 = C_i[3] * t44 + C_i[4] * t103;
     const jg_real t175 = C_j[8] * t174 - C_j[7] * t171;
     const jg_real t176 = C_j[7] * t172 - C_j[6] * t174;
+    jac_phi_q_v_A_i[24] = s_i_cross_omega_i_in_i_2;
+    jac_phi_q_v_A_i[28] = s_i_cross_omega_i_in_i_2;
+    jac_phi_q_v_A_i[32] = s_i_cross_omega_i_in_i_2;
+    jac_phi_q_v_A_i[25] = C_j[7] * t149 + C_j[6] * t148 + C_j[8] * t145 - (C_j[7] * t152 + C_j[6] * t151 + C_j[8] *
+        t150);
+    jac_phi_q_v_A_i[26] = t147 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t158 + (t144 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t155 + (t141 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t157)) - (omega_j[1] * t155 +
+        omega_j[0] * t157 + omega_j[2] * t158);
+    jac_phi_q_v_A_i[27] = C_j[4] * t149 + C_j[3] * t148 + C_j[5] * t145 - (C_j[4] * t152 + C_j[3] * t151 + C_j[5] *
+        t150);
+    jac_phi_q_v_A_i[29] = C_j[7] * t167 + C_j[6] * t166 + C_j[8] * t163 - (C_j[7] * t170 + C_j[6] * t169 + C_j[8] *
+        t168);
     jac_phi_q_v_A_i[30] = t165 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t176 + (t162 * g_i_cross_h_j_in_j_1 +
         omega_i_in_j_1 * t173 + (t159 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t175)) - (omega_j[1] * t173 +
         omega_j[0] * t175 + omega_j[2] * t176);
-    jac_phi_q_v_A_i[31] = C_j[4] * t167 + C_j[3] * t166 + C_j[5] * t163 - (C_j[4] * t170 + C_j[3] * t169 + C_j[5] *
-        t168);
     const jg_real t177 = omega_i[2] * A_j[2];
     const jg_real t178 = C_i[0] * t64 + C_i[1] * t122;
     const jg_real t179 = A_j[2] * C_i[2];
@@ -433,23 +431,13 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t186 = omega_j[0] * t178 - omega_j[1] * t179;
     const jg_real t187 = omega_j[1] * t182 - omega_j[2] * t178;
     const jg_real t188 = omega_j[2] * t179 - omega_j[0] * t182;
-    jac_phi_q_v_A_i[33] = C_j[7] * t185 + C_j[6] * t184 + C_j[8] * t181 - (C_j[7] * t188 + C_j[6] * t187 + C_j[8] *
-        t186);
     const jg_real t189 = A_j[8] * C_i[5];
     const jg_real t190 = A_j[2] * C_i[5];
     const jg_real t191 = C_j[6] * t189 - C_j[8] * t190;
     const jg_real t192 = C_i[3] * t64 + C_i[4] * t122;
     const jg_real t193 = C_j[8] * t192 - C_j[7] * t189;
     const jg_real t194 = C_j[7] * t190 - C_j[6] * t192;
-    jac_phi_q_v_A_i[34] = t183 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t194 + (t180 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t191 + (t177 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t193)) - (omega_j[1] * t191 +
-        omega_j[0] * t193 + omega_j[2] * t194);
-    jac_phi_q_v_A_i[35] = C_j[4] * t185 + C_j[3] * t184 + C_j[5] * t181 - (C_j[4] * t188 + C_j[3] * t187 + C_j[5] *
-        t186);
     const jg_real t195 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
-    jac_phi_q_v_A_j[0] = t195;
-    jac_phi_q_v_A_j[4] = t195;
-    jac_phi_q_v_A_j[8] = t195;
     const jg_real t196 = omega_i[1] * A_i[3] + A_i[0] * omega_i[0] + omega_i[2] * A_i[6];
     const jg_real t197 = t196 * f_i_in_j_1;
     const jg_real t198 = A_i[6] * A_ij_7 - A_i[3] * A_ij_8;
@@ -466,6 +454,18 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t209 = omega_j[0] * t201 - t208;
     const jg_real t210 = omega_j[2] * t201;
     const jg_real t211 = omega_j[2] * t202;
+    jac_phi_q_v_A_i[31] = C_j[4] * t167 + C_j[3] * t166 + C_j[5] * t163 - (C_j[4] * t170 + C_j[3] * t169 + C_j[5] *
+        t168);
+    jac_phi_q_v_A_i[33] = C_j[7] * t185 + C_j[6] * t184 + C_j[8] * t181 - (C_j[7] * t188 + C_j[6] * t187 + C_j[8] *
+        t186);
+    jac_phi_q_v_A_i[34] = t183 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t194 + (t180 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t191 + (t177 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t193)) - (omega_j[1] * t191 +
+        omega_j[0] * t193 + omega_j[2] * t194);
+    jac_phi_q_v_A_i[35] = C_j[4] * t185 + C_j[3] * t184 + C_j[5] * t181 - (C_j[4] * t188 + C_j[3] * t187 + C_j[5] *
+        t186);
+    jac_phi_q_v_A_j[0] = t195;
+    jac_phi_q_v_A_j[4] = t195;
+    jac_phi_q_v_A_j[8] = t195;
     jac_phi_q_v_A_j[1] = C_j[7] * t207 + C_j[6] * t206 + C_j[8] * t205 - (C_j[7] * t211 - C_j[6] * t210 + C_j[8] *
         t209);
     const jg_real t212 = A_i[3] * C_i[4] + A_i[0] * C_i[3] + A_i[6] * C_i[5];
@@ -474,11 +474,6 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t215 = C_j[8] * t214;
     const jg_real t216 = C_j[7] * t212;
     const jg_real t217 = t216 - C_j[6] * t214;
-    jac_phi_q_v_A_j[2] = t204 * g_i_cross_h_j_in_j_1 - t213 * omega_i_in_j_1 + (t196 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t215) + omega_i_in_j_2 * t217 - (omega_j[0] * t215 - omega_j[1] * t213 + omega_j[2] *
-        t217);
-    jac_phi_q_v_A_j[3] = C_j[4] * t207 + C_j[3] * t206 + C_j[5] * t205 - (C_j[4] * t211 - C_j[3] * t210 + C_j[5] *
-        t209);
     const jg_real t218 = omega_i[1] * A_i[4] + omega_i[0] * A_i[1] + omega_i[2] * A_i[7];
     const jg_real t219 = t218 * f_i_in_j_1;
     const jg_real t220 = A_i[7] * A_ij_7 - A_i[4] * A_ij_8;
@@ -495,19 +490,12 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t231 = omega_j[0] * t223 - t230;
     const jg_real t232 = omega_j[2] * t223;
     const jg_real t233 = omega_j[2] * t224;
-    jac_phi_q_v_A_j[5] = C_j[7] * t229 + C_j[6] * t228 + C_j[8] * t227 - (C_j[7] * t233 - C_j[6] * t232 + C_j[8] *
-        t231);
     const jg_real t234 = A_i[4] * C_i[4] + A_i[1] * C_i[3] + A_i[7] * C_i[5];
     const jg_real t235 = C_j[8] * t234;
     const jg_real t236 = C_i[3] * t220 + C_i[4] * t221 + C_i[5] * t222;
     const jg_real t237 = C_j[8] * t236;
     const jg_real t238 = C_j[7] * t234;
     const jg_real t239 = t238 - C_j[6] * t236;
-    jac_phi_q_v_A_j[6] = t226 * g_i_cross_h_j_in_j_1 - t235 * omega_i_in_j_1 + (t218 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t237) + omega_i_in_j_2 * t239 - (omega_j[0] * t237 - omega_j[1] * t235 + omega_j[2] *
-        t239);
-    jac_phi_q_v_A_j[7] = C_j[4] * t229 + C_j[3] * t228 + C_j[5] * t227 - (C_j[4] * t233 - C_j[3] * t232 + C_j[5] *
-        t231);
     const jg_real t240 = omega_i[1] * A_i[5] + omega_i[0] * A_i[2] + omega_i[2] * A_i[8];
     const jg_real t241 = t240 * f_i_in_j_1;
     const jg_real t242 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
@@ -524,27 +512,33 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t253 = omega_j[0] * t245 - t252;
     const jg_real t254 = omega_j[2] * t245;
     const jg_real t255 = omega_j[2] * t246;
-    jac_phi_q_v_A_j[9] = C_j[7] * t251 + C_j[6] * t250 + C_j[8] * t249 - (C_j[7] * t255 - C_j[6] * t254 + C_j[8] *
-        t253);
     const jg_real t256 = A_i[5] * C_i[4] + A_i[2] * C_i[3] + A_i[8] * C_i[5];
     const jg_real t257 = C_j[8] * t256;
     const jg_real t258 = C_i[3] * t242 + C_i[4] * t243 + C_i[5] * t244;
     const jg_real t259 = C_j[8] * t258;
     const jg_real t260 = C_j[7] * t256;
     const jg_real t261 = t260 - C_j[6] * t258;
+    jac_phi_q_v_A_j[2] = t204 * g_i_cross_h_j_in_j_1 - t213 * omega_i_in_j_1 + (t196 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t215) + omega_i_in_j_2 * t217 - (omega_j[0] * t215 - omega_j[1] * t213 + omega_j[2] *
+        t217);
+    jac_phi_q_v_A_j[3] = C_j[4] * t207 + C_j[3] * t206 + C_j[5] * t205 - (C_j[4] * t211 - C_j[3] * t210 + C_j[5] *
+        t209);
+    jac_phi_q_v_A_j[5] = C_j[7] * t229 + C_j[6] * t228 + C_j[8] * t227 - (C_j[7] * t233 - C_j[6] * t232 + C_j[8] *
+        t231);
+    jac_phi_q_v_A_j[6] = t226 * g_i_cross_h_j_in_j_1 - t235 * omega_i_in_j_1 + (t218 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t237) + omega_i_in_j_2 * t239 - (omega_j[0] * t237 - omega_j[1] * t235 + omega_j[2] *
+        t239);
+    jac_phi_q_v_A_j[7] = C_j[4] * t229 + C_j[3] * t228 + C_j[5] * t227 - (C_j[4] * t233 - C_j[3] * t232 + C_j[5] *
+        t231);
+    jac_phi_q_v_A_j[9] = C_j[7] * t251 + C_j[6] * t250 + C_j[8] * t249 - (C_j[7] * t255 - C_j[6] * t254 + C_j[8] *
+        t253);
     jac_phi_q_v_A_j[10] = t248 * g_i_cross_h_j_in_j_1 - t257 * omega_i_in_j_1 + (t240 * g_i_cross_h_j_in_j_0 +
         omega_i_in_j_0 * t259) + omega_i_in_j_2 * t261 - (omega_j[0] * t259 - omega_j[1] * t257 + omega_j[2] *
         t261);
     jac_phi_q_v_A_j[11] = C_j[4] * t251 + C_j[3] * t250 + C_j[5] * t249 - (C_j[4] * t255 - C_j[3] * t254 + C_j[5] *
         t253);
     const jg_real t262 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
-    jac_phi_q_v_A_j[12] = t262;
-    jac_phi_q_v_A_j[13] = t262;
-    jac_phi_q_v_A_j[14] = t262;
     const jg_real t263 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
-    jac_phi_q_v_A_j[15] = t263;
-    jac_phi_q_v_A_j[19] = t263;
-    jac_phi_q_v_A_j[23] = t263;
     const jg_real t264 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
     const jg_real t265 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
     const jg_real t266 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
@@ -556,16 +550,20 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t272 = omega_j[0] * t268;
     const jg_real t273 = t208 - omega_j[2] * t268;
     const jg_real t274 = omega_j[0] * t202;
-    jac_phi_q_v_A_j[16] = C_j[7] * t270 + C_j[6] * t269 + C_j[8] * t271 - (C_j[6] * t273 - C_j[7] * t274 + C_j[8] *
-        t272);
     const jg_real t275 = C_j[6] * t212;
     const jg_real t276 = C_i[3] * t264 + C_i[4] * t265 + C_i[5] * t266;
     const jg_real t277 = C_j[8] * t276 - t216;
     const jg_real t278 = C_j[6] * t276;
+    jac_phi_q_v_A_j[12] = t262;
+    jac_phi_q_v_A_j[13] = t262;
+    jac_phi_q_v_A_j[14] = t262;
+    jac_phi_q_v_A_j[15] = t263;
+    jac_phi_q_v_A_j[19] = t263;
+    jac_phi_q_v_A_j[23] = t263;
+    jac_phi_q_v_A_j[16] = C_j[7] * t270 + C_j[6] * t269 + C_j[8] * t271 - (C_j[6] * t273 - C_j[7] * t274 + C_j[8] *
+        t272);
     jac_phi_q_v_A_j[17] = t196 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t278 + (t267 * g_i_cross_h_j_in_j_1 + t275
         * omega_i_in_j_1 + omega_i_in_j_0 * t277) - (omega_j[1] * t275 + omega_j[0] * t277 - omega_j[2] * t278);
-    jac_phi_q_v_A_j[18] = C_j[4] * t270 + C_j[3] * t269 + C_j[5] * t271 - (C_j[3] * t273 - C_j[4] * t274 + C_j[5] *
-        t272);
     const jg_real t279 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
     const jg_real t280 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
     const jg_real t281 = A_i[1] * A_ij_1 - A_i[4] * A_ij_0;
@@ -577,16 +575,10 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t287 = omega_j[0] * t283;
     const jg_real t288 = t230 - omega_j[2] * t283;
     const jg_real t289 = omega_j[0] * t224;
-    jac_phi_q_v_A_j[20] = C_j[7] * t285 + C_j[6] * t284 + C_j[8] * t286 - (C_j[6] * t288 - C_j[7] * t289 + C_j[8] *
-        t287);
     const jg_real t290 = C_j[6] * t234;
     const jg_real t291 = C_i[3] * t279 + C_i[4] * t280 + C_i[5] * t281;
     const jg_real t292 = C_j[8] * t291 - t238;
     const jg_real t293 = C_j[6] * t291;
-    jac_phi_q_v_A_j[21] = t218 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t293 + (t282 * g_i_cross_h_j_in_j_1 + t290
-        * omega_i_in_j_1 + omega_i_in_j_0 * t292) - (omega_j[1] * t290 + omega_j[0] * t292 - omega_j[2] * t293);
-    jac_phi_q_v_A_j[22] = C_j[4] * t285 + C_j[3] * t284 + C_j[5] * t286 - (C_j[3] * t288 - C_j[4] * t289 + C_j[5] *
-        t287);
     const jg_real t294 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
     const jg_real t295 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
     const jg_real t296 = A_i[2] * A_ij_1 - A_i[5] * A_ij_0;
@@ -598,12 +590,20 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t302 = omega_j[0] * t298;
     const jg_real t303 = t252 - omega_j[2] * t298;
     const jg_real t304 = omega_j[0] * t246;
-    jac_phi_q_v_A_j[24] = C_j[7] * t300 + C_j[6] * t299 + C_j[8] * t301 - (C_j[6] * t303 - C_j[7] * t304 + C_j[8] *
-        t302);
     const jg_real t305 = C_j[6] * t256;
     const jg_real t306 = C_i[3] * t294 + C_i[4] * t295 + C_i[5] * t296;
     const jg_real t307 = C_j[8] * t306 - t260;
     const jg_real t308 = C_j[6] * t306;
+    jac_phi_q_v_A_j[18] = C_j[4] * t270 + C_j[3] * t269 + C_j[5] * t271 - (C_j[3] * t273 - C_j[4] * t274 + C_j[5] *
+        t272);
+    jac_phi_q_v_A_j[20] = C_j[7] * t285 + C_j[6] * t284 + C_j[8] * t286 - (C_j[6] * t288 - C_j[7] * t289 + C_j[8] *
+        t287);
+    jac_phi_q_v_A_j[21] = t218 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t293 + (t282 * g_i_cross_h_j_in_j_1 + t290
+        * omega_i_in_j_1 + omega_i_in_j_0 * t292) - (omega_j[1] * t290 + omega_j[0] * t292 - omega_j[2] * t293);
+    jac_phi_q_v_A_j[22] = C_j[4] * t285 + C_j[3] * t284 + C_j[5] * t286 - (C_j[3] * t288 - C_j[4] * t289 + C_j[5] *
+        t287);
+    jac_phi_q_v_A_j[24] = C_j[7] * t300 + C_j[6] * t299 + C_j[8] * t301 - (C_j[6] * t303 - C_j[7] * t304 + C_j[8] *
+        t302);
     jac_phi_q_v_A_j[25] = t240 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t308 + (t297 * g_i_cross_h_j_in_j_1 + t305
         * omega_i_in_j_1 + omega_i_in_j_0 * t307) - (omega_j[1] * t305 + omega_j[0] * t307 - omega_j[2] * t308);
     jac_phi_q_v_A_j[26] = C_j[4] * t300 + C_j[3] * t299 + C_j[5] * t301 - (C_j[3] * t303 - C_j[4] * t304 + C_j[5] *
@@ -623,38 +623,38 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real t312 = omega_j[0] * A_ij_3 - omega_j[1] * A_ij_0;
     const jg_real t313 = omega_j[1] * A_ij_6 - omega_j[2] * A_ij_3;
     const jg_real t314 = omega_j[2] * A_ij_0 - omega_j[0] * A_ij_6;
-    jac_phi_q_v_geometry[9] = C_j[7] * t311 + C_j[6] * t310 + C_j[8] * t309 - (C_j[7] * t314 + C_j[6] * t313 +
-        C_j[8] * t312);
-    jac_phi_q_v_geometry[10] = C_j[4] * t311 + C_j[3] * t310 + C_j[5] * t309 - (C_j[4] * t314 + C_j[3] * t313 +
-        C_j[5] * t312);
     const jg_real t315 = A_ij_4 * omega_i_in_j_0 - A_ij_1 * omega_i_in_j_1;
     const jg_real t316 = A_ij_7 * omega_i_in_j_1 - A_ij_4 * omega_i_in_j_2;
     const jg_real t317 = A_ij_1 * omega_i_in_j_2 - A_ij_7 * omega_i_in_j_0;
     const jg_real t318 = omega_j[0] * A_ij_4 - omega_j[1] * A_ij_1;
     const jg_real t319 = omega_j[1] * A_ij_7 - omega_j[2] * A_ij_4;
     const jg_real t320 = omega_j[2] * A_ij_1 - omega_j[0] * A_ij_7;
-    jac_phi_q_v_geometry[11] = C_j[7] * t317 + C_j[6] * t316 + C_j[8] * t315 - (C_j[7] * t320 + C_j[6] * t319 +
-        C_j[8] * t318);
-    jac_phi_q_v_geometry[12] = C_j[4] * t317 + C_j[3] * t316 + C_j[5] * t315 - (C_j[4] * t320 + C_j[3] * t319 +
-        C_j[5] * t318);
     const jg_real t321 = A_ij_5 * omega_i_in_j_0 - A_ij_2 * omega_i_in_j_1;
     const jg_real t322 = A_ij_8 * omega_i_in_j_1 - A_ij_5 * omega_i_in_j_2;
     const jg_real t323 = A_ij_2 * omega_i_in_j_2 - A_ij_8 * omega_i_in_j_0;
     const jg_real t324 = omega_j[0] * A_ij_5 - omega_j[1] * A_ij_2;
     const jg_real t325 = omega_j[1] * A_ij_8 - omega_j[2] * A_ij_5;
     const jg_real t326 = omega_j[2] * A_ij_2 - omega_j[0] * A_ij_8;
+    const jg_real t327 = C_j[6] * A_ij_6 - C_j[8] * A_ij_0;
+    const jg_real t328 = C_j[8] * A_ij_3 - C_j[7] * A_ij_6;
+    const jg_real t329 = C_j[7] * A_ij_0 - C_j[6] * A_ij_3;
+    const jg_real t330 = A_ij_7 * C_j[6] - A_ij_1 * C_j[8];
+    const jg_real t331 = C_j[8] * A_ij_4 - A_ij_7 * C_j[7];
+    const jg_real t332 = A_ij_1 * C_j[7] - C_j[6] * A_ij_4;
+    jac_phi_q_v_geometry[9] = C_j[7] * t311 + C_j[6] * t310 + C_j[8] * t309 - (C_j[7] * t314 + C_j[6] * t313 +
+        C_j[8] * t312);
+    jac_phi_q_v_geometry[10] = C_j[4] * t311 + C_j[3] * t310 + C_j[5] * t309 - (C_j[4] * t314 + C_j[3] * t313 +
+        C_j[5] * t312);
+    jac_phi_q_v_geometry[11] = C_j[7] * t317 + C_j[6] * t316 + C_j[8] * t315 - (C_j[7] * t320 + C_j[6] * t319 +
+        C_j[8] * t318);
+    jac_phi_q_v_geometry[12] = C_j[4] * t317 + C_j[3] * t316 + C_j[5] * t315 - (C_j[4] * t320 + C_j[3] * t319 +
+        C_j[5] * t318);
     jac_phi_q_v_geometry[13] = C_j[7] * t323 + C_j[6] * t322 + C_j[8] * t321 - (C_j[7] * t326 + C_j[6] * t325 +
         C_j[8] * t324);
     jac_phi_q_v_geometry[14] = C_j[4] * t323 + C_j[3] * t322 + C_j[5] * t321 - (C_j[4] * t326 + C_j[3] * t325 +
         C_j[5] * t324);
-    const jg_real t327 = C_j[6] * A_ij_6 - C_j[8] * A_ij_0;
-    const jg_real t328 = C_j[8] * A_ij_3 - C_j[7] * A_ij_6;
-    const jg_real t329 = C_j[7] * A_ij_0 - C_j[6] * A_ij_3;
     jac_phi_q_v_geometry[15] = omega_i_in_j_1 * t327 + omega_i_in_j_0 * t328 + omega_i_in_j_2 * t329 - (omega_j[1] *
         t327 + omega_j[0] * t328 + omega_j[2] * t329);
-    const jg_real t330 = A_ij_7 * C_j[6] - A_ij_1 * C_j[8];
-    const jg_real t331 = C_j[8] * A_ij_4 - A_ij_7 * C_j[7];
-    const jg_real t332 = A_ij_1 * C_j[7] - C_j[6] * A_ij_4;
     jac_phi_q_v_geometry[16] = omega_i_in_j_1 * t330 + omega_i_in_j_0 * t331 + omega_i_in_j_2 * t332 - (omega_j[1] *
         t330 + omega_j[0] * t331 + omega_j[2] * t332);
     const jg_real t333 = A_ij_8 * C_j[6] - A_ij_2 * C_j[8];
@@ -669,28 +669,28 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_geometry[22] = omega_j[0] * A_j[7] - omega_j[2] * A_j[1];
     jac_phi_q_v_geometry[23] = omega_j[0] * A_j[8] - omega_j[2] * A_j[2];
     jac_phi_q_v_geometry[24] = omega_j[1] * A_j[0] - omega_j[0] * A_j[3];
-    jac_phi_q_v_geometry[25] = omega_j[1] * A_j[1] - omega_j[0] * A_j[4];
-    jac_phi_q_v_geometry[26] = omega_j[1] * A_j[2] - omega_j[0] * A_j[5];
     /* omega_i_cross_f_i_in_j = omega_i x f_i, axes of body j */
     const jg_real omega_i_cross_f_i_in_j_0 = f_i_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * f_i_in_j_1;
     /* omega_j_cross_f_i_in_j = omega_j x f_i, axes of body j */
     const jg_real omega_j_cross_f_i_in_j_0 = omega_j[1] * f_i_in_j_2 - omega_j[2] * f_i_in_j_1;
     const jg_real t338 = omega_i_cross_f_i_in_j_0 - omega_j_cross_f_i_in_j_0;
-    jac_phi_q_v_geometry[27] = t338;
-    jac_phi_q_v_geometry[30] = t338;
     const jg_real omega_i_cross_f_i_in_j_1 = f_i_in_j_0 * omega_i_in_j_2 - omega_i_in_j_0 * f_i_in_j_2;
     const jg_real omega_j_cross_f_i_in_j_1 = omega_j[2] * f_i_in_j_0 - omega_j[0] * f_i_in_j_2;
     const jg_real t341 = omega_i_cross_f_i_in_j_1 - omega_j_cross_f_i_in_j_1;
-    jac_phi_q_v_geometry[28] = t341;
-    jac_phi_q_v_geometry[32] = t341;
     const jg_real omega_i_cross_f_i_in_j_2 = omega_i_in_j_0 * f_i_in_j_1 - f_i_in_j_0 * omega_i_in_j_1;
     const jg_real omega_j_cross_f_i_in_j_2 = omega_j[0] * f_i_in_j_1 - omega_j[1] * f_i_in_j_0;
     const jg_real t344 = omega_i_cross_f_i_in_j_2 - omega_j_cross_f_i_in_j_2;
+    jac_phi_q_v_geometry[25] = omega_j[1] * A_j[1] - omega_j[0] * A_j[4];
+    jac_phi_q_v_geometry[26] = omega_j[1] * A_j[2] - omega_j[0] * A_j[5];
+    jac_phi_q_v_geometry[27] = t338;
+    jac_phi_q_v_geometry[30] = t338;
+    jac_phi_q_v_geometry[28] = t341;
+    jac_phi_q_v_geometry[32] = t341;
     jac_phi_q_v_geometry[29] = t344;
     jac_phi_q_v_geometry[34] = t344;
     jac_phi_q_v_geometry[31] = g_i_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
         - omega_j[2] * g_i_in_j_1);
-    jac_phi_q_v_geometry[33] = omega_i_in_j_2 * g_i_in_j_0 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
+    jac_phi_q_v_geometry[33] = g_i_in_j_0 * omega_i_in_j_2 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
         - omega_j[0] * g_i_in_j_2);
     jac_phi_q_v_geometry[35] = omega_i_in_j_0 * g_i_in_j_1 - g_i_in_j_0 * omega_i_in_j_1 - (omega_j[0] * g_i_in_j_1
         - omega_j[1] * g_i_in_j_0);
@@ -699,10 +699,13 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     jac_phi_q_v_velocity[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
-    jac_phi_q_v_velocity[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
     const jg_real t345 = A_ij_0 * f_i_in_j_1 - A_ij_3 * f_i_in_j_0;
     const jg_real t346 = A_ij_3 * f_i_in_j_2 - A_ij_6 * f_i_in_j_1;
     const jg_real t347 = A_ij_6 * f_i_in_j_0 - A_ij_0 * f_i_in_j_2;
+    const jg_real t348 = A_ij_1 * f_i_in_j_1 - A_ij_4 * f_i_in_j_0;
+    const jg_real t349 = A_ij_4 * f_i_in_j_2 - A_ij_7 * f_i_in_j_1;
+    const jg_real t350 = A_ij_7 * f_i_in_j_0 - A_ij_1 * f_i_in_j_2;
+    jac_phi_q_v_velocity[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
     jac_phi_q_v_velocity[6] = C_j[7] * t347 + C_j[6] * t346 + C_j[8] * t345;
     jac_phi_q_v_velocity[7] = A_ij_3 * g_i_cross_h_j_in_j_1 + A_ij_0 * g_i_cross_h_j_in_j_0 + A_ij_6 *
         g_i_cross_h_j_in_j_2;
@@ -710,19 +713,16 @@ static void jg_rigid_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_q_v_velocity[9] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
     jac_phi_q_v_velocity[10] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
     jac_phi_q_v_velocity[11] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    const jg_real t348 = A_ij_1 * f_i_in_j_1 - A_ij_4 * f_i_in_j_0;
-    const jg_real t349 = A_ij_4 * f_i_in_j_2 - A_ij_7 * f_i_in_j_1;
-    const jg_real t350 = A_ij_7 * f_i_in_j_0 - A_ij_1 * f_i_in_j_2;
     jac_phi_q_v_velocity[12] = C_j[7] * t350 + C_j[6] * t349 + C_j[8] * t348;
+    const jg_real t351 = A_ij_2 * f_i_in_j_1 - A_ij_5 * f_i_in_j_0;
+    const jg_real t352 = A_ij_5 * f_i_in_j_2 - A_ij_8 * f_i_in_j_1;
+    const jg_real t353 = A_ij_8 * f_i_in_j_0 - A_ij_2 * f_i_in_j_2;
     jac_phi_q_v_velocity[13] = A_ij_4 * g_i_cross_h_j_in_j_1 + A_ij_1 * g_i_cross_h_j_in_j_0 + A_ij_7 *
         g_i_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[14] = C_j[4] * t350 + C_j[3] * t349 + C_j[5] * t348;
     jac_phi_q_v_velocity[15] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
     jac_phi_q_v_velocity[16] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     jac_phi_q_v_velocity[17] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
-    const jg_real t351 = A_ij_2 * f_i_in_j_1 - A_ij_5 * f_i_in_j_0;
-    const jg_real t352 = A_ij_5 * f_i_in_j_2 - A_ij_8 * f_i_in_j_1;
-    const jg_real t353 = A_ij_8 * f_i_in_j_0 - A_ij_2 * f_i_in_j_2;
     jac_phi_q_v_velocity[18] = C_j[7] * t353 + C_j[6] * t352 + C_j[8] * t351;
     jac_phi_q_v_velocity[19] = A_ij_5 * g_i_cross_h_j_in_j_1 + A_ij_2 * g_i_cross_h_j_in_j_0 + A_ij_8 *
         g_i_cross_h_j_in_j_2;
@@ -771,20 +771,16 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real v_0_in_i_2 = lambda[3] * C_i[2] + lambda[4] * C_i[5];
     const jg_real t8 = C_j[3] * t2 + C_j[4] * t4 + C_j[5] * t5;
     const jg_real t9 = v_0_in_i_2 * t6 + C_i[2] * t8 * lambda[5];
-    jac_phi_q_t_lambda_A_i[0] = -t9;
     const jg_real t10 = A_j[3] * C_j[7] + C_j[6] * A_j[0] + A_j[6] * C_j[8];
     const jg_real t11 = A_j[3] * C_j[4] + A_j[0] * C_j[3] + A_j[6] * C_j[5];
     const jg_real t12 = v_0_in_i_2 * t10 + C_i[2] * t11 * lambda[5];
     const jg_real t13 = lambda[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[18] = t13;
-    jac_phi_q_t_lambda_A_i[1] = t12 - t13;
     const jg_real v_0_in_i_0 = lambda[3] * C_i[0] + lambda[4] * C_i[3];
     const jg_real v_0_in_i_1 = lambda[3] * C_i[1] + lambda[4] * C_i[4];
     const jg_real t16 = v_0_in_i_1 * t10;
     const jg_real t17 = C_i[1] * t11;
     const jg_real t18 = t16 - v_0_in_i_0 * t6 + lambda[5] * (t17 - C_i[0] * t8);
     const jg_real t19 = lambda[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[2] = t19 - t18;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
@@ -798,153 +794,157 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real v_1_in_i_0 = v_0_in_i_2 * h_j_in_i_1 - v_0_in_i_1 * h_j_in_i_2;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_1 = C_j[3] * A_ji_3 + C_j[4] * A_ji_4 + C_j[5] * A_ji_5;
-    const jg_real g_j_in_i_2 = C_j[4] * A_ji_7 + C_j[3] * A_ji_6 + C_j[5] * A_ji_8;
+    const jg_real g_j_in_i_2 = A_ji_7 * C_j[4] + C_j[3] * A_ji_6 + C_j[5] * A_ji_8;
     /* g_j_cross_f_i_in_i = g_j x f_i, axes of body i */
     const jg_real g_j_cross_f_i_in_i_0 = C_i[2] * g_j_in_i_1 - C_i[1] * g_j_in_i_2;
     /* v_2_in_i = lambda_5 g_j x f_i, axes of body i */
     const jg_real v_2_in_i_0 = lambda[5] * g_j_cross_f_i_in_i_0;
     /* v_3_in_i = lambda_3 h_j x f_i + lambda_4 h_j x g_i + lambda_5 g_j x f_i, axes of body i */
     const jg_real v_3_in_i_0 = v_1_in_i_0 + v_2_in_i_0;
-    const jg_real h_j_in_i_0 = C_j[7] * A_ji_1 + C_j[6] * A_ji_0 + C_j[8] * A_ji_2;
+    const jg_real h_j_in_i_0 = C_j[6] * A_ji_0 + C_j[7] * A_ji_1 + C_j[8] * A_ji_2;
     const jg_real v_1_in_i_1 = v_0_in_i_0 * h_j_in_i_2 - v_0_in_i_2 * h_j_in_i_0;
-    const jg_real g_j_in_i_0 = C_j[4] * A_ji_1 + C_j[3] * A_ji_0 + C_j[5] * A_ji_2;
+    const jg_real g_j_in_i_0 = C_j[3] * A_ji_0 + C_j[4] * A_ji_1 + A_ji_2 * C_j[5];
     const jg_real g_j_cross_f_i_in_i_1 = C_i[0] * g_j_in_i_2 - C_i[2] * g_j_in_i_0;
     const jg_real v_2_in_i_1 = lambda[5] * g_j_cross_f_i_in_i_1;
     const jg_real v_3_in_i_1 = v_1_in_i_1 + v_2_in_i_1;
     /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
     const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
-    jac_phi_q_t_lambda_geometry[4] = lambda_0_1_2_in_i_1;
     const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
-    jac_phi_q_t_lambda_geometry[3] = lambda_0_1_2_in_i_0;
     const jg_real t42 = lambda[0] * A_ji_2 + A_j[6] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t5;
     const jg_real t43 = lambda[0] * A_ji_1 + A_j[3] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t4;
+    const jg_real t44 = lambda[0] * A_ji_0 + A_j[0] * lambda_0_1_2_in_i_0 + t2 * lambda_0_1_2_in_i_1;
+    jac_phi_q_t_lambda_A_i[0] = -t9;
+    jac_phi_q_t_lambda_A_i[18] = t13;
+    jac_phi_q_t_lambda_A_i[1] = t12 - t13;
+    jac_phi_q_t_lambda_A_i[2] = t19 - t18;
+    jac_phi_q_t_lambda_geometry[4] = lambda_0_1_2_in_i_1;
+    jac_phi_q_t_lambda_geometry[3] = lambda_0_1_2_in_i_0;
     jac_phi_q_t_lambda_A_i[3] = s_j[1] * t42 - s_j[2] * t43 + (t2 * v_3_in_i_1 - A_ji_3 * t12 + (A_j[0] * v_3_in_i_0
         + A_ji_0 * t9) + A_ji_6 * t18);
-    const jg_real t44 = lambda[0] * A_ji_0 + A_j[0] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t2;
     jac_phi_q_t_lambda_A_i[4] = s_j[2] * t44 - s_j[0] * t42 + (t4 * v_3_in_i_1 - A_ji_4 * t12 + (A_j[3] * v_3_in_i_0
         + A_ji_1 * t9) + A_ji_7 * t18);
-    jac_phi_q_t_lambda_A_i[5] = s_j[0] * t43 - s_j[1] * t44 + (t5 * v_3_in_i_1 - A_ji_5 * t12 + (A_j[6] * v_3_in_i_0
-        + A_ji_2 * t9) + A_ji_8 * t18);
     const jg_real t45 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t46 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t47 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t48 = C_j[6] * t45 + C_j[7] * t46 + C_j[8] * t47;
     const jg_real t49 = C_j[3] * t45 + C_j[4] * t46 + C_j[5] * t47;
     const jg_real t50 = v_0_in_i_2 * t48 + C_i[2] * t49 * lambda[5];
-    jac_phi_q_t_lambda_A_i[6] = -t50;
     const jg_real t51 = A_j[4] * C_j[7] + C_j[6] * A_j[1] + A_j[7] * C_j[8];
     const jg_real t52 = A_j[4] * C_j[4] + A_j[1] * C_j[3] + A_j[7] * C_j[5];
     const jg_real t53 = v_0_in_i_2 * t51 + C_i[2] * t52 * lambda[5];
     const jg_real t54 = lambda[1] * s_i[2];
-    jac_phi_q_t_lambda_A_i[23] = t54;
-    jac_phi_q_t_lambda_A_i[7] = t53 - t54;
     const jg_real t55 = v_0_in_i_1 * t51;
     const jg_real t56 = C_i[1] * t52;
     const jg_real t57 = t55 - v_0_in_i_0 * t48 + lambda[5] * (t56 - C_i[0] * t49);
     const jg_real t58 = lambda[1] * s_i[1];
-    jac_phi_q_t_lambda_A_i[8] = t58 - t57;
     const jg_real t59 = lambda[1] * A_ji_2 + A_j[7] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t47;
     const jg_real t60 = lambda[1] * A_ji_1 + A_j[4] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t46;
+    const jg_real t61 = lambda[1] * A_ji_0 + A_j[1] * lambda_0_1_2_in_i_0 + t45 * lambda_0_1_2_in_i_1;
+    jac_phi_q_t_lambda_A_i[5] = s_j[0] * t43 - s_j[1] * t44 + (A_j[6] * v_3_in_i_0 + A_ji_2 * t9 + (t5 * v_3_in_i_1
+        - A_ji_5 * t12) + A_ji_8 * t18);
+    jac_phi_q_t_lambda_A_i[6] = -t50;
+    jac_phi_q_t_lambda_A_i[23] = t54;
+    jac_phi_q_t_lambda_A_i[7] = t53 - t54;
+    jac_phi_q_t_lambda_A_i[8] = t58 - t57;
     jac_phi_q_t_lambda_A_i[9] = s_j[1] * t59 - s_j[2] * t60 + (t45 * v_3_in_i_1 - A_ji_3 * t53 + (A_j[1] *
         v_3_in_i_0 + A_ji_0 * t50) + A_ji_6 * t57);
-    const jg_real t61 = lambda[1] * A_ji_0 + A_j[1] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t45;
     jac_phi_q_t_lambda_A_i[10] = s_j[2] * t61 - s_j[0] * t59 + (t46 * v_3_in_i_1 - A_ji_4 * t53 + (A_j[4] *
         v_3_in_i_0 + A_ji_1 * t50) + A_ji_7 * t57);
-    jac_phi_q_t_lambda_A_i[11] = s_j[0] * t60 - s_j[1] * t61 + (t47 * v_3_in_i_1 - A_ji_5 * t53 + (A_j[7] *
-        v_3_in_i_0 + A_ji_2 * t50) + A_ji_8 * t57);
+    jac_phi_q_t_lambda_A_i[11] = s_j[0] * t60 - s_j[1] * t61 + (A_j[7] * v_3_in_i_0 + A_ji_2 * t50 + (t47 *
+        v_3_in_i_1 - A_ji_5 * t53) + A_ji_8 * t57);
     const jg_real t62 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t63 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t64 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t65 = C_j[6] * t62 + C_j[7] * t63 + C_j[8] * t64;
     const jg_real t66 = C_j[3] * t62 + C_j[4] * t63 + C_j[5] * t64;
     const jg_real t67 = v_0_in_i_2 * t65 + C_i[2] * t66 * lambda[5];
-    jac_phi_q_t_lambda_A_i[12] = -t67;
     const jg_real t68 = A_j[5] * C_j[7] + C_j[6] * A_j[2] + A_j[8] * C_j[8];
     const jg_real t69 = A_j[5] * C_j[4] + A_j[2] * C_j[3] + A_j[8] * C_j[5];
     const jg_real t70 = v_0_in_i_2 * t68 + C_i[2] * t69 * lambda[5];
     const jg_real t71 = lambda[2] * s_i[2];
-    jac_phi_q_t_lambda_A_i[28] = t71;
-    jac_phi_q_t_lambda_A_i[13] = t70 - t71;
     const jg_real t72 = v_0_in_i_1 * t68;
     const jg_real t73 = C_i[1] * t69;
     const jg_real t74 = t72 - v_0_in_i_0 * t65 + lambda[5] * (t73 - C_i[0] * t66);
     const jg_real t75 = lambda[2] * s_i[1];
-    jac_phi_q_t_lambda_A_i[14] = t75 - t74;
     const jg_real t76 = lambda[2] * A_ji_2 + A_j[8] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t64;
     const jg_real t77 = lambda[2] * A_ji_1 + A_j[5] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t63;
+    const jg_real t78 = lambda[2] * A_ji_0 + A_j[2] * lambda_0_1_2_in_i_0 + t62 * lambda_0_1_2_in_i_1;
+    const jg_real t79 = lambda[0] * s_i[0];
+    jac_phi_q_t_lambda_A_i[12] = -t67;
+    jac_phi_q_t_lambda_A_i[28] = t71;
+    jac_phi_q_t_lambda_A_i[13] = t70 - t71;
+    jac_phi_q_t_lambda_A_i[14] = t75 - t74;
     jac_phi_q_t_lambda_A_i[15] = s_j[1] * t76 - s_j[2] * t77 + (t62 * v_3_in_i_1 - A_ji_3 * t70 + (A_j[2] *
         v_3_in_i_0 + A_ji_0 * t67) + A_ji_6 * t74);
-    const jg_real t78 = lambda[2] * A_ji_0 + A_j[2] * lambda_0_1_2_in_i_0 + lambda_0_1_2_in_i_1 * t62;
     jac_phi_q_t_lambda_A_i[16] = s_j[2] * t78 - s_j[0] * t76 + (t63 * v_3_in_i_1 - A_ji_4 * t70 + (A_j[5] *
         v_3_in_i_0 + A_ji_1 * t67) + A_ji_7 * t74);
-    jac_phi_q_t_lambda_A_i[17] = s_j[0] * t77 - s_j[1] * t78 + (t64 * v_3_in_i_1 - A_ji_5 * t70 + (A_j[8] *
-        v_3_in_i_0 + A_ji_2 * t67) + A_ji_8 * t74);
-    const jg_real t79 = lambda[0] * s_i[0];
+    jac_phi_q_t_lambda_A_i[17] = s_j[0] * t77 - s_j[1] * t78 + (A_j[8] * v_3_in_i_0 + A_ji_2 * t67 + (t64 *
+        v_3_in_i_1 - A_ji_5 * t70) + A_ji_8 * t74);
     jac_phi_q_t_lambda_A_i[19] = -t79;
     const jg_real t80 = lambda[0] * A_ji_5;
     const jg_real t81 = lambda[0] * A_ji_4;
-    jac_phi_q_t_lambda_A_i[20] = s_j[1] * t80 - s_j[2] * t81;
     const jg_real t82 = lambda[0] * A_ji_3;
-    jac_phi_q_t_lambda_A_i[21] = s_j[2] * t82 - s_j[0] * t80;
-    jac_phi_q_t_lambda_A_i[22] = s_j[0] * t81 - s_j[1] * t82;
     const jg_real t83 = lambda[1] * s_i[0];
-    jac_phi_q_t_lambda_A_i[24] = -t83;
     const jg_real t84 = lambda[1] * A_ji_5;
     const jg_real t85 = lambda[1] * A_ji_4;
-    jac_phi_q_t_lambda_A_i[25] = s_j[1] * t84 - s_j[2] * t85;
     const jg_real t86 = lambda[1] * A_ji_3;
-    jac_phi_q_t_lambda_A_i[26] = s_j[2] * t86 - s_j[0] * t84;
-    jac_phi_q_t_lambda_A_i[27] = s_j[0] * t85 - s_j[1] * t86;
     const jg_real t87 = lambda[2] * s_i[0];
+    jac_phi_q_t_lambda_A_i[20] = t80 * s_j[1] - t81 * s_j[2];
+    jac_phi_q_t_lambda_A_i[21] = s_j[2] * t82 - t80 * s_j[0];
+    jac_phi_q_t_lambda_A_i[22] = t81 * s_j[0] - s_j[1] * t82;
+    jac_phi_q_t_lambda_A_i[24] = -t83;
+    jac_phi_q_t_lambda_A_i[25] = t84 * s_j[1] - t85 * s_j[2];
+    jac_phi_q_t_lambda_A_i[26] = s_j[2] * t86 - t84 * s_j[0];
+    jac_phi_q_t_lambda_A_i[27] = t85 * s_j[0] - s_j[1] * t86;
     jac_phi_q_t_lambda_A_i[29] = -t87;
     const jg_real t88 = lambda[2] * A_ji_5;
     const jg_real t89 = lambda[2] * A_ji_4;
-    jac_phi_q_t_lambda_A_i[30] = s_j[1] * t88 - s_j[2] * t89;
     const jg_real t90 = lambda[2] * A_ji_3;
-    jac_phi_q_t_lambda_A_i[31] = s_j[2] * t90 - s_j[0] * t88;
-    jac_phi_q_t_lambda_A_i[32] = s_j[0] * t89 - s_j[1] * t90;
     const jg_real t91 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t92 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t93 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t94 = C_j[6] * t91 + C_j[7] * t92 + C_j[8] * t93;
     const jg_real t95 = C_j[3] * t91 + C_j[4] * t92 + C_j[5] * t93;
     const jg_real t96 = v_0_in_i_2 * t94 - t16 + lambda[5] * (C_i[2] * t95 - t17);
-    jac_phi_q_t_lambda_A_i[33] = -(t19 + t96);
     const jg_real t97 = v_0_in_i_0 * t10 + C_i[0] * t11 * lambda[5];
-    jac_phi_q_t_lambda_A_i[34] = t79 - t97;
     const jg_real t98 = v_0_in_i_0 * t94 + C_i[0] * t95 * lambda[5];
-    jac_phi_q_t_lambda_A_i[35] = t98;
     const jg_real v_1_in_i_2 = v_0_in_i_1 * h_j_in_i_0 - v_0_in_i_0 * h_j_in_i_1;
     const jg_real g_j_cross_f_i_in_i_2 = C_i[1] * g_j_in_i_0 - C_i[0] * g_j_in_i_1;
     const jg_real v_2_in_i_2 = lambda[5] * g_j_cross_f_i_in_i_2;
     const jg_real v_3_in_i_2 = v_1_in_i_2 + v_2_in_i_2;
     const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_geometry[0] = lambda_0_1_2_in_i_2;
     const jg_real t104 = lambda[0] * A_ji_8 + A_j[6] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t93;
     const jg_real t105 = lambda[0] * A_ji_7 + A_j[3] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t92;
+    jac_phi_q_t_lambda_A_i[30] = t88 * s_j[1] - t89 * s_j[2];
+    jac_phi_q_t_lambda_A_i[31] = s_j[2] * t90 - t88 * s_j[0];
+    jac_phi_q_t_lambda_A_i[32] = t89 * s_j[0] - s_j[1] * t90;
+    jac_phi_q_t_lambda_A_i[33] = -(t19 + t96);
+    jac_phi_q_t_lambda_A_i[34] = t79 - t97;
+    jac_phi_q_t_lambda_A_i[35] = t98;
+    jac_phi_q_t_lambda_geometry[0] = lambda_0_1_2_in_i_2;
     jac_phi_q_t_lambda_A_i[36] = s_j[1] * t104 - s_j[2] * t105 + (A_j[0] * v_3_in_i_2 - A_ji_6 * t98 + (t91 *
         v_3_in_i_1 + A_ji_3 * t97 + A_ji_0 * t96));
-    const jg_real t106 = lambda[0] * A_ji_6 + A_j[0] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t91;
-    jac_phi_q_t_lambda_A_i[37] = s_j[2] * t106 - s_j[0] * t104 + (A_j[3] * v_3_in_i_2 - A_ji_7 * t98 + (t92 *
-        v_3_in_i_1 + A_ji_4 * t97 + A_ji_1 * t96));
-    jac_phi_q_t_lambda_A_i[38] = s_j[0] * t105 - s_j[1] * t106 + (A_j[6] * v_3_in_i_2 - A_ji_8 * t98 + (t93 *
-        v_3_in_i_1 + A_ji_5 * t97 + A_ji_2 * t96));
+    const jg_real t106 = lambda[0] * A_ji_6 + A_j[0] * lambda_0_1_2_in_i_2 + t91 * lambda_0_1_2_in_i_1;
     const jg_real t107 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t108 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t109 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t110 = C_j[6] * t107 + C_j[7] * t108 + C_j[8] * t109;
     const jg_real t111 = C_j[3] * t107 + C_j[4] * t108 + C_j[5] * t109;
     const jg_real t112 = v_0_in_i_2 * t110 - t55 + lambda[5] * (C_i[2] * t111 - t56);
-    jac_phi_q_t_lambda_A_i[39] = -(t58 + t112);
     const jg_real t113 = v_0_in_i_0 * t51 + C_i[0] * t52 * lambda[5];
-    jac_phi_q_t_lambda_A_i[40] = t83 - t113;
     const jg_real t114 = v_0_in_i_0 * t110 + C_i[0] * t111 * lambda[5];
-    jac_phi_q_t_lambda_A_i[41] = t114;
     const jg_real t115 = lambda[1] * A_ji_8 + A_j[7] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t109;
     const jg_real t116 = lambda[1] * A_ji_7 + A_j[4] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t108;
+    const jg_real t117 = lambda[1] * A_ji_6 + A_j[1] * lambda_0_1_2_in_i_2 + t107 * lambda_0_1_2_in_i_1;
+    jac_phi_q_t_lambda_A_i[37] = s_j[2] * t106 - s_j[0] * t104 + (A_j[3] * v_3_in_i_2 - A_ji_7 * t98 + (t92 *
+        v_3_in_i_1 + A_ji_4 * t97 + A_ji_1 * t96));
+    jac_phi_q_t_lambda_A_i[38] = s_j[0] * t105 - s_j[1] * t106 + (A_j[6] * v_3_in_i_2 - A_ji_8 * t98 + (t93 *
+        v_3_in_i_1 + A_ji_5 * t97 + A_ji_2 * t96));
+    jac_phi_q_t_lambda_A_i[39] = -(t58 + t112);
+    jac_phi_q_t_lambda_A_i[40] = t83 - t113;
+    jac_phi_q_t_lambda_A_i[41] = t114;
     jac_phi_q_t_lambda_A_i[42] = s_j[1] * t115 - s_j[2] * t116 + (A_j[1] * v_3_in_i_2 - A_ji_6 * t114 + (t107 *
         v_3_in_i_1 + A_ji_3 * t113 + A_ji_0 * t112));
-    const jg_real t117 = lambda[1] * A_ji_6 + A_j[1] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t107;
     jac_phi_q_t_lambda_A_i[43] = s_j[2] * t117 - s_j[0] * t115 + (A_j[4] * v_3_in_i_2 - A_ji_7 * t114 + (t108 *
         v_3_in_i_1 + A_ji_4 * t113 + A_ji_1 * t112));
     jac_phi_q_t_lambda_A_i[44] = s_j[0] * t116 - s_j[1] * t117 + (A_j[7] * v_3_in_i_2 - A_ji_8 * t114 + (t109 *
@@ -955,20 +955,11 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t121 = C_j[6] * t118 + C_j[7] * t119 + C_j[8] * t120;
     const jg_real t122 = C_j[3] * t118 + C_j[4] * t119 + C_j[5] * t120;
     const jg_real t123 = v_0_in_i_2 * t121 - t72 + lambda[5] * (C_i[2] * t122 - t73);
-    jac_phi_q_t_lambda_A_i[45] = -(t75 + t123);
     const jg_real t124 = v_0_in_i_0 * t68 + C_i[0] * t69 * lambda[5];
-    jac_phi_q_t_lambda_A_i[46] = t87 - t124;
     const jg_real t125 = v_0_in_i_0 * t121 + C_i[0] * t122 * lambda[5];
-    jac_phi_q_t_lambda_A_i[47] = t125;
     const jg_real t126 = lambda[2] * A_ji_8 + A_j[8] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t120;
     const jg_real t127 = lambda[2] * A_ji_7 + A_j[5] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t119;
-    jac_phi_q_t_lambda_A_i[48] = s_j[1] * t126 - s_j[2] * t127 + (A_j[2] * v_3_in_i_2 - A_ji_6 * t125 + (t118 *
-        v_3_in_i_1 + A_ji_3 * t124 + A_ji_0 * t123));
-    const jg_real t128 = lambda[2] * A_ji_6 + A_j[2] * lambda_0_1_2_in_i_2 + lambda_0_1_2_in_i_1 * t118;
-    jac_phi_q_t_lambda_A_i[49] = s_j[2] * t128 - s_j[0] * t126 + (A_j[5] * v_3_in_i_2 - A_ji_7 * t125 + (t119 *
-        v_3_in_i_1 + A_ji_4 * t124 + A_ji_1 * t123));
-    jac_phi_q_t_lambda_A_i[50] = s_j[0] * t127 - s_j[1] * t128 + (A_j[8] * v_3_in_i_2 - A_ji_8 * t125 + (t120 *
-        v_3_in_i_1 + A_ji_5 * t124 + A_ji_2 * t123));
+    const jg_real t128 = lambda[2] * A_ji_6 + A_j[2] * lambda_0_1_2_in_i_2 + t118 * lambda_0_1_2_in_i_1;
     const jg_real t129 = A_i[6] * A_ji_2 - A_i[0] * A_ji_8;
     const jg_real t130 = A_i[0] * A_ji_7 - A_i[6] * A_ji_1;
     const jg_real t131 = C_j[7] * t129 + C_j[8] * t130;
@@ -976,27 +967,32 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t133 = C_j[4] * t129 + C_j[5] * t130;
     const jg_real t134 = A_i[6] * C_j[3];
     const jg_real t135 = v_0_in_i_1 * t132 + v_0_in_i_2 * t131 + lambda[5] * (C_i[1] * t134 + C_i[2] * t133);
-    jac_phi_q_t_lambda_A_j[0] = t135;
     const jg_real t136 = A_i[0] * C_j[6];
     const jg_real t137 = A_i[0] * C_j[3];
-    const jg_real t138 = v_0_in_i_0 * t132 - v_0_in_i_2 * t136 + lambda[5] * (C_i[0] * t134 - C_i[2] * t137);
+    const jg_real t138 = t132 * v_0_in_i_0 - v_0_in_i_2 * t136 + lambda[5] * (C_i[0] * t134 - C_i[2] * t137);
+    jac_phi_q_t_lambda_A_i[45] = -(t75 + t123);
+    jac_phi_q_t_lambda_A_i[46] = t87 - t124;
+    jac_phi_q_t_lambda_A_i[47] = t125;
+    jac_phi_q_t_lambda_A_i[48] = s_j[1] * t126 - s_j[2] * t127 + (A_j[2] * v_3_in_i_2 - A_ji_6 * t125 + (t118 *
+        v_3_in_i_1 + A_ji_3 * t124 + A_ji_0 * t123));
+    jac_phi_q_t_lambda_A_i[49] = s_j[2] * t128 - s_j[0] * t126 + (A_j[5] * v_3_in_i_2 - A_ji_7 * t125 + (t119 *
+        v_3_in_i_1 + A_ji_4 * t124 + A_ji_1 * t123));
+    jac_phi_q_t_lambda_A_i[50] = s_j[0] * t127 - s_j[1] * t128 + (A_j[8] * v_3_in_i_2 - A_ji_8 * t125 + (t120 *
+        v_3_in_i_1 + A_ji_5 * t124 + A_ji_2 * t123));
+    jac_phi_q_t_lambda_A_j[0] = t135;
     jac_phi_q_t_lambda_A_j[1] = -t138;
     const jg_real t139 = v_0_in_i_1 * t136 + v_0_in_i_0 * t131 + lambda[5] * (C_i[1] * t137 + C_i[0] * t133);
-    jac_phi_q_t_lambda_A_j[2] = -t139;
     const jg_real t140 = A_i[6] * v_3_in_i_2;
     const jg_real t141 = A_i[0] * v_3_in_i_0;
-    const jg_real t142 = lambda_0_1_2_in_i_1 * t129;
-    const jg_real t143 = s_j[2] * t142;
-    const jg_real t144 = lambda_0_1_2_in_i_1 * t130;
-    const jg_real t145 = s_j[1] * t144;
-    jac_phi_q_t_lambda_A_j[3] = t143 - t145 + (t140 + A_ji_6 * t139 + (t141 - A_ji_0 * t135 + A_ji_3 * t138));
+    const jg_real t142 = t129 * lambda_0_1_2_in_i_1;
+    const jg_real t143 = t142 * s_j[2];
+    const jg_real t144 = t130 * lambda_0_1_2_in_i_1;
+    const jg_real t145 = t144 * s_j[1];
     const jg_real t146 = t129 * v_3_in_i_1;
     const jg_real t147 = A_i[6] * lambda_0_1_2_in_i_2 + A_i[0] * lambda_0_1_2_in_i_0;
     const jg_real t148 = s_j[2] * t147;
-    jac_phi_q_t_lambda_A_j[4] = t148 + s_j[0] * t144 + (A_ji_4 * t138 - t146 - A_ji_1 * t135 + A_ji_7 * t139);
     const jg_real t149 = t130 * v_3_in_i_1;
     const jg_real t150 = s_j[1] * t147;
-    jac_phi_q_t_lambda_A_j[5] = A_ji_5 * t138 - t149 - A_ji_2 * t135 + A_ji_8 * t139 - (t150 + s_j[0] * t142);
     const jg_real t151 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
     const jg_real t152 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
     const jg_real t153 = C_j[7] * t151 + C_j[8] * t152;
@@ -1004,27 +1000,29 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t155 = C_j[4] * t151 + C_j[5] * t152;
     const jg_real t156 = A_i[7] * C_j[3];
     const jg_real t157 = v_0_in_i_1 * t154 + v_0_in_i_2 * t153 + lambda[5] * (C_i[1] * t156 + C_i[2] * t155);
-    jac_phi_q_t_lambda_A_j[6] = t157;
     const jg_real t158 = A_i[1] * C_j[6];
     const jg_real t159 = A_i[1] * C_j[3];
-    const jg_real t160 = v_0_in_i_0 * t154 - v_0_in_i_2 * t158 + lambda[5] * (C_i[0] * t156 - C_i[2] * t159);
-    jac_phi_q_t_lambda_A_j[7] = -t160;
+    const jg_real t160 = t154 * v_0_in_i_0 - v_0_in_i_2 * t158 + lambda[5] * (C_i[0] * t156 - C_i[2] * t159);
     const jg_real t161 = v_0_in_i_1 * t158 + v_0_in_i_0 * t153 + lambda[5] * (C_i[1] * t159 + C_i[0] * t155);
-    jac_phi_q_t_lambda_A_j[8] = -t161;
     const jg_real t162 = A_i[7] * v_3_in_i_2;
     const jg_real t163 = A_i[1] * v_3_in_i_0;
-    const jg_real t164 = lambda_0_1_2_in_i_1 * t151;
-    const jg_real t165 = s_j[2] * t164;
-    const jg_real t166 = lambda_0_1_2_in_i_1 * t152;
-    const jg_real t167 = s_j[1] * t166;
+    const jg_real t164 = t151 * lambda_0_1_2_in_i_1;
+    const jg_real t165 = t164 * s_j[2];
+    const jg_real t166 = t152 * lambda_0_1_2_in_i_1;
+    const jg_real t167 = t166 * s_j[1];
+    jac_phi_q_t_lambda_A_j[2] = -t139;
+    jac_phi_q_t_lambda_A_j[3] = t143 - t145 + (t140 + A_ji_6 * t139 + (t141 - A_ji_0 * t135 + A_ji_3 * t138));
+    jac_phi_q_t_lambda_A_j[4] = t148 + t144 * s_j[0] + (A_ji_4 * t138 - t146 - A_ji_1 * t135 + A_ji_7 * t139);
+    jac_phi_q_t_lambda_A_j[5] = A_ji_5 * t138 - t149 - A_ji_2 * t135 + A_ji_8 * t139 - (t150 + t142 * s_j[0]);
+    jac_phi_q_t_lambda_A_j[6] = t157;
+    jac_phi_q_t_lambda_A_j[7] = -t160;
+    jac_phi_q_t_lambda_A_j[8] = -t161;
     jac_phi_q_t_lambda_A_j[9] = t165 - t167 + (t162 + A_ji_6 * t161 + (t163 - A_ji_0 * t157 + A_ji_3 * t160));
     const jg_real t168 = t151 * v_3_in_i_1;
     const jg_real t169 = A_i[7] * lambda_0_1_2_in_i_2 + A_i[1] * lambda_0_1_2_in_i_0;
     const jg_real t170 = s_j[2] * t169;
-    jac_phi_q_t_lambda_A_j[10] = t170 + s_j[0] * t166 + (A_ji_4 * t160 - t168 - A_ji_1 * t157 + A_ji_7 * t161);
     const jg_real t171 = t152 * v_3_in_i_1;
     const jg_real t172 = s_j[1] * t169;
-    jac_phi_q_t_lambda_A_j[11] = A_ji_5 * t160 - t171 - A_ji_2 * t157 + A_ji_8 * t161 - (t172 + s_j[0] * t164);
     const jg_real t173 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
     const jg_real t174 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
     const jg_real t175 = C_j[7] * t173 + C_j[8] * t174;
@@ -1032,289 +1030,291 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t177 = C_j[4] * t173 + C_j[5] * t174;
     const jg_real t178 = A_i[8] * C_j[3];
     const jg_real t179 = v_0_in_i_1 * t176 + v_0_in_i_2 * t175 + lambda[5] * (C_i[1] * t178 + C_i[2] * t177);
-    jac_phi_q_t_lambda_A_j[12] = t179;
     const jg_real t180 = A_i[2] * C_j[6];
     const jg_real t181 = A_i[2] * C_j[3];
-    const jg_real t182 = v_0_in_i_0 * t176 - v_0_in_i_2 * t180 + lambda[5] * (C_i[0] * t178 - C_i[2] * t181);
-    jac_phi_q_t_lambda_A_j[13] = -t182;
+    const jg_real t182 = t176 * v_0_in_i_0 - v_0_in_i_2 * t180 + lambda[5] * (C_i[0] * t178 - C_i[2] * t181);
     const jg_real t183 = v_0_in_i_1 * t180 + v_0_in_i_0 * t175 + lambda[5] * (C_i[1] * t181 + C_i[0] * t177);
-    jac_phi_q_t_lambda_A_j[14] = -t183;
     const jg_real t184 = A_i[8] * v_3_in_i_2;
     const jg_real t185 = A_i[2] * v_3_in_i_0;
-    const jg_real t186 = lambda_0_1_2_in_i_1 * t173;
-    const jg_real t187 = s_j[2] * t186;
-    const jg_real t188 = lambda_0_1_2_in_i_1 * t174;
-    const jg_real t189 = s_j[1] * t188;
-    jac_phi_q_t_lambda_A_j[15] = t187 - t189 + (t184 + A_ji_6 * t183 + (t185 - A_ji_0 * t179 + A_ji_3 * t182));
+    const jg_real t186 = t173 * lambda_0_1_2_in_i_1;
+    const jg_real t187 = t186 * s_j[2];
+    const jg_real t188 = t174 * lambda_0_1_2_in_i_1;
+    const jg_real t189 = t188 * s_j[1];
     const jg_real t190 = t173 * v_3_in_i_1;
     const jg_real t191 = A_i[8] * lambda_0_1_2_in_i_2 + A_i[2] * lambda_0_1_2_in_i_0;
     const jg_real t192 = s_j[2] * t191;
-    jac_phi_q_t_lambda_A_j[16] = t192 + s_j[0] * t188 + (A_ji_4 * t182 - t190 - A_ji_1 * t179 + A_ji_7 * t183);
     const jg_real t193 = t174 * v_3_in_i_1;
     const jg_real t194 = s_j[1] * t191;
-    jac_phi_q_t_lambda_A_j[17] = A_ji_5 * t182 - t193 - A_ji_2 * t179 + A_ji_8 * t183 - (t194 + s_j[0] * t186);
+    jac_phi_q_t_lambda_A_j[10] = t170 + t166 * s_j[0] + (A_ji_4 * t160 - t168 - A_ji_1 * t157 + A_ji_7 * t161);
+    jac_phi_q_t_lambda_A_j[11] = A_ji_5 * t160 - t171 - A_ji_2 * t157 + A_ji_8 * t161 - (t172 + t164 * s_j[0]);
+    jac_phi_q_t_lambda_A_j[12] = t179;
+    jac_phi_q_t_lambda_A_j[13] = -t182;
+    jac_phi_q_t_lambda_A_j[14] = -t183;
+    jac_phi_q_t_lambda_A_j[15] = t187 - t189 + (t184 + A_ji_6 * t183 + (t185 - A_ji_0 * t179 + A_ji_3 * t182));
+    jac_phi_q_t_lambda_A_j[16] = t192 + t188 * s_j[0] + (A_ji_4 * t182 - t190 - A_ji_1 * t179 + A_ji_7 * t183);
+    jac_phi_q_t_lambda_A_j[17] = A_ji_5 * t182 - t193 - A_ji_2 * t179 + A_ji_8 * t183 - (t194 + t186 * s_j[0]);
     const jg_real t195 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
     const jg_real t196 = C_j[6] * t129 - C_j[8] * t195;
     const jg_real t197 = A_i[6] * C_j[7];
     const jg_real t198 = C_j[3] * t129 - C_j[5] * t195;
     const jg_real t199 = A_i[6] * C_j[4];
     const jg_real t200 = v_0_in_i_2 * t196 - v_0_in_i_1 * t197 + lambda[5] * (C_i[2] * t198 - C_i[1] * t199);
-    jac_phi_q_t_lambda_A_j[18] = -t200;
     const jg_real t201 = A_i[0] * C_j[7];
     const jg_real t202 = A_i[0] * C_j[4];
-    const jg_real t203 = t197 * v_0_in_i_0 - v_0_in_i_2 * t201 + lambda[5] * (C_i[0] * t199 - C_i[2] * t202);
-    jac_phi_q_t_lambda_A_j[19] = -t203;
+    const jg_real t203 = t197 * v_0_in_i_0 - v_0_in_i_2 * t201 + lambda[5] * (t199 * C_i[0] - C_i[2] * t202);
     const jg_real t204 = v_0_in_i_1 * t201 - v_0_in_i_0 * t196 + lambda[5] * (C_i[1] * t202 - C_i[0] * t198);
-    jac_phi_q_t_lambda_A_j[20] = -t204;
     const jg_real t205 = lambda_0_1_2_in_i_1 * t195;
-    jac_phi_q_t_lambda_A_j[21] = t146 + A_ji_3 * t203 + A_ji_0 * t200 + A_ji_6 * t204 - (s_j[1] * t205 + t148);
-    const jg_real t206 = s_j[0] * t205;
-    jac_phi_q_t_lambda_A_j[22] = t143 + t206 + (t140 + A_ji_7 * t204 + (t141 + A_ji_1 * t200 + A_ji_4 * t203));
+    const jg_real t206 = t205 * s_j[0];
     const jg_real t207 = t195 * v_3_in_i_1;
     const jg_real t208 = s_j[0] * t147;
-    jac_phi_q_t_lambda_A_j[23] = t208 - s_j[1] * t142 + (A_ji_5 * t203 - t207 + A_ji_2 * t200 + A_ji_8 * t204);
     const jg_real t209 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
     const jg_real t210 = C_j[6] * t151 - C_j[8] * t209;
     const jg_real t211 = A_i[7] * C_j[7];
     const jg_real t212 = C_j[3] * t151 - C_j[5] * t209;
     const jg_real t213 = A_i[7] * C_j[4];
     const jg_real t214 = v_0_in_i_2 * t210 - v_0_in_i_1 * t211 + lambda[5] * (C_i[2] * t212 - C_i[1] * t213);
-    jac_phi_q_t_lambda_A_j[24] = -t214;
     const jg_real t215 = A_i[1] * C_j[7];
     const jg_real t216 = A_i[1] * C_j[4];
-    const jg_real t217 = t211 * v_0_in_i_0 - v_0_in_i_2 * t215 + lambda[5] * (C_i[0] * t213 - C_i[2] * t216);
+    const jg_real t217 = t211 * v_0_in_i_0 - v_0_in_i_2 * t215 + lambda[5] * (t213 * C_i[0] - C_i[2] * t216);
+    jac_phi_q_t_lambda_A_j[18] = -t200;
+    jac_phi_q_t_lambda_A_j[19] = -t203;
+    jac_phi_q_t_lambda_A_j[20] = -t204;
+    jac_phi_q_t_lambda_A_j[21] = t146 + A_ji_3 * t203 + A_ji_0 * t200 + A_ji_6 * t204 - (t205 * s_j[1] + t148);
+    jac_phi_q_t_lambda_A_j[22] = t143 + t206 + (t140 + A_ji_7 * t204 + (t141 + A_ji_1 * t200 + A_ji_4 * t203));
+    jac_phi_q_t_lambda_A_j[23] = t208 - s_j[1] * t142 + (A_ji_5 * t203 - t207 + A_ji_2 * t200 + A_ji_8 * t204);
+    jac_phi_q_t_lambda_A_j[24] = -t214;
     jac_phi_q_t_lambda_A_j[25] = -t217;
     const jg_real t218 = v_0_in_i_1 * t215 - v_0_in_i_0 * t210 + lambda[5] * (C_i[1] * t216 - C_i[0] * t212);
-    jac_phi_q_t_lambda_A_j[26] = -t218;
     const jg_real t219 = lambda_0_1_2_in_i_1 * t209;
-    jac_phi_q_t_lambda_A_j[27] = t168 + A_ji_3 * t217 + A_ji_0 * t214 + A_ji_6 * t218 - (s_j[1] * t219 + t170);
-    const jg_real t220 = s_j[0] * t219;
-    jac_phi_q_t_lambda_A_j[28] = t165 + t220 + (t162 + A_ji_7 * t218 + (t163 + A_ji_1 * t214 + A_ji_4 * t217));
+    const jg_real t220 = t219 * s_j[0];
     const jg_real t221 = t209 * v_3_in_i_1;
     const jg_real t222 = s_j[0] * t169;
-    jac_phi_q_t_lambda_A_j[29] = t222 - s_j[1] * t164 + (A_ji_5 * t217 - t221 + A_ji_2 * t214 + A_ji_8 * t218);
     const jg_real t223 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
     const jg_real t224 = C_j[6] * t173 - C_j[8] * t223;
     const jg_real t225 = A_i[8] * C_j[7];
     const jg_real t226 = C_j[3] * t173 - C_j[5] * t223;
     const jg_real t227 = A_i[8] * C_j[4];
     const jg_real t228 = v_0_in_i_2 * t224 - v_0_in_i_1 * t225 + lambda[5] * (C_i[2] * t226 - C_i[1] * t227);
-    jac_phi_q_t_lambda_A_j[30] = -t228;
     const jg_real t229 = A_i[2] * C_j[7];
     const jg_real t230 = A_i[2] * C_j[4];
-    const jg_real t231 = t225 * v_0_in_i_0 - v_0_in_i_2 * t229 + lambda[5] * (C_i[0] * t227 - C_i[2] * t230);
-    jac_phi_q_t_lambda_A_j[31] = -t231;
+    const jg_real t231 = t225 * v_0_in_i_0 - v_0_in_i_2 * t229 + lambda[5] * (t227 * C_i[0] - C_i[2] * t230);
     const jg_real t232 = v_0_in_i_1 * t229 - v_0_in_i_0 * t224 + lambda[5] * (C_i[1] * t230 - C_i[0] * t226);
-    jac_phi_q_t_lambda_A_j[32] = -t232;
     const jg_real t233 = lambda_0_1_2_in_i_1 * t223;
-    jac_phi_q_t_lambda_A_j[33] = t190 + A_ji_3 * t231 + A_ji_0 * t228 + A_ji_6 * t232 - (s_j[1] * t233 + t192);
-    const jg_real t234 = s_j[0] * t233;
-    jac_phi_q_t_lambda_A_j[34] = t187 + t234 + (t184 + A_ji_7 * t232 + (t185 + A_ji_1 * t228 + A_ji_4 * t231));
+    jac_phi_q_t_lambda_A_j[26] = -t218;
+    jac_phi_q_t_lambda_A_j[27] = t168 + A_ji_3 * t217 + A_ji_0 * t214 + A_ji_6 * t218 - (t219 * s_j[1] + t170);
+    jac_phi_q_t_lambda_A_j[28] = t165 + t220 + (t162 + A_ji_7 * t218 + (t163 + A_ji_1 * t214 + A_ji_4 * t217));
+    jac_phi_q_t_lambda_A_j[29] = t222 - s_j[1] * t164 + (A_ji_5 * t217 - t221 + A_ji_2 * t214 + A_ji_8 * t218);
+    jac_phi_q_t_lambda_A_j[30] = -t228;
+    jac_phi_q_t_lambda_A_j[31] = -t231;
+    jac_phi_q_t_lambda_A_j[32] = -t232;
+    jac_phi_q_t_lambda_A_j[33] = t190 + A_ji_3 * t231 + A_ji_0 * t228 + A_ji_6 * t232 - (t233 * s_j[1] + t192);
+    const jg_real t234 = t233 * s_j[0];
     const jg_real t235 = t223 * v_3_in_i_1;
     const jg_real t236 = s_j[0] * t191;
-    jac_phi_q_t_lambda_A_j[35] = t236 - s_j[1] * t186 + (A_ji_5 * t231 - t235 + A_ji_2 * t228 + A_ji_8 * t232);
     const jg_real t237 = C_j[6] * t130 + C_j[7] * t195;
     const jg_real t238 = A_i[6] * C_j[8];
     const jg_real t239 = C_j[3] * t130 + C_j[4] * t195;
     const jg_real t240 = A_i[6] * C_j[5];
     const jg_real t241 = v_0_in_i_2 * t237 - v_0_in_i_1 * t238 + lambda[5] * (C_i[2] * t239 - C_i[1] * t240);
-    jac_phi_q_t_lambda_A_j[36] = -t241;
     const jg_real t242 = A_i[0] * C_j[8];
     const jg_real t243 = A_i[0] * C_j[5];
-    const jg_real t244 = v_0_in_i_0 * t238 - v_0_in_i_2 * t242 + lambda[5] * (C_i[0] * t240 - C_i[2] * t243);
-    jac_phi_q_t_lambda_A_j[37] = -t244;
+    const jg_real t244 = t238 * v_0_in_i_0 - v_0_in_i_2 * t242 + lambda[5] * (t240 * C_i[0] - C_i[2] * t243);
     const jg_real t245 = v_0_in_i_1 * t242 - v_0_in_i_0 * t237 + lambda[5] * (C_i[1] * t243 - C_i[0] * t239);
+    jac_phi_q_t_lambda_A_j[34] = t187 + t234 + (t184 + A_ji_7 * t232 + (t185 + A_ji_1 * t228 + A_ji_4 * t231));
+    jac_phi_q_t_lambda_A_j[35] = t236 - s_j[1] * t186 + (A_ji_5 * t231 - t235 + A_ji_2 * t228 + A_ji_8 * t232);
+    jac_phi_q_t_lambda_A_j[36] = -t241;
+    jac_phi_q_t_lambda_A_j[37] = -t244;
     jac_phi_q_t_lambda_A_j[38] = -t245;
-    jac_phi_q_t_lambda_A_j[39] = t150 - s_j[2] * t205 + (t149 + A_ji_3 * t244 + A_ji_0 * t241 + A_ji_6 * t245);
-    jac_phi_q_t_lambda_A_j[40] = s_j[2] * t144 - t208 + (t207 + A_ji_4 * t244 + A_ji_1 * t241 + A_ji_7 * t245);
+    jac_phi_q_t_lambda_A_j[39] = t150 - t205 * s_j[2] + (t149 + A_ji_3 * t244 + A_ji_0 * t241 + A_ji_6 * t245);
+    jac_phi_q_t_lambda_A_j[40] = t144 * s_j[2] - t208 + (t207 + A_ji_4 * t244 + A_ji_1 * t241 + A_ji_7 * t245);
     jac_phi_q_t_lambda_A_j[41] = t206 - t145 + (t140 + A_ji_8 * t245 + (t141 + A_ji_2 * t241 + A_ji_5 * t244));
     const jg_real t246 = C_j[6] * t152 + C_j[7] * t209;
     const jg_real t247 = A_i[7] * C_j[8];
     const jg_real t248 = C_j[3] * t152 + C_j[4] * t209;
     const jg_real t249 = A_i[7] * C_j[5];
     const jg_real t250 = v_0_in_i_2 * t246 - v_0_in_i_1 * t247 + lambda[5] * (C_i[2] * t248 - C_i[1] * t249);
-    jac_phi_q_t_lambda_A_j[42] = -t250;
     const jg_real t251 = A_i[1] * C_j[8];
     const jg_real t252 = A_i[1] * C_j[5];
-    const jg_real t253 = v_0_in_i_0 * t247 - v_0_in_i_2 * t251 + lambda[5] * (C_i[0] * t249 - C_i[2] * t252);
-    jac_phi_q_t_lambda_A_j[43] = -t253;
+    const jg_real t253 = t247 * v_0_in_i_0 - v_0_in_i_2 * t251 + lambda[5] * (t249 * C_i[0] - C_i[2] * t252);
     const jg_real t254 = v_0_in_i_1 * t251 - v_0_in_i_0 * t246 + lambda[5] * (C_i[1] * t252 - C_i[0] * t248);
-    jac_phi_q_t_lambda_A_j[44] = -t254;
-    jac_phi_q_t_lambda_A_j[45] = t172 - s_j[2] * t219 + (t171 + A_ji_3 * t253 + A_ji_0 * t250 + A_ji_6 * t254);
-    jac_phi_q_t_lambda_A_j[46] = s_j[2] * t166 - t222 + (t221 + A_ji_4 * t253 + A_ji_1 * t250 + A_ji_7 * t254);
-    jac_phi_q_t_lambda_A_j[47] = t220 - t167 + (t162 + A_ji_8 * t254 + (t163 + A_ji_2 * t250 + A_ji_5 * t253));
     const jg_real t255 = C_j[6] * t174 + C_j[7] * t223;
     const jg_real t256 = A_i[8] * C_j[8];
     const jg_real t257 = C_j[3] * t174 + C_j[4] * t223;
     const jg_real t258 = A_i[8] * C_j[5];
     const jg_real t259 = v_0_in_i_2 * t255 - v_0_in_i_1 * t256 + lambda[5] * (C_i[2] * t257 - C_i[1] * t258);
-    jac_phi_q_t_lambda_A_j[48] = -t259;
     const jg_real t260 = A_i[2] * C_j[8];
     const jg_real t261 = A_i[2] * C_j[5];
-    const jg_real t262 = v_0_in_i_0 * t256 - v_0_in_i_2 * t260 + lambda[5] * (C_i[0] * t258 - C_i[2] * t261);
+    const jg_real t262 = t256 * v_0_in_i_0 - v_0_in_i_2 * t260 + lambda[5] * (t258 * C_i[0] - C_i[2] * t261);
+    jac_phi_q_t_lambda_A_j[42] = -t250;
+    jac_phi_q_t_lambda_A_j[43] = -t253;
+    jac_phi_q_t_lambda_A_j[44] = -t254;
+    jac_phi_q_t_lambda_A_j[45] = t172 - t219 * s_j[2] + (t171 + A_ji_3 * t253 + A_ji_0 * t250 + A_ji_6 * t254);
+    jac_phi_q_t_lambda_A_j[46] = t166 * s_j[2] - t222 + (t221 + A_ji_4 * t253 + A_ji_1 * t250 + A_ji_7 * t254);
+    jac_phi_q_t_lambda_A_j[47] = t220 - t167 + (t162 + A_ji_8 * t254 + (t163 + A_ji_2 * t250 + A_ji_5 * t253));
+    jac_phi_q_t_lambda_A_j[48] = -t259;
     jac_phi_q_t_lambda_A_j[49] = -t262;
     const jg_real t263 = v_0_in_i_1 * t260 - v_0_in_i_0 * t255 + lambda[5] * (C_i[1] * t261 - C_i[0] * t257);
+    const jg_real t264 = lambda[3] * h_j_in_i_2 + lambda[5] * g_j_in_i_2;
     jac_phi_q_t_lambda_A_j[50] = -t263;
-    jac_phi_q_t_lambda_A_j[51] = t194 - s_j[2] * t233 + (t193 + A_ji_3 * t262 + A_ji_0 * t259 + A_ji_6 * t263);
-    jac_phi_q_t_lambda_A_j[52] = s_j[2] * t188 - t236 + (t235 + A_ji_4 * t262 + A_ji_1 * t259 + A_ji_7 * t263);
+    jac_phi_q_t_lambda_A_j[51] = t194 - t233 * s_j[2] + (t193 + A_ji_3 * t262 + A_ji_0 * t259 + A_ji_6 * t263);
+    jac_phi_q_t_lambda_A_j[52] = t188 * s_j[2] - t236 + (t235 + A_ji_4 * t262 + A_ji_1 * t259 + A_ji_7 * t263);
     jac_phi_q_t_lambda_A_j[53] = t234 - t189 + (t184 + A_ji_8 * t263 + (t185 + A_ji_2 * t259 + A_ji_5 * t262));
     jac_phi_q_t_lambda_geometry[1] = -lambda_0_1_2_in_i_1;
     jac_phi_q_t_lambda_geometry[2] = -lambda_0_1_2_in_i_2;
     jac_phi_q_t_lambda_geometry[5] = -lambda_0_1_2_in_i_0;
-    const jg_real t264 = lambda[3] * h_j_in_i_2 + lambda[5] * g_j_in_i_2;
     jac_phi_q_t_lambda_geometry[11] = t264;
-    jac_phi_q_t_lambda_geometry[6] = -t264;
     const jg_real t265 = lambda[3] * h_j_in_i_1 + lambda[5] * g_j_in_i_1;
+    const jg_real t266 = lambda[3] * h_j_in_i_0 + lambda[5] * g_j_in_i_0;
+    jac_phi_q_t_lambda_geometry[6] = -t264;
     jac_phi_q_t_lambda_geometry[7] = t265;
     jac_phi_q_t_lambda_geometry[8] = A_ji_3 * t264 - A_ji_6 * t265;
     jac_phi_q_t_lambda_geometry[9] = A_ji_4 * t264 - A_ji_7 * t265;
     jac_phi_q_t_lambda_geometry[10] = A_ji_5 * t264 - A_ji_8 * t265;
-    const jg_real t266 = lambda[3] * h_j_in_i_0 + lambda[5] * g_j_in_i_0;
     jac_phi_q_t_lambda_geometry[17] = t266;
     jac_phi_q_t_lambda_geometry[12] = -t266;
     jac_phi_q_t_lambda_geometry[13] = A_ji_6 * t266 - A_ji_0 * t264;
+    const jg_real t267 = lambda[4] * h_j_in_i_2;
     jac_phi_q_t_lambda_geometry[14] = A_ji_7 * t266 - A_ji_1 * t264;
     jac_phi_q_t_lambda_geometry[15] = A_ji_8 * t266 - A_ji_2 * t264;
     jac_phi_q_t_lambda_geometry[16] = -t265;
     jac_phi_q_t_lambda_geometry[18] = A_ji_0 * t265 - A_ji_3 * t266;
     jac_phi_q_t_lambda_geometry[19] = A_ji_1 * t265 - A_ji_4 * t266;
     jac_phi_q_t_lambda_geometry[20] = A_ji_2 * t265 - A_ji_5 * t266;
-    const jg_real t267 = lambda[4] * h_j_in_i_2;
     jac_phi_q_t_lambda_geometry[26] = t267;
     jac_phi_q_t_lambda_geometry[21] = -t267;
     const jg_real t268 = lambda[4] * h_j_in_i_1;
+    const jg_real t269 = lambda[4] * h_j_in_i_0;
     jac_phi_q_t_lambda_geometry[22] = t268;
     jac_phi_q_t_lambda_geometry[23] = A_ji_3 * t267 - A_ji_6 * t268;
     jac_phi_q_t_lambda_geometry[24] = A_ji_4 * t267 - A_ji_7 * t268;
     jac_phi_q_t_lambda_geometry[25] = A_ji_5 * t267 - A_ji_8 * t268;
-    const jg_real t269 = lambda[4] * h_j_in_i_0;
     jac_phi_q_t_lambda_geometry[32] = t269;
     jac_phi_q_t_lambda_geometry[27] = -t269;
     jac_phi_q_t_lambda_geometry[28] = A_ji_6 * t269 - A_ji_0 * t267;
     jac_phi_q_t_lambda_geometry[29] = A_ji_7 * t269 - A_ji_1 * t267;
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_i_1 * A_ji_5 + A_ji_2 * lambda_0_1_2_in_i_0 + A_ji_8 *
+        lambda_0_1_2_in_i_2;
+    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_i_1 * A_ji_4 + A_ji_1 * lambda_0_1_2_in_i_0 + A_ji_7 *
+        lambda_0_1_2_in_i_2;
     jac_phi_q_t_lambda_geometry[30] = A_ji_8 * t269 - A_ji_2 * t267;
     jac_phi_q_t_lambda_geometry[31] = -t268;
     jac_phi_q_t_lambda_geometry[33] = A_ji_0 * t268 - A_ji_3 * t269;
     jac_phi_q_t_lambda_geometry[34] = A_ji_1 * t268 - A_ji_4 * t269;
     jac_phi_q_t_lambda_geometry[35] = A_ji_2 * t268 - A_ji_5 * t269;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_i_1 * A_ji_5 + A_ji_2 * lambda_0_1_2_in_i_0 + A_ji_8 *
-        lambda_0_1_2_in_i_2;
     jac_phi_q_t_lambda_geometry[38] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[36] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_i_1 * A_ji_4 + A_ji_1 * lambda_0_1_2_in_i_0 + A_ji_7 *
-        lambda_0_1_2_in_i_2;
     jac_phi_q_t_lambda_geometry[37] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_i_1 * A_ji_3 + A_ji_0 * lambda_0_1_2_in_i_0 + A_ji_6 *
+    const jg_real lambda_0_1_2_in_j_0 = A_ji_3 * lambda_0_1_2_in_i_1 + A_ji_0 * lambda_0_1_2_in_i_0 + A_ji_6 *
         lambda_0_1_2_in_i_2;
+    const jg_real t273 = lambda[5] * (C_i[2] * A_ji_3 - C_i[1] * A_ji_6);
+    const jg_real t274 = lambda[5] * (A_ji_6 * C_i[0] - C_i[2] * A_ji_0);
+    const jg_real t275 = lambda[5] * (C_i[1] * A_ji_0 - C_i[0] * A_ji_3);
     jac_phi_q_t_lambda_geometry[41] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[39] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[40] = -lambda_0_1_2_in_j_1;
-    const jg_real t273 = lambda[5] * (C_i[2] * A_ji_3 - C_i[1] * A_ji_6);
     jac_phi_q_t_lambda_geometry[42] = -t273;
-    const jg_real t274 = lambda[5] * (C_i[0] * A_ji_6 - C_i[2] * A_ji_0);
     jac_phi_q_t_lambda_geometry[43] = -t274;
-    const jg_real t275 = lambda[5] * (C_i[1] * A_ji_0 - C_i[0] * A_ji_3);
     jac_phi_q_t_lambda_geometry[44] = -t275;
     jac_phi_q_t_lambda_geometry[45] = A_ji_3 * t274 + A_ji_0 * t273 + A_ji_6 * t275;
     jac_phi_q_t_lambda_geometry[46] = A_ji_4 * t274 + A_ji_1 * t273 + A_ji_7 * t275;
-    jac_phi_q_t_lambda_geometry[47] = A_ji_5 * t274 + A_ji_2 * t273 + A_ji_8 * t275;
     const jg_real t276 = lambda[5] * (C_i[2] * A_ji_4 - C_i[1] * A_ji_7);
-    jac_phi_q_t_lambda_geometry[48] = -t276;
-    const jg_real t277 = lambda[5] * (C_i[0] * A_ji_7 - C_i[2] * A_ji_1);
-    jac_phi_q_t_lambda_geometry[49] = -t277;
+    const jg_real t277 = lambda[5] * (A_ji_7 * C_i[0] - C_i[2] * A_ji_1);
     const jg_real t278 = lambda[5] * (C_i[1] * A_ji_1 - C_i[0] * A_ji_4);
+    const jg_real t279 = lambda[5] * (C_i[2] * A_ji_5 - C_i[1] * A_ji_8);
+    jac_phi_q_t_lambda_geometry[47] = A_ji_2 * t273 + A_ji_5 * t274 + A_ji_8 * t275;
+    jac_phi_q_t_lambda_geometry[48] = -t276;
+    jac_phi_q_t_lambda_geometry[49] = -t277;
     jac_phi_q_t_lambda_geometry[50] = -t278;
     jac_phi_q_t_lambda_geometry[51] = A_ji_3 * t277 + A_ji_0 * t276 + A_ji_6 * t278;
     jac_phi_q_t_lambda_geometry[52] = A_ji_4 * t277 + A_ji_1 * t276 + A_ji_7 * t278;
-    jac_phi_q_t_lambda_geometry[53] = A_ji_5 * t277 + A_ji_2 * t276 + A_ji_8 * t278;
-    const jg_real t279 = lambda[5] * (C_i[2] * A_ji_5 - C_i[1] * A_ji_8);
+    jac_phi_q_t_lambda_geometry[53] = A_ji_2 * t276 + A_ji_5 * t277 + A_ji_8 * t278;
     jac_phi_q_t_lambda_geometry[54] = -t279;
-    const jg_real t280 = lambda[5] * (C_i[0] * A_ji_8 - C_i[2] * A_ji_2);
-    jac_phi_q_t_lambda_geometry[55] = -t280;
+    const jg_real t280 = lambda[5] * (A_ji_8 * C_i[0] - C_i[2] * A_ji_2);
     const jg_real t281 = lambda[5] * (C_i[1] * A_ji_2 - C_i[0] * A_ji_5);
+    const jg_real t282 = v_0_in_i_2 * A_ji_3 - v_0_in_i_1 * A_ji_6;
+    const jg_real t283 = A_ji_6 * v_0_in_i_0 - v_0_in_i_2 * A_ji_0;
+    const jg_real t284 = A_ji_0 * v_0_in_i_1 - A_ji_3 * v_0_in_i_0;
+    jac_phi_q_t_lambda_geometry[55] = -t280;
     jac_phi_q_t_lambda_geometry[56] = -t281;
     jac_phi_q_t_lambda_geometry[57] = A_ji_3 * t280 + A_ji_0 * t279 + A_ji_6 * t281;
     jac_phi_q_t_lambda_geometry[58] = A_ji_4 * t280 + A_ji_1 * t279 + A_ji_7 * t281;
-    jac_phi_q_t_lambda_geometry[59] = A_ji_5 * t280 + A_ji_2 * t279 + A_ji_8 * t281;
-    const jg_real t282 = v_0_in_i_2 * A_ji_3 - v_0_in_i_1 * A_ji_6;
+    jac_phi_q_t_lambda_geometry[59] = A_ji_2 * t279 + A_ji_5 * t280 + A_ji_8 * t281;
     jac_phi_q_t_lambda_geometry[60] = -t282;
-    const jg_real t283 = A_ji_6 * v_0_in_i_0 - v_0_in_i_2 * A_ji_0;
     jac_phi_q_t_lambda_geometry[61] = -t283;
-    const jg_real t284 = v_0_in_i_1 * A_ji_0 - v_0_in_i_0 * A_ji_3;
     jac_phi_q_t_lambda_geometry[62] = -t284;
+    const jg_real t285 = v_0_in_i_2 * A_ji_4 - A_ji_7 * v_0_in_i_1;
+    const jg_real t286 = A_ji_7 * v_0_in_i_0 - A_ji_1 * v_0_in_i_2;
+    const jg_real t287 = A_ji_1 * v_0_in_i_1 - v_0_in_i_0 * A_ji_4;
     jac_phi_q_t_lambda_geometry[63] = A_ji_3 * t283 + A_ji_0 * t282 + A_ji_6 * t284;
     jac_phi_q_t_lambda_geometry[64] = A_ji_4 * t283 + A_ji_1 * t282 + A_ji_7 * t284;
-    jac_phi_q_t_lambda_geometry[65] = A_ji_5 * t283 + A_ji_2 * t282 + A_ji_8 * t284;
-    const jg_real t285 = v_0_in_i_2 * A_ji_4 - A_ji_7 * v_0_in_i_1;
+    jac_phi_q_t_lambda_geometry[65] = A_ji_2 * t282 + A_ji_5 * t283 + A_ji_8 * t284;
     jac_phi_q_t_lambda_geometry[66] = -t285;
-    const jg_real t286 = A_ji_7 * v_0_in_i_0 - v_0_in_i_2 * A_ji_1;
     jac_phi_q_t_lambda_geometry[67] = -t286;
-    const jg_real t287 = A_ji_1 * v_0_in_i_1 - v_0_in_i_0 * A_ji_4;
     jac_phi_q_t_lambda_geometry[68] = -t287;
     jac_phi_q_t_lambda_geometry[69] = A_ji_3 * t286 + A_ji_0 * t285 + A_ji_6 * t287;
     jac_phi_q_t_lambda_geometry[70] = A_ji_4 * t286 + A_ji_1 * t285 + A_ji_7 * t287;
-    jac_phi_q_t_lambda_geometry[71] = A_ji_5 * t286 + A_ji_2 * t285 + A_ji_8 * t287;
-    const jg_real t288 = v_0_in_i_2 * A_ji_5 - v_0_in_i_1 * A_ji_8;
-    jac_phi_q_t_lambda_geometry[72] = -t288;
+    const jg_real t288 = v_0_in_i_2 * A_ji_5 - A_ji_8 * v_0_in_i_1;
     const jg_real t289 = A_ji_8 * v_0_in_i_0 - A_ji_2 * v_0_in_i_2;
-    jac_phi_q_t_lambda_geometry[73] = -t289;
     const jg_real t290 = A_ji_2 * v_0_in_i_1 - v_0_in_i_0 * A_ji_5;
+    jac_phi_q_t_lambda_geometry[71] = A_ji_2 * t285 + A_ji_5 * t286 + A_ji_8 * t287;
+    jac_phi_q_t_lambda_geometry[72] = -t288;
+    jac_phi_q_t_lambda_geometry[73] = -t289;
     jac_phi_q_t_lambda_geometry[74] = -t290;
     jac_phi_q_t_lambda_geometry[75] = A_ji_3 * t289 + A_ji_0 * t288 + A_ji_6 * t290;
     jac_phi_q_t_lambda_geometry[76] = A_ji_4 * t289 + A_ji_1 * t288 + A_ji_7 * t290;
-    jac_phi_q_t_lambda_geometry[77] = A_ji_5 * t289 + A_ji_2 * t288 + A_ji_8 * t290;
+    jac_phi_q_t_lambda_geometry[77] = A_ji_2 * t288 + A_ji_5 * t289 + A_ji_8 * t290;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[8] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[16] = JG_REAL(-1.0);
+    const jg_real t291 = A_i[3] * A_ji_5 + A_i[0] * A_ji_2 + A_i[6] * A_ji_8;
+    const jg_real t292 = A_i[3] * A_ji_4 + A_i[0] * A_ji_1 + A_i[6] * A_ji_7;
+    const jg_real t293 = A_i[3] * A_ji_3 + A_i[0] * A_ji_0 + A_i[6] * A_ji_6;
     jac_phi_q_t_lambda_lambda[1] = A_i[3] * s_i[2] - A_i[6] * s_i[1];
     jac_phi_q_t_lambda_lambda[2] = A_i[6] * s_i[0] - A_i[0] * s_i[2];
     jac_phi_q_t_lambda_lambda[3] = A_i[0] * s_i[1] - A_i[3] * s_i[0];
     jac_phi_q_t_lambda_lambda[4] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[12] = JG_REAL(1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(1.0);
-    const jg_real t291 = A_i[3] * A_ji_5 + A_i[0] * A_ji_2 + A_i[6] * A_ji_8;
-    const jg_real t292 = A_i[3] * A_ji_4 + A_i[0] * A_ji_1 + A_i[6] * A_ji_7;
     jac_phi_q_t_lambda_lambda[5] = s_j[1] * t291 - s_j[2] * t292;
-    const jg_real t293 = A_i[3] * A_ji_3 + A_i[0] * A_ji_0 + A_i[6] * A_ji_6;
     jac_phi_q_t_lambda_lambda[6] = s_j[2] * t293 - s_j[0] * t291;
+    const jg_real t294 = A_i[4] * A_ji_5 + A_i[1] * A_ji_2 + A_i[7] * A_ji_8;
+    const jg_real t295 = A_i[4] * A_ji_4 + A_i[1] * A_ji_1 + A_i[7] * A_ji_7;
+    const jg_real t296 = A_i[4] * A_ji_3 + A_i[1] * A_ji_0 + A_i[7] * A_ji_6;
     jac_phi_q_t_lambda_lambda[7] = s_j[0] * t292 - s_j[1] * t293;
     jac_phi_q_t_lambda_lambda[9] = A_i[4] * s_i[2] - A_i[7] * s_i[1];
     jac_phi_q_t_lambda_lambda[10] = A_i[7] * s_i[0] - A_i[1] * s_i[2];
     jac_phi_q_t_lambda_lambda[11] = A_i[1] * s_i[1] - A_i[4] * s_i[0];
-    const jg_real t294 = A_i[4] * A_ji_5 + A_i[1] * A_ji_2 + A_i[7] * A_ji_8;
-    const jg_real t295 = A_i[4] * A_ji_4 + A_i[1] * A_ji_1 + A_i[7] * A_ji_7;
     jac_phi_q_t_lambda_lambda[13] = s_j[1] * t294 - s_j[2] * t295;
-    const jg_real t296 = A_i[4] * A_ji_3 + A_i[1] * A_ji_0 + A_i[7] * A_ji_6;
     jac_phi_q_t_lambda_lambda[14] = s_j[2] * t296 - s_j[0] * t294;
     jac_phi_q_t_lambda_lambda[15] = s_j[0] * t295 - s_j[1] * t296;
     jac_phi_q_t_lambda_lambda[17] = A_i[5] * s_i[2] - A_i[8] * s_i[1];
-    jac_phi_q_t_lambda_lambda[18] = A_i[8] * s_i[0] - A_i[2] * s_i[2];
-    jac_phi_q_t_lambda_lambda[19] = A_i[2] * s_i[1] - A_i[5] * s_i[0];
     const jg_real t297 = A_i[5] * A_ji_5 + A_i[2] * A_ji_2 + A_i[8] * A_ji_8;
     const jg_real t298 = A_i[5] * A_ji_4 + A_i[2] * A_ji_1 + A_i[8] * A_ji_7;
-    jac_phi_q_t_lambda_lambda[21] = s_j[1] * t297 - s_j[2] * t298;
     const jg_real t299 = A_i[5] * A_ji_3 + A_i[2] * A_ji_0 + A_i[8] * A_ji_6;
+    const jg_real t300 = C_i[2] * h_j_in_i_1 - C_i[1] * h_j_in_i_2;
+    const jg_real t301 = C_i[0] * h_j_in_i_2 - C_i[2] * h_j_in_i_0;
+    const jg_real t302 = C_i[1] * h_j_in_i_0 - C_i[0] * h_j_in_i_1;
+    jac_phi_q_t_lambda_lambda[18] = A_i[8] * s_i[0] - A_i[2] * s_i[2];
+    jac_phi_q_t_lambda_lambda[19] = A_i[2] * s_i[1] - A_i[5] * s_i[0];
+    jac_phi_q_t_lambda_lambda[21] = s_j[1] * t297 - s_j[2] * t298;
     jac_phi_q_t_lambda_lambda[22] = s_j[2] * t299 - s_j[0] * t297;
     jac_phi_q_t_lambda_lambda[23] = s_j[0] * t298 - s_j[1] * t299;
-    const jg_real t300 = C_i[2] * h_j_in_i_1 - C_i[1] * h_j_in_i_2;
     jac_phi_q_t_lambda_lambda[24] = -t300;
-    const jg_real t301 = C_i[0] * h_j_in_i_2 - C_i[2] * h_j_in_i_0;
     jac_phi_q_t_lambda_lambda[25] = -t301;
-    const jg_real t302 = C_i[1] * h_j_in_i_0 - C_i[0] * h_j_in_i_1;
     jac_phi_q_t_lambda_lambda[26] = -t302;
+    const jg_real t303 = C_i[5] * h_j_in_i_1 - C_i[4] * h_j_in_i_2;
+    const jg_real t304 = C_i[3] * h_j_in_i_2 - C_i[5] * h_j_in_i_0;
+    const jg_real t305 = C_i[4] * h_j_in_i_0 - C_i[3] * h_j_in_i_1;
     jac_phi_q_t_lambda_lambda[27] = A_ji_3 * t301 + A_ji_0 * t300 + A_ji_6 * t302;
     jac_phi_q_t_lambda_lambda[28] = A_ji_4 * t301 + A_ji_1 * t300 + A_ji_7 * t302;
-    jac_phi_q_t_lambda_lambda[29] = A_ji_5 * t301 + A_ji_2 * t300 + A_ji_8 * t302;
-    const jg_real t303 = C_i[5] * h_j_in_i_1 - C_i[4] * h_j_in_i_2;
+    jac_phi_q_t_lambda_lambda[29] = A_ji_2 * t300 + A_ji_5 * t301 + A_ji_8 * t302;
     jac_phi_q_t_lambda_lambda[30] = -t303;
-    const jg_real t304 = C_i[3] * h_j_in_i_2 - C_i[5] * h_j_in_i_0;
     jac_phi_q_t_lambda_lambda[31] = -t304;
-    const jg_real t305 = C_i[4] * h_j_in_i_0 - C_i[3] * h_j_in_i_1;
     jac_phi_q_t_lambda_lambda[32] = -t305;
     jac_phi_q_t_lambda_lambda[33] = A_ji_3 * t304 + A_ji_0 * t303 + A_ji_6 * t305;
     jac_phi_q_t_lambda_lambda[34] = A_ji_4 * t304 + A_ji_1 * t303 + A_ji_7 * t305;
-    jac_phi_q_t_lambda_lambda[35] = A_ji_5 * t304 + A_ji_2 * t303 + A_ji_8 * t305;
+    jac_phi_q_t_lambda_lambda[35] = A_ji_2 * t303 + A_ji_5 * t304 + A_ji_8 * t305;
     jac_phi_q_t_lambda_lambda[36] = -g_j_cross_f_i_in_i_0;
     jac_phi_q_t_lambda_lambda[37] = -g_j_cross_f_i_in_i_1;
     jac_phi_q_t_lambda_lambda[38] = -g_j_cross_f_i_in_i_2;
@@ -1322,7 +1322,7 @@ static void jg_rigid_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
         g_j_cross_f_i_in_i_2;
     jac_phi_q_t_lambda_lambda[40] = A_ji_4 * g_j_cross_f_i_in_i_1 + A_ji_1 * g_j_cross_f_i_in_i_0 + A_ji_7 *
         g_j_cross_f_i_in_i_2;
-    jac_phi_q_t_lambda_lambda[41] = A_ji_5 * g_j_cross_f_i_in_i_1 + A_ji_2 * g_j_cross_f_i_in_i_0 + A_ji_8 *
+    jac_phi_q_t_lambda_lambda[41] = A_ji_2 * g_j_cross_f_i_in_i_0 + A_ji_5 * g_j_cross_f_i_in_i_1 + A_ji_8 *
         g_j_cross_f_i_in_i_2;
 }
 

@@ -21,10 +21,9 @@
 #define JG_EXPORT
 #endif
 
-static void jg_rigid_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i, jg_real *JG_RESTRICT jac_phi_r_j,
-    jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_rigid_parametric_phi_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, jg_real *jac_phi_r_i, jg_real *jac_phi_A_i, jg_real *jac_phi_r_j,
+    jg_real *jac_phi_A_j, jg_real *jac_phi_geometry)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -45,238 +44,238 @@ static void jg_rigid_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
-    jac_phi_geometry[5] = g_j_in_i_2;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[11] = f_j_in_i_2;
     const jg_real t11 = f_j_world_0 * g_j_in_i_2 - g_j_world_0 * f_j_in_i_2;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_geometry[5] = g_j_in_i_2;
+    jac_phi_geometry[11] = f_j_in_i_2;
     jac_phi_geometry[10] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    jac_phi_geometry[4] = g_j_in_i_1;
     const jg_real t14 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
-    jac_phi_A_i[1] = -(C_i[4] * t11 + C_i[5] * t14);
-    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
-    jac_phi_A_i[3] = C_i[0] * g_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real t18 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
+    const jg_real t19 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
+    jac_phi_geometry[4] = g_j_in_i_1;
+    jac_phi_A_i[1] = -(C_i[4] * t11 + C_i[5] * t14);
+    jac_phi_A_i[2] = f_j_world_0 * C_i[6];
+    jac_phi_A_i[3] = C_i[0] * g_j_world_0;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
-    const jg_real t18 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t19 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(C_i[4] * t18 + C_i[5] * t19);
-    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
-    jac_phi_A_i[7] = C_i[0] * g_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real t23 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
+    const jg_real t24 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
+    jac_phi_A_i[6] = f_j_world_1 * C_i[6];
+    jac_phi_A_i[7] = C_i[0] * g_j_world_1;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t23 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t24 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
     jac_phi_A_i[9] = -(C_i[4] * t23 + C_i[5] * t24);
-    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
+    jac_phi_A_i[10] = f_j_world_2 * C_i[6];
     jac_phi_A_i[11] = C_i[0] * g_j_world_2;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
-    jac_phi_geometry[3] = g_j_in_i_0;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[9] = f_j_in_i_0;
     const jg_real t27 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
-    jac_phi_A_i[13] = C_i[3] * t11 - C_i[5] * t27;
-    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
-    jac_phi_A_i[15] = C_i[1] * g_j_world_0;
     const jg_real t28 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
+    jac_phi_geometry[3] = g_j_in_i_0;
+    jac_phi_geometry[9] = f_j_in_i_0;
+    jac_phi_A_i[13] = C_i[3] * t11 - C_i[5] * t27;
+    jac_phi_A_i[14] = f_j_world_0 * C_i[7];
+    jac_phi_A_i[15] = C_i[1] * g_j_world_0;
     jac_phi_A_i[17] = C_i[3] * t18 - C_i[5] * t28;
-    jac_phi_A_i[18] = C_i[7] * f_j_world_1;
+    jac_phi_A_i[18] = f_j_world_1 * C_i[7];
     jac_phi_A_i[19] = C_i[1] * g_j_world_1;
     const jg_real t29 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
     jac_phi_A_i[21] = C_i[3] * t23 - C_i[5] * t29;
-    jac_phi_A_i[22] = C_i[7] * f_j_world_2;
+    jac_phi_A_i[22] = f_j_world_2 * C_i[7];
     jac_phi_A_i[23] = C_i[1] * g_j_world_2;
     jac_phi_A_i[25] = C_i[3] * t14 + C_i[4] * t27;
-    jac_phi_A_i[26] = C_i[8] * f_j_world_0;
+    jac_phi_A_i[26] = f_j_world_0 * C_i[8];
     jac_phi_A_i[27] = C_i[2] * g_j_world_0;
     jac_phi_A_i[29] = C_i[3] * t19 + C_i[4] * t28;
-    jac_phi_A_i[30] = C_i[8] * f_j_world_1;
-    jac_phi_A_i[31] = C_i[2] * g_j_world_1;
-    jac_phi_A_i[33] = C_i[3] * t24 + C_i[4] * t29;
-    jac_phi_A_i[34] = C_i[8] * f_j_world_2;
-    jac_phi_A_i[35] = C_i[2] * g_j_world_2;
-    jac_phi_A_j[0] = s_j[0] * A_i[0];
-    jac_phi_A_j[1] = s_j[0] * A_i[3];
-    jac_phi_A_j[2] = s_j[0] * A_i[6];
+    jac_phi_A_i[30] = f_j_world_1 * C_i[8];
     const jg_real t30 = A_i[3] * C_j[0];
     const jg_real t31 = A_i[6] * C_j[3];
     const jg_real t32 = A_i[6] * C_j[0];
     const jg_real t33 = A_i[3] * C_j[3];
     const jg_real t34 = A_i[0] * C_j[3];
     const jg_real t35 = A_i[0] * C_j[0];
+    jac_phi_A_i[31] = C_i[2] * g_j_world_1;
+    jac_phi_A_i[33] = C_i[3] * t24 + C_i[4] * t29;
+    jac_phi_A_i[34] = f_j_world_2 * C_i[8];
+    jac_phi_A_i[35] = C_i[2] * g_j_world_2;
+    jac_phi_A_j[0] = s_j[0] * A_i[0];
+    jac_phi_A_j[1] = s_j[0] * A_i[3];
+    jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = C_i[3] * (t30 * g_j_in_i_2 + t31 * f_j_in_i_1 - (t32 * g_j_in_i_1 + t33 * f_j_in_i_2)) + C_i[4]
         * (t32 * g_j_in_i_0 + t34 * f_j_in_i_2 - (t35 * g_j_in_i_2 + t31 * f_j_in_i_0)) + C_i[5] * (t35 * g_j_in_i_1
-        + t33 * f_j_in_i_0 - (t30 * g_j_in_i_0 + t34 * f_j_in_i_1));
-    jac_phi_A_j[4] = C_i[7] * t30 + C_i[6] * t35 + C_i[8] * t32;
-    jac_phi_A_j[5] = C_i[1] * t33 + C_i[0] * t34 + C_i[2] * t31;
-    jac_phi_A_j[6] = s_j[0] * A_i[1];
-    jac_phi_A_j[7] = s_j[0] * A_i[4];
-    jac_phi_A_j[8] = s_j[0] * A_i[7];
+        + t33 * f_j_in_i_0 - (t30 * g_j_in_i_0 + f_j_in_i_1 * t34));
     const jg_real t36 = A_i[4] * C_j[0];
     const jg_real t37 = A_i[7] * C_j[3];
     const jg_real t38 = A_i[7] * C_j[0];
     const jg_real t39 = A_i[4] * C_j[3];
     const jg_real t40 = A_i[1] * C_j[3];
     const jg_real t41 = A_i[1] * C_j[0];
+    jac_phi_A_j[4] = C_i[7] * t30 + C_i[6] * t35 + C_i[8] * t32;
+    jac_phi_A_j[5] = C_i[0] * t34 + C_i[1] * t33 + C_i[2] * t31;
+    jac_phi_A_j[6] = s_j[0] * A_i[1];
+    jac_phi_A_j[7] = s_j[0] * A_i[4];
+    jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_i[3] * (t36 * g_j_in_i_2 + t37 * f_j_in_i_1 - (t38 * g_j_in_i_1 + t39 * f_j_in_i_2)) + C_i[4]
         * (t38 * g_j_in_i_0 + t40 * f_j_in_i_2 - (t41 * g_j_in_i_2 + t37 * f_j_in_i_0)) + C_i[5] * (t41 * g_j_in_i_1
-        + t39 * f_j_in_i_0 - (t36 * g_j_in_i_0 + t40 * f_j_in_i_1));
+        + t39 * f_j_in_i_0 - (t36 * g_j_in_i_0 + f_j_in_i_1 * t40));
     jac_phi_A_j[10] = C_i[7] * t36 + C_i[6] * t41 + C_i[8] * t38;
-    jac_phi_A_j[11] = C_i[1] * t39 + C_i[0] * t40 + C_i[2] * t37;
-    jac_phi_A_j[12] = s_j[0] * A_i[2];
-    jac_phi_A_j[13] = s_j[0] * A_i[5];
-    jac_phi_A_j[14] = s_j[0] * A_i[8];
+    jac_phi_A_j[11] = C_i[0] * t40 + C_i[1] * t39 + C_i[2] * t37;
     const jg_real t42 = A_i[5] * C_j[0];
     const jg_real t43 = A_i[8] * C_j[3];
     const jg_real t44 = A_i[8] * C_j[0];
     const jg_real t45 = A_i[5] * C_j[3];
     const jg_real t46 = A_i[2] * C_j[3];
     const jg_real t47 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = C_i[3] * (t42 * g_j_in_i_2 + t43 * f_j_in_i_1 - (t44 * g_j_in_i_1 + t45 * f_j_in_i_2)) +
+    jac_phi_A_j[12] = s_j[0] * A_i[2];
+    jac_phi_A_j[13] = s_j[0] * A_i[5];
+    jac_phi_A_j[14] = s_j[0] * A_i[8];
+    jac_phi_A_j[15] = C_i[3] * (t42 * g_j_in_i_2 + f_j_in_i_1 * t43 - (t44 * g_j_in_i_1 + t45 * f_j_in_i_2)) +
         C_i[4] * (t44 * g_j_in_i_0 + t46 * f_j_in_i_2 - (t47 * g_j_in_i_2 + t43 * f_j_in_i_0)) + C_i[5] * (t47 *
         g_j_in_i_1 + t45 * f_j_in_i_0 - (t42 * g_j_in_i_0 + f_j_in_i_1 * t46));
     jac_phi_A_j[16] = C_i[7] * t42 + C_i[6] * t47 + C_i[8] * t44;
-    jac_phi_A_j[17] = C_i[1] * t45 + C_i[0] * t46 + C_i[2] * t43;
+    jac_phi_A_j[17] = C_i[0] * t46 + C_i[1] * t45 + C_i[2] * t43;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
-    jac_phi_A_j[20] = s_j[1] * A_i[6];
     const jg_real t48 = A_i[3] * C_j[1];
     const jg_real t49 = A_i[6] * C_j[4];
     const jg_real t50 = A_i[6] * C_j[1];
     const jg_real t51 = A_i[3] * C_j[4];
     const jg_real t52 = A_i[0] * C_j[4];
     const jg_real t53 = A_i[0] * C_j[1];
-    jac_phi_A_j[21] = C_i[3] * (t48 * g_j_in_i_2 + t49 * f_j_in_i_1 - (t50 * g_j_in_i_1 + t51 * f_j_in_i_2)) +
-        C_i[4] * (t50 * g_j_in_i_0 + t52 * f_j_in_i_2 - (t53 * g_j_in_i_2 + t49 * f_j_in_i_0)) + C_i[5] * (t53 *
-        g_j_in_i_1 + t51 * f_j_in_i_0 - (t48 * g_j_in_i_0 + t52 * f_j_in_i_1));
-    jac_phi_A_j[22] = C_i[7] * t48 + C_i[6] * t53 + C_i[8] * t50;
-    jac_phi_A_j[23] = C_i[1] * t51 + C_i[0] * t52 + C_i[2] * t49;
-    jac_phi_A_j[24] = s_j[1] * A_i[1];
-    jac_phi_A_j[25] = s_j[1] * A_i[4];
-    jac_phi_A_j[26] = s_j[1] * A_i[7];
     const jg_real t54 = A_i[4] * C_j[1];
     const jg_real t55 = A_i[7] * C_j[4];
     const jg_real t56 = A_i[7] * C_j[1];
     const jg_real t57 = A_i[4] * C_j[4];
     const jg_real t58 = A_i[1] * C_j[4];
     const jg_real t59 = A_i[1] * C_j[1];
+    jac_phi_A_j[20] = s_j[1] * A_i[6];
+    jac_phi_A_j[21] = C_i[3] * (t48 * g_j_in_i_2 + t49 * f_j_in_i_1 - (t50 * g_j_in_i_1 + t51 * f_j_in_i_2)) +
+        C_i[4] * (t50 * g_j_in_i_0 + t52 * f_j_in_i_2 - (t53 * g_j_in_i_2 + t49 * f_j_in_i_0)) + C_i[5] * (t53 *
+        g_j_in_i_1 + t51 * f_j_in_i_0 - (t48 * g_j_in_i_0 + f_j_in_i_1 * t52));
+    jac_phi_A_j[22] = C_i[7] * t48 + C_i[6] * t53 + C_i[8] * t50;
+    jac_phi_A_j[23] = C_i[0] * t52 + C_i[1] * t51 + C_i[2] * t49;
+    jac_phi_A_j[24] = s_j[1] * A_i[1];
+    jac_phi_A_j[25] = s_j[1] * A_i[4];
+    jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = C_i[3] * (t54 * g_j_in_i_2 + t55 * f_j_in_i_1 - (t56 * g_j_in_i_1 + t57 * f_j_in_i_2)) +
         C_i[4] * (t56 * g_j_in_i_0 + t58 * f_j_in_i_2 - (t59 * g_j_in_i_2 + t55 * f_j_in_i_0)) + C_i[5] * (t59 *
-        g_j_in_i_1 + t57 * f_j_in_i_0 - (t54 * g_j_in_i_0 + t58 * f_j_in_i_1));
-    jac_phi_A_j[28] = C_i[7] * t54 + C_i[6] * t59 + C_i[8] * t56;
-    jac_phi_A_j[29] = C_i[1] * t57 + C_i[0] * t58 + C_i[2] * t55;
-    jac_phi_A_j[30] = s_j[1] * A_i[2];
-    jac_phi_A_j[31] = s_j[1] * A_i[5];
-    jac_phi_A_j[32] = s_j[1] * A_i[8];
+        g_j_in_i_1 + t57 * f_j_in_i_0 - (t54 * g_j_in_i_0 + f_j_in_i_1 * t58));
     const jg_real t60 = A_i[5] * C_j[1];
     const jg_real t61 = A_i[8] * C_j[4];
     const jg_real t62 = A_i[8] * C_j[1];
     const jg_real t63 = A_i[5] * C_j[4];
     const jg_real t64 = A_i[2] * C_j[4];
     const jg_real t65 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = C_i[3] * (t60 * g_j_in_i_2 + t61 * f_j_in_i_1 - (t62 * g_j_in_i_1 + t63 * f_j_in_i_2)) +
+    jac_phi_A_j[28] = C_i[7] * t54 + C_i[6] * t59 + C_i[8] * t56;
+    jac_phi_A_j[29] = C_i[0] * t58 + C_i[1] * t57 + C_i[2] * t55;
+    jac_phi_A_j[30] = s_j[1] * A_i[2];
+    jac_phi_A_j[31] = s_j[1] * A_i[5];
+    jac_phi_A_j[32] = s_j[1] * A_i[8];
+    jac_phi_A_j[33] = C_i[3] * (t60 * g_j_in_i_2 + f_j_in_i_1 * t61 - (t62 * g_j_in_i_1 + t63 * f_j_in_i_2)) +
         C_i[4] * (t62 * g_j_in_i_0 + t64 * f_j_in_i_2 - (t65 * g_j_in_i_2 + t61 * f_j_in_i_0)) + C_i[5] * (t65 *
         g_j_in_i_1 + t63 * f_j_in_i_0 - (t60 * g_j_in_i_0 + f_j_in_i_1 * t64));
     jac_phi_A_j[34] = C_i[7] * t60 + C_i[6] * t65 + C_i[8] * t62;
-    jac_phi_A_j[35] = C_i[1] * t63 + C_i[0] * t64 + C_i[2] * t61;
-    jac_phi_A_j[36] = s_j[2] * A_i[0];
-    jac_phi_A_j[37] = s_j[2] * A_i[3];
-    jac_phi_A_j[38] = s_j[2] * A_i[6];
+    jac_phi_A_j[35] = C_i[0] * t64 + C_i[1] * t63 + C_i[2] * t61;
     const jg_real t66 = A_i[3] * C_j[2];
     const jg_real t67 = A_i[6] * C_j[5];
     const jg_real t68 = A_i[6] * C_j[2];
     const jg_real t69 = A_i[3] * C_j[5];
     const jg_real t70 = A_i[0] * C_j[5];
     const jg_real t71 = A_i[0] * C_j[2];
+    jac_phi_A_j[36] = s_j[2] * A_i[0];
+    jac_phi_A_j[37] = s_j[2] * A_i[3];
+    jac_phi_A_j[38] = s_j[2] * A_i[6];
     jac_phi_A_j[39] = C_i[3] * (t66 * g_j_in_i_2 + t67 * f_j_in_i_1 - (t68 * g_j_in_i_1 + t69 * f_j_in_i_2)) +
         C_i[4] * (t68 * g_j_in_i_0 + t70 * f_j_in_i_2 - (t71 * g_j_in_i_2 + t67 * f_j_in_i_0)) + C_i[5] * (t71 *
-        g_j_in_i_1 + t69 * f_j_in_i_0 - (t66 * g_j_in_i_0 + t70 * f_j_in_i_1));
+        g_j_in_i_1 + t69 * f_j_in_i_0 - (t66 * g_j_in_i_0 + f_j_in_i_1 * t70));
     jac_phi_A_j[40] = C_i[7] * t66 + C_i[6] * t71 + C_i[8] * t68;
-    jac_phi_A_j[41] = C_i[1] * t69 + C_i[0] * t70 + C_i[2] * t67;
+    jac_phi_A_j[41] = C_i[0] * t70 + C_i[1] * t69 + C_i[2] * t67;
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
-    jac_phi_A_j[44] = s_j[2] * A_i[7];
     const jg_real t72 = A_i[4] * C_j[2];
     const jg_real t73 = A_i[7] * C_j[5];
     const jg_real t74 = A_i[7] * C_j[2];
     const jg_real t75 = A_i[4] * C_j[5];
     const jg_real t76 = A_i[1] * C_j[5];
     const jg_real t77 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = C_i[3] * (t72 * g_j_in_i_2 + t73 * f_j_in_i_1 - (t74 * g_j_in_i_1 + t75 * f_j_in_i_2)) +
-        C_i[4] * (t74 * g_j_in_i_0 + t76 * f_j_in_i_2 - (t77 * g_j_in_i_2 + t73 * f_j_in_i_0)) + C_i[5] * (t77 *
-        g_j_in_i_1 + t75 * f_j_in_i_0 - (t72 * g_j_in_i_0 + t76 * f_j_in_i_1));
-    jac_phi_A_j[46] = C_i[7] * t72 + C_i[6] * t77 + C_i[8] * t74;
-    jac_phi_A_j[47] = C_i[1] * t75 + C_i[0] * t76 + C_i[2] * t73;
-    jac_phi_A_j[48] = s_j[2] * A_i[2];
-    jac_phi_A_j[49] = s_j[2] * A_i[5];
-    jac_phi_A_j[50] = s_j[2] * A_i[8];
     const jg_real t78 = A_i[5] * C_j[2];
     const jg_real t79 = A_i[8] * C_j[5];
     const jg_real t80 = A_i[8] * C_j[2];
     const jg_real t81 = A_i[5] * C_j[5];
     const jg_real t82 = A_i[2] * C_j[5];
     const jg_real t83 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = C_i[3] * (t78 * g_j_in_i_2 + t79 * f_j_in_i_1 - (t80 * g_j_in_i_1 + t81 * f_j_in_i_2)) +
+    jac_phi_A_j[44] = s_j[2] * A_i[7];
+    jac_phi_A_j[45] = C_i[3] * (t72 * g_j_in_i_2 + t73 * f_j_in_i_1 - (t74 * g_j_in_i_1 + t75 * f_j_in_i_2)) +
+        C_i[4] * (t74 * g_j_in_i_0 + t76 * f_j_in_i_2 - (t77 * g_j_in_i_2 + t73 * f_j_in_i_0)) + C_i[5] * (t77 *
+        g_j_in_i_1 + t75 * f_j_in_i_0 - (t72 * g_j_in_i_0 + f_j_in_i_1 * t76));
+    jac_phi_A_j[46] = C_i[7] * t72 + C_i[6] * t77 + C_i[8] * t74;
+    jac_phi_A_j[47] = C_i[0] * t76 + C_i[1] * t75 + C_i[2] * t73;
+    jac_phi_A_j[48] = s_j[2] * A_i[2];
+    jac_phi_A_j[49] = s_j[2] * A_i[5];
+    jac_phi_A_j[50] = s_j[2] * A_i[8];
+    jac_phi_A_j[51] = C_i[3] * (t78 * g_j_in_i_2 + f_j_in_i_1 * t79 - (t80 * g_j_in_i_1 + t81 * f_j_in_i_2)) +
         C_i[4] * (t80 * g_j_in_i_0 + t82 * f_j_in_i_2 - (t83 * g_j_in_i_2 + t79 * f_j_in_i_0)) + C_i[5] * (t83 *
         g_j_in_i_1 + t81 * f_j_in_i_0 - (t78 * g_j_in_i_0 + f_j_in_i_1 * t82));
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
+    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
     jac_phi_A_j[52] = C_i[7] * t78 + C_i[6] * t83 + C_i[8] * t80;
-    jac_phi_A_j[53] = C_i[1] * t81 + C_i[0] * t82 + C_i[2] * t79;
+    jac_phi_A_j[53] = C_i[0] * t82 + C_i[1] * t81 + C_i[2] * t79;
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
     jac_phi_geometry[6] = h_j_in_i_0;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
     jac_phi_geometry[7] = h_j_in_i_1;
-    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
     jac_phi_geometry[8] = h_j_in_i_2;
     const jg_real t87 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    jac_phi_geometry[12] = t87;
     const jg_real t88 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_geometry[13] = t88;
     const jg_real t89 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[14] = t89;
     const jg_real t90 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    jac_phi_geometry[15] = t90;
     const jg_real t91 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_geometry[16] = t91;
     const jg_real t92 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[17] = t92;
     const jg_real t93 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_geometry[18] = t93;
     const jg_real t94 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    jac_phi_geometry[12] = t87;
+    jac_phi_geometry[13] = t88;
+    jac_phi_geometry[14] = t89;
+    jac_phi_geometry[15] = t90;
+    jac_phi_geometry[16] = t91;
+    jac_phi_geometry[17] = t92;
+    jac_phi_geometry[18] = t93;
     jac_phi_geometry[19] = t94;
     const jg_real t95 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     jac_phi_geometry[20] = t95;
@@ -289,15 +288,15 @@ static void jg_rigid_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_geometry[25] = C_i[3] * (t94 * g_j_in_i_2 - t95 * g_j_in_i_1) + C_i[4] * (t95 * g_j_in_i_0 - t93 *
         g_j_in_i_2) + C_i[5] * (t93 * g_j_in_i_1 - t94 * g_j_in_i_0);
     jac_phi_geometry[26] = C_i[7] * t94 + C_i[6] * t93 + C_i[8] * t95;
-    jac_phi_geometry[27] = C_i[3] * (f_j_in_i_1 * t89 - t88 * f_j_in_i_2) + C_i[4] * (t87 * f_j_in_i_2 - t89 *
-        f_j_in_i_0) + C_i[5] * (t88 * f_j_in_i_0 - f_j_in_i_1 * t87);
-    jac_phi_geometry[28] = C_i[1] * t88 + C_i[0] * t87 + C_i[2] * t89;
-    jac_phi_geometry[29] = C_i[3] * (f_j_in_i_1 * t92 - t91 * f_j_in_i_2) + C_i[4] * (t90 * f_j_in_i_2 - t92 *
-        f_j_in_i_0) + C_i[5] * (t91 * f_j_in_i_0 - f_j_in_i_1 * t90);
-    jac_phi_geometry[30] = C_i[1] * t91 + C_i[0] * t90 + C_i[2] * t92;
-    jac_phi_geometry[31] = C_i[3] * (f_j_in_i_1 * t95 - t94 * f_j_in_i_2) + C_i[4] * (t93 * f_j_in_i_2 - t95 *
-        f_j_in_i_0) + C_i[5] * (t94 * f_j_in_i_0 - f_j_in_i_1 * t93);
-    jac_phi_geometry[32] = C_i[1] * t94 + C_i[0] * t93 + C_i[2] * t95;
+    jac_phi_geometry[27] = C_i[3] * (t89 * f_j_in_i_1 - t88 * f_j_in_i_2) + C_i[4] * (t87 * f_j_in_i_2 - t89 *
+        f_j_in_i_0) + C_i[5] * (t88 * f_j_in_i_0 - t87 * f_j_in_i_1);
+    jac_phi_geometry[28] = C_i[0] * t87 + C_i[1] * t88 + C_i[2] * t89;
+    jac_phi_geometry[29] = C_i[3] * (t92 * f_j_in_i_1 - t91 * f_j_in_i_2) + C_i[4] * (t90 * f_j_in_i_2 - t92 *
+        f_j_in_i_0) + C_i[5] * (t91 * f_j_in_i_0 - t90 * f_j_in_i_1);
+    jac_phi_geometry[30] = C_i[0] * t90 + C_i[1] * t91 + C_i[2] * t92;
+    jac_phi_geometry[31] = C_i[3] * (t95 * f_j_in_i_1 - t94 * f_j_in_i_2) + C_i[4] * (t93 * f_j_in_i_2 - t95 *
+        f_j_in_i_0) + C_i[5] * (t94 * f_j_in_i_0 - t93 * f_j_in_i_1);
+    jac_phi_geometry[32] = C_i[0] * t93 + C_i[1] * t94 + C_i[2] * t95;
 }
 
 static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -313,51 +312,48 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
+    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
+    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
+    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     jac_phi_q_v_r_j[1] = t1;
     jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
     jac_phi_q_v_r_j[2] = t2;
     jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[3] = t3;
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
+    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
+    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
+    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
     jac_phi_q_v_r_j[5] = t5;
     jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
     jac_phi_q_v_r_j[6] = t6;
     jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[23] = A_ij_2;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_v_velocity[28] = A_ij_7;
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_q_v_velocity[22] = A_ij_1;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[29] = A_ij_8;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
-    jac_phi_q_v_velocity[24] = A_ij_3;
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    jac_phi_q_v_r_j[8] = t8;
+    jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_velocity[23] = A_ij_2;
+    jac_phi_q_v_velocity[28] = A_ij_7;
+    jac_phi_q_v_velocity[22] = A_ij_1;
+    jac_phi_q_v_velocity[29] = A_ij_8;
+    jac_phi_q_v_velocity[24] = A_ij_3;
     jac_phi_q_v_velocity[21] = A_ij_0;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_q_v_velocity[27] = A_ij_6;
     const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
-    jac_phi_q_v_velocity[25] = A_ij_4;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
-    jac_phi_q_v_velocity[26] = A_ij_5;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ij_3 + omega_i[1] * A_ij_4 + omega_i[2] * A_ij_5;
     const jg_real omega_i_in_j_0 = omega_i[1] * A_ij_1 + omega_i[0] * A_ij_0 + omega_i[2] * A_ij_2;
@@ -382,7 +378,6 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     const jg_real t37 = A_j[0] * v_0_in_j_0 + A_j[6] * v_0_in_j_2;
-    jac_phi_q_v_A_i[0] = t21 - A_ij_6 * t26 + (t29 + A_ij_0 * t31 + A_ij_3 * t32) + t37;
     const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - s_j[0] * omega_i_in_j_2;
     const jg_real t39 = t22 * s_j_cross_omega_i_in_j_1;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
@@ -390,46 +385,50 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     /* v_1_world = r_j - r_i, world axes */
     const jg_real v_1_world_0 = r_j[0] - r_i[0];
     const jg_real t43 = v_0_in_j_1 * t22 + omega_i[2] * v_1_world_0;
-    jac_phi_q_v_A_i[1] = A_ij_4 * t32 - t39 + A_ij_1 * t31 - A_ij_7 * t26 - t43;
     const jg_real t44 = t23 * s_j_cross_omega_i_in_j_1;
     const jg_real t45 = v_0_in_j_1 * t23 - omega_i[1] * v_1_world_0;
-    jac_phi_q_v_A_i[2] = A_ij_5 * t32 - t44 + A_ij_2 * t31 - A_ij_8 * t26 - t45;
     const jg_real t46 = A_j[6] * C_i[3];
     const jg_real t47 = A_j[0] * C_i[3];
-    const jg_real t48 = C_j[6] * t46 - C_j[8] * t47;
+    const jg_real t48 = t46 * C_j[6] - C_j[8] * t47;
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_2 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
-    const jg_real g_i_in_j_0 = C_i[3] * A_ij_0 + C_i[4] * A_ij_1 + A_ij_2 * C_i[5];
+    const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
+    const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
     const jg_real g_i_cross_h_j_in_j_1 = C_j[6] * g_i_in_j_2 - C_j[8] * g_i_in_j_0;
-    const jg_real g_i_in_j_1 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
     const jg_real g_i_cross_h_j_in_j_0 = C_j[8] * g_i_in_j_1 - C_j[7] * g_i_in_j_2;
-    const jg_real t54 = C_i[4] * t22 + C_i[5] * t23;
-    const jg_real t55 = C_j[7] * t46 + C_j[8] * t54;
+    const jg_real t54 = t22 * C_i[4] + t23 * C_i[5];
+    const jg_real t55 = C_j[8] * t54 + t46 * C_j[7];
     const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
-    const jg_real t57 = C_j[7] * t47 + C_j[6] * t54;
-    jac_phi_q_v_A_i[3] = t30 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t57 + (omega_i_in_j_1 * t48 - t24 *
-        g_i_cross_h_j_in_j_1 + (t25 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t55)) - (omega_j[1] * t48 - omega_j[0]
-        * t55 + omega_j[2] * t57);
+    const jg_real t57 = C_j[6] * t54 + C_j[7] * t47;
     const jg_real t58 = A_j[6] * C_i[6];
     const jg_real t59 = A_j[0] * C_i[6];
-    const jg_real t60 = C_j[0] * t58 - C_j[2] * t59;
+    const jg_real t60 = t58 * C_j[0] - C_j[2] * t59;
     /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
-    const jg_real h_i_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + A_ij_2 * C_i[8];
+    const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
+    const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
     const jg_real h_i_cross_f_j_in_j_1 = C_j[0] * h_i_in_j_2 - C_j[2] * h_i_in_j_0;
-    const jg_real h_i_in_j_1 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
+    const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
     const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - C_j[1] * h_i_in_j_2;
-    const jg_real t66 = C_i[7] * t22 + C_i[8] * t23;
-    const jg_real t67 = C_j[2] * t66 + C_j[1] * t58;
+    const jg_real t66 = t22 * C_i[7] + t23 * C_i[8];
+    const jg_real t67 = C_j[2] * t66 + t58 * C_j[1];
     const jg_real h_i_cross_f_j_in_j_2 = C_j[1] * h_i_in_j_0 - C_j[0] * h_i_in_j_1;
     const jg_real t69 = C_j[0] * t66 + C_j[1] * t59;
+    jac_phi_q_v_velocity[27] = A_ij_6;
+    jac_phi_q_v_velocity[25] = A_ij_4;
+    jac_phi_q_v_velocity[26] = A_ij_5;
+    jac_phi_q_v_A_i[0] = t21 - A_ij_6 * t26 + (t29 + A_ij_0 * t31 + A_ij_3 * t32) + t37;
+    jac_phi_q_v_A_i[1] = A_ij_4 * t32 - t39 + A_ij_1 * t31 - A_ij_7 * t26 - t43;
+    jac_phi_q_v_A_i[2] = A_ij_5 * t32 - t44 + A_ij_2 * t31 - A_ij_8 * t26 - t45;
+    jac_phi_q_v_A_i[3] = t30 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t57 + (t25 * g_i_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t55 + (omega_i_in_j_1 * t48 - t24 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t48 - omega_j[0]
+        * t55 + omega_j[2] * t57);
     jac_phi_q_v_A_i[4] = t30 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t69 + (t25 * h_i_cross_f_j_in_j_0 -
         omega_i_in_j_0 * t67 + (omega_i_in_j_1 * t60 - t24 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t60 - omega_j[0]
         * t67 + omega_j[2] * t69);
-    const jg_real t70 = t47 * h_i_in_j_1 - g_i_in_j_0 * t66 - (t59 * g_i_in_j_1 - t54 * h_i_in_j_0);
-    const jg_real t71 = t58 * g_i_in_j_1 - t54 * h_i_in_j_2 - (t46 * h_i_in_j_1 - g_i_in_j_2 * t66);
+    const jg_real t70 = t47 * h_i_in_j_1 - g_i_in_j_0 * t66 - (g_i_in_j_1 * t59 - t54 * h_i_in_j_0);
+    const jg_real t71 = g_i_in_j_1 * t58 - t54 * h_i_in_j_2 - (t46 * h_i_in_j_1 - g_i_in_j_2 * t66);
     const jg_real t72 = C_j[3] * t70 - C_j[5] * t71;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
@@ -438,13 +437,10 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real f_i_cross_g_j_in_j_1 = C_j[3] * f_i_in_j_2 - C_j[5] * f_i_in_j_0;
     const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     const jg_real f_i_cross_g_j_in_j_0 = C_j[5] * f_i_in_j_1 - C_j[4] * f_i_in_j_2;
-    const jg_real t78 = t46 * h_i_in_j_0 + g_i_in_j_2 * t59 - (t47 * h_i_in_j_2 + g_i_in_j_0 * t58);
+    const jg_real t78 = t46 * h_i_in_j_0 + g_i_in_j_2 * t59 - (t47 * h_i_in_j_2 + t58 * g_i_in_j_0);
     const jg_real t79 = C_j[5] * t78 - C_j[4] * t70;
     const jg_real f_i_cross_g_j_in_j_2 = C_j[4] * f_i_in_j_0 - C_j[3] * f_i_in_j_1;
     const jg_real t81 = C_j[4] * t71 - C_j[3] * t78;
-    jac_phi_q_v_A_i[5] = t30 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t81 + (omega_i_in_j_1 * t72 - t24 *
-        f_i_cross_g_j_in_j_1 + (t25 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t79)) - (omega_j[1] * t72 + omega_j[0]
-        * t79 + omega_j[2] * t81);
     const jg_real t82 = A_j[7] * s_j_cross_omega_i_in_j_2;
     const jg_real t83 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
     const jg_real t84 = A_j[1] * A_ij_7 - A_j[7] * A_ij_1;
@@ -456,41 +452,29 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t90 = s_j[1] * t89 + s_j[2] * t85;
     const jg_real t91 = s_j[2] * t86 - s_j[0] * t89;
     const jg_real t92 = A_j[1] * v_0_in_j_0 + A_j[7] * v_0_in_j_2;
-    jac_phi_q_v_A_i[6] = t82 - A_ij_6 * t87 + (t88 + A_ij_0 * t90 + A_ij_3 * t91) + t92;
     const jg_real t93 = t83 * s_j_cross_omega_i_in_j_1;
     const jg_real v_1_world_1 = r_j[1] - r_i[1];
     const jg_real t95 = v_0_in_j_1 * t83 + omega_i[2] * v_1_world_1;
-    jac_phi_q_v_A_i[7] = A_ij_4 * t91 - t93 + A_ij_1 * t90 - A_ij_7 * t87 - t95;
     const jg_real t96 = t84 * s_j_cross_omega_i_in_j_1;
     const jg_real t97 = v_0_in_j_1 * t84 - omega_i[1] * v_1_world_1;
-    jac_phi_q_v_A_i[8] = A_ij_5 * t91 - t96 + A_ij_2 * t90 - A_ij_8 * t87 - t97;
     const jg_real t98 = A_j[7] * C_i[3];
     const jg_real t99 = A_j[1] * C_i[3];
-    const jg_real t100 = C_j[6] * t98 - C_j[8] * t99;
-    const jg_real t101 = C_i[4] * t83 + C_i[5] * t84;
-    const jg_real t102 = C_j[7] * t98 + C_j[8] * t101;
-    const jg_real t103 = C_j[7] * t99 + C_j[6] * t101;
-    jac_phi_q_v_A_i[9] = t89 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t103 + (omega_i_in_j_1 * t100 - t85 *
-        g_i_cross_h_j_in_j_1 + (t86 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t102)) - (omega_j[1] * t100 -
-        omega_j[0] * t102 + omega_j[2] * t103);
+    const jg_real t100 = t98 * C_j[6] - C_j[8] * t99;
+    const jg_real t101 = t83 * C_i[4] + t84 * C_i[5];
+    const jg_real t102 = C_j[8] * t101 + t98 * C_j[7];
+    const jg_real t103 = C_j[6] * t101 + C_j[7] * t99;
     const jg_real t104 = A_j[7] * C_i[6];
     const jg_real t105 = A_j[1] * C_i[6];
-    const jg_real t106 = C_j[0] * t104 - C_j[2] * t105;
-    const jg_real t107 = C_i[7] * t83 + C_i[8] * t84;
-    const jg_real t108 = C_j[2] * t107 + C_j[1] * t104;
+    const jg_real t106 = t104 * C_j[0] - C_j[2] * t105;
+    const jg_real t107 = t83 * C_i[7] + t84 * C_i[8];
+    const jg_real t108 = C_j[2] * t107 + t104 * C_j[1];
     const jg_real t109 = C_j[0] * t107 + C_j[1] * t105;
-    jac_phi_q_v_A_i[10] = t89 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t109 + (t86 * h_i_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t108 + (omega_i_in_j_1 * t106 - t85 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t106 -
-        omega_j[0] * t108 + omega_j[2] * t109);
-    const jg_real t110 = t99 * h_i_in_j_1 - g_i_in_j_0 * t107 - (t105 * g_i_in_j_1 - t101 * h_i_in_j_0);
-    const jg_real t111 = t104 * g_i_in_j_1 - t101 * h_i_in_j_2 - (t98 * h_i_in_j_1 - g_i_in_j_2 * t107);
+    const jg_real t110 = t99 * h_i_in_j_1 - g_i_in_j_0 * t107 - (g_i_in_j_1 * t105 - t101 * h_i_in_j_0);
+    const jg_real t111 = g_i_in_j_1 * t104 - t101 * h_i_in_j_2 - (t98 * h_i_in_j_1 - g_i_in_j_2 * t107);
     const jg_real t112 = C_j[3] * t110 - C_j[5] * t111;
-    const jg_real t113 = t98 * h_i_in_j_0 + g_i_in_j_2 * t105 - (t99 * h_i_in_j_2 + g_i_in_j_0 * t104);
+    const jg_real t113 = t98 * h_i_in_j_0 + g_i_in_j_2 * t105 - (t99 * h_i_in_j_2 + t104 * g_i_in_j_0);
     const jg_real t114 = C_j[5] * t113 - C_j[4] * t110;
     const jg_real t115 = C_j[4] * t111 - C_j[3] * t113;
-    jac_phi_q_v_A_i[11] = t89 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t115 + (omega_i_in_j_1 * t112 - t85 *
-        f_i_cross_g_j_in_j_1 + (t86 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t114)) - (omega_j[1] * t112 +
-        omega_j[0] * t114 + omega_j[2] * t115);
     const jg_real t116 = A_j[8] * s_j_cross_omega_i_in_j_2;
     const jg_real t117 = A_j[8] * A_ij_2 - A_j[2] * A_ij_8;
     const jg_real t118 = A_j[2] * A_ij_7 - A_j[8] * A_ij_1;
@@ -502,41 +486,45 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t124 = s_j[1] * t123 + s_j[2] * t119;
     const jg_real t125 = s_j[2] * t120 - s_j[0] * t123;
     const jg_real t126 = A_j[2] * v_0_in_j_0 + A_j[8] * v_0_in_j_2;
+    jac_phi_q_v_A_i[5] = t30 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t81 + (omega_i_in_j_1 * t72 - t24 *
+        f_i_cross_g_j_in_j_1 + (t25 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t79)) - (omega_j[1] * t72 + omega_j[0]
+        * t79 + omega_j[2] * t81);
+    jac_phi_q_v_A_i[6] = t82 - A_ij_6 * t87 + (t88 + A_ij_0 * t90 + A_ij_3 * t91) + t92;
+    jac_phi_q_v_A_i[7] = A_ij_4 * t91 - t93 + A_ij_1 * t90 - A_ij_7 * t87 - t95;
+    jac_phi_q_v_A_i[8] = A_ij_5 * t91 - t96 + A_ij_2 * t90 - A_ij_8 * t87 - t97;
+    jac_phi_q_v_A_i[9] = t89 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t103 + (t86 * g_i_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t102 + (omega_i_in_j_1 * t100 - t85 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t100 -
+        omega_j[0] * t102 + omega_j[2] * t103);
+    jac_phi_q_v_A_i[10] = t89 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t109 + (t86 * h_i_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t108 + (omega_i_in_j_1 * t106 - t85 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t106 -
+        omega_j[0] * t108 + omega_j[2] * t109);
+    jac_phi_q_v_A_i[11] = t89 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t115 + (omega_i_in_j_1 * t112 - t85 *
+        f_i_cross_g_j_in_j_1 + (t86 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t114)) - (omega_j[1] * t112 +
+        omega_j[0] * t114 + omega_j[2] * t115);
     jac_phi_q_v_A_i[12] = t116 - A_ij_6 * t121 + (t122 + A_ij_0 * t124 + A_ij_3 * t125) + t126;
     const jg_real t127 = t117 * s_j_cross_omega_i_in_j_1;
     const jg_real v_1_world_2 = r_j[2] - r_i[2];
     const jg_real t129 = v_0_in_j_1 * t117 + omega_i[2] * v_1_world_2;
-    jac_phi_q_v_A_i[13] = A_ij_4 * t125 - t127 + A_ij_1 * t124 - A_ij_7 * t121 - t129;
     const jg_real t130 = t118 * s_j_cross_omega_i_in_j_1;
     const jg_real t131 = v_0_in_j_1 * t118 - omega_i[1] * v_1_world_2;
-    jac_phi_q_v_A_i[14] = A_ij_5 * t125 - t130 + A_ij_2 * t124 - A_ij_8 * t121 - t131;
     const jg_real t132 = A_j[8] * C_i[3];
     const jg_real t133 = A_j[2] * C_i[3];
-    const jg_real t134 = C_j[6] * t132 - C_j[8] * t133;
-    const jg_real t135 = C_i[4] * t117 + C_i[5] * t118;
-    const jg_real t136 = C_j[7] * t132 + C_j[8] * t135;
-    const jg_real t137 = C_j[7] * t133 + C_j[6] * t135;
-    jac_phi_q_v_A_i[15] = t123 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t137 + (omega_i_in_j_1 * t134 - t119 *
-        g_i_cross_h_j_in_j_1 + (t120 * g_i_cross_h_j_in_j_0 - omega_i_in_j_0 * t136)) - (omega_j[1] * t134 -
-        omega_j[0] * t136 + omega_j[2] * t137);
+    const jg_real t134 = t132 * C_j[6] - C_j[8] * t133;
+    const jg_real t135 = t117 * C_i[4] + t118 * C_i[5];
+    const jg_real t136 = C_j[8] * t135 + t132 * C_j[7];
+    const jg_real t137 = C_j[6] * t135 + C_j[7] * t133;
     const jg_real t138 = A_j[8] * C_i[6];
     const jg_real t139 = A_j[2] * C_i[6];
-    const jg_real t140 = C_j[0] * t138 - C_j[2] * t139;
-    const jg_real t141 = C_i[7] * t117 + C_i[8] * t118;
-    const jg_real t142 = C_j[2] * t141 + C_j[1] * t138;
+    const jg_real t140 = t138 * C_j[0] - C_j[2] * t139;
+    const jg_real t141 = t117 * C_i[7] + t118 * C_i[8];
+    const jg_real t142 = C_j[2] * t141 + t138 * C_j[1];
     const jg_real t143 = C_j[0] * t141 + C_j[1] * t139;
-    jac_phi_q_v_A_i[16] = t123 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t143 + (t120 * h_i_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t142 + (omega_i_in_j_1 * t140 - t119 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t140 -
-        omega_j[0] * t142 + omega_j[2] * t143);
-    const jg_real t144 = t133 * h_i_in_j_1 - g_i_in_j_0 * t141 - (t139 * g_i_in_j_1 - t135 * h_i_in_j_0);
-    const jg_real t145 = t138 * g_i_in_j_1 - t135 * h_i_in_j_2 - (t132 * h_i_in_j_1 - g_i_in_j_2 * t141);
+    const jg_real t144 = t133 * h_i_in_j_1 - g_i_in_j_0 * t141 - (g_i_in_j_1 * t139 - t135 * h_i_in_j_0);
+    const jg_real t145 = g_i_in_j_1 * t138 - t135 * h_i_in_j_2 - (t132 * h_i_in_j_1 - g_i_in_j_2 * t141);
     const jg_real t146 = C_j[3] * t144 - C_j[5] * t145;
-    const jg_real t147 = t132 * h_i_in_j_0 + g_i_in_j_2 * t139 - (t133 * h_i_in_j_2 + g_i_in_j_0 * t138);
+    const jg_real t147 = t132 * h_i_in_j_0 + g_i_in_j_2 * t139 - (t133 * h_i_in_j_2 + t138 * g_i_in_j_0);
     const jg_real t148 = C_j[5] * t147 - C_j[4] * t144;
     const jg_real t149 = C_j[4] * t145 - C_j[3] * t147;
-    jac_phi_q_v_A_i[17] = t123 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t149 + (omega_i_in_j_1 * t146 - t119 *
-        f_i_cross_g_j_in_j_1 + (t120 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t148)) - (omega_j[1] * t146 +
-        omega_j[0] * t148 + omega_j[2] * t149);
     const jg_real t150 = A_j[0] * omega_i[1];
     const jg_real t151 = A_j[6] * omega_i[1];
     const jg_real t152 = s_j[2] * t150 - s_j[0] * t151;
@@ -544,38 +532,40 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t154 = omega_i[0] * t22 - omega_i[2] * t153;
     const jg_real t155 = s_j[1] * t151 - s_j[2] * t154;
     const jg_real t156 = s_j[0] * t154 - s_j[1] * t150;
-    jac_phi_q_v_A_i[18] = t39 + A_ij_3 * t152 + A_ij_0 * t155 + A_ij_6 * t156 + t43;
-    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t156 + (t29 + A_ij_1 * t155 + A_ij_4 * t152) + t37;
     const jg_real t157 = t153 * s_j_cross_omega_i_in_j_1;
     const jg_real t158 = v_0_in_j_1 * t153 + omega_i[0] * v_1_world_0;
+    jac_phi_q_v_A_i[13] = A_ij_4 * t125 - t127 + A_ij_1 * t124 - A_ij_7 * t121 - t129;
+    jac_phi_q_v_A_i[14] = A_ij_5 * t125 - t130 + A_ij_2 * t124 - A_ij_8 * t121 - t131;
+    jac_phi_q_v_A_i[15] = t123 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t137 + (t120 * g_i_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t136 + (omega_i_in_j_1 * t134 - t119 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t134 -
+        omega_j[0] * t136 + omega_j[2] * t137);
+    jac_phi_q_v_A_i[16] = t123 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t143 + (t120 * h_i_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t142 + (omega_i_in_j_1 * t140 - t119 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t140 -
+        omega_j[0] * t142 + omega_j[2] * t143);
+    jac_phi_q_v_A_i[17] = t123 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t149 + (omega_i_in_j_1 * t146 - t119 *
+        f_i_cross_g_j_in_j_1 + (t120 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t148)) - (omega_j[1] * t146 +
+        omega_j[0] * t148 + omega_j[2] * t149);
+    jac_phi_q_v_A_i[18] = t39 + A_ij_3 * t152 + A_ij_0 * t155 + A_ij_6 * t156 + t43;
+    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t156 + (t29 + A_ij_1 * t155 + A_ij_4 * t152) + t37;
     jac_phi_q_v_A_i[20] = A_ij_5 * t152 - t157 + A_ij_2 * t155 + A_ij_8 * t156 - t158;
     const jg_real t159 = A_j[6] * C_i[4];
     const jg_real t160 = A_j[0] * C_i[4];
-    const jg_real t161 = C_j[6] * t159 - C_j[8] * t160;
-    const jg_real t162 = C_i[3] * t22 - C_i[5] * t153;
-    const jg_real t163 = C_j[8] * t162 - C_j[7] * t159;
+    const jg_real t161 = t159 * C_j[6] - C_j[8] * t160;
+    const jg_real t162 = t22 * C_i[3] - t153 * C_i[5];
+    const jg_real t163 = C_j[8] * t162 - t159 * C_j[7];
     const jg_real t164 = C_j[7] * t160 - C_j[6] * t162;
-    jac_phi_q_v_A_i[21] = t151 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t164 + (t154 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t161 + (t150 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t163)) - (omega_j[1] * t161 +
-        omega_j[0] * t163 + omega_j[2] * t164);
     const jg_real t165 = A_j[6] * C_i[7];
     const jg_real t166 = A_j[0] * C_i[7];
-    const jg_real t167 = C_j[0] * t165 - C_j[2] * t166;
-    const jg_real t168 = C_i[6] * t22 - C_i[8] * t153;
-    const jg_real t169 = C_j[2] * t168 - C_j[1] * t165;
+    const jg_real t167 = t165 * C_j[0] - C_j[2] * t166;
+    const jg_real t168 = t22 * C_i[6] - t153 * C_i[8];
+    const jg_real t169 = C_j[2] * t168 - t165 * C_j[1];
     const jg_real t170 = C_j[1] * t166 - C_j[0] * t168;
-    jac_phi_q_v_A_i[22] = t151 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t170 + (t150 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t169 + (t154 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t167)) - (omega_j[0] * t169 +
-        omega_j[1] * t167 + omega_j[2] * t170);
     const jg_real t171 = t160 * h_i_in_j_1 + g_i_in_j_0 * t168 - (t162 * h_i_in_j_0 + g_i_in_j_1 * t166);
-    const jg_real t172 = t162 * h_i_in_j_2 + t165 * g_i_in_j_1 - (t159 * h_i_in_j_1 + g_i_in_j_2 * t168);
+    const jg_real t172 = t162 * h_i_in_j_2 + g_i_in_j_1 * t165 - (t159 * h_i_in_j_1 + g_i_in_j_2 * t168);
     const jg_real t173 = C_j[3] * t171 - C_j[5] * t172;
     const jg_real t174 = t159 * h_i_in_j_0 + g_i_in_j_2 * t166 - (t160 * h_i_in_j_2 + g_i_in_j_0 * t165);
     const jg_real t175 = C_j[5] * t174 - C_j[4] * t171;
     const jg_real t176 = C_j[4] * t172 - C_j[3] * t174;
-    jac_phi_q_v_A_i[23] = t151 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t176 + (t154 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t173 + (t150 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t175)) - (omega_j[1] * t173 +
-        omega_j[0] * t175 + omega_j[2] * t176);
     const jg_real t177 = A_j[1] * omega_i[1];
     const jg_real t178 = A_j[7] * omega_i[1];
     const jg_real t179 = s_j[2] * t177 - s_j[0] * t178;
@@ -583,38 +573,44 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t181 = omega_i[0] * t83 - omega_i[2] * t180;
     const jg_real t182 = s_j[1] * t178 - s_j[2] * t181;
     const jg_real t183 = s_j[0] * t181 - s_j[1] * t177;
-    jac_phi_q_v_A_i[24] = t93 + A_ij_3 * t179 + A_ij_0 * t182 + A_ij_6 * t183 + t95;
-    jac_phi_q_v_A_i[25] = t82 + A_ij_7 * t183 + (t88 + A_ij_1 * t182 + A_ij_4 * t179) + t92;
     const jg_real t184 = t180 * s_j_cross_omega_i_in_j_1;
     const jg_real t185 = v_0_in_j_1 * t180 + omega_i[0] * v_1_world_1;
-    jac_phi_q_v_A_i[26] = A_ij_5 * t179 - t184 + A_ij_2 * t182 + A_ij_8 * t183 - t185;
     const jg_real t186 = A_j[7] * C_i[4];
     const jg_real t187 = A_j[1] * C_i[4];
-    const jg_real t188 = C_j[6] * t186 - C_j[8] * t187;
-    const jg_real t189 = C_i[3] * t83 - C_i[5] * t180;
-    const jg_real t190 = C_j[8] * t189 - C_j[7] * t186;
+    const jg_real t188 = t186 * C_j[6] - C_j[8] * t187;
+    const jg_real t189 = t83 * C_i[3] - t180 * C_i[5];
+    const jg_real t190 = C_j[8] * t189 - t186 * C_j[7];
     const jg_real t191 = C_j[7] * t187 - C_j[6] * t189;
-    jac_phi_q_v_A_i[27] = t178 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t191 + (t181 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t188 + (t177 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t190)) - (omega_j[1] * t188 +
-        omega_j[0] * t190 + omega_j[2] * t191);
     const jg_real t192 = A_j[7] * C_i[7];
     const jg_real t193 = A_j[1] * C_i[7];
-    const jg_real t194 = C_j[0] * t192 - C_j[2] * t193;
-    const jg_real t195 = C_i[6] * t83 - C_i[8] * t180;
-    const jg_real t196 = C_j[2] * t195 - C_j[1] * t192;
+    const jg_real t194 = t192 * C_j[0] - C_j[2] * t193;
+    const jg_real t195 = t83 * C_i[6] - t180 * C_i[8];
+    const jg_real t196 = C_j[2] * t195 - t192 * C_j[1];
     const jg_real t197 = C_j[1] * t193 - C_j[0] * t195;
+    jac_phi_q_v_A_i[21] = t151 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t164 + (t150 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t163 + (t154 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t161)) - (omega_j[0] * t163 +
+        omega_j[1] * t161 + omega_j[2] * t164);
+    jac_phi_q_v_A_i[22] = t151 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t170 + (t150 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t169 + (t154 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t167)) - (omega_j[0] * t169 +
+        omega_j[1] * t167 + omega_j[2] * t170);
+    jac_phi_q_v_A_i[23] = t151 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t176 + (t154 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t173 + (t150 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t175)) - (omega_j[1] * t173 +
+        omega_j[0] * t175 + omega_j[2] * t176);
+    jac_phi_q_v_A_i[24] = t93 + A_ij_3 * t179 + A_ij_0 * t182 + A_ij_6 * t183 + t95;
+    jac_phi_q_v_A_i[25] = t82 + A_ij_7 * t183 + (t88 + A_ij_1 * t182 + A_ij_4 * t179) + t92;
+    jac_phi_q_v_A_i[26] = A_ij_5 * t179 - t184 + A_ij_2 * t182 + A_ij_8 * t183 - t185;
+    jac_phi_q_v_A_i[27] = t178 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t191 + (t177 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t190 + (t181 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t188)) - (omega_j[0] * t190 +
+        omega_j[1] * t188 + omega_j[2] * t191);
     jac_phi_q_v_A_i[28] = t178 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t197 + (t177 * h_i_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t196 + (t181 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t194)) - (omega_j[0] * t196 +
         omega_j[1] * t194 + omega_j[2] * t197);
     const jg_real t198 = t187 * h_i_in_j_1 + g_i_in_j_0 * t195 - (t189 * h_i_in_j_0 + g_i_in_j_1 * t193);
-    const jg_real t199 = t189 * h_i_in_j_2 + t192 * g_i_in_j_1 - (t186 * h_i_in_j_1 + g_i_in_j_2 * t195);
+    const jg_real t199 = t189 * h_i_in_j_2 + g_i_in_j_1 * t192 - (t186 * h_i_in_j_1 + g_i_in_j_2 * t195);
     const jg_real t200 = C_j[3] * t198 - C_j[5] * t199;
     const jg_real t201 = t186 * h_i_in_j_0 + g_i_in_j_2 * t193 - (t187 * h_i_in_j_2 + g_i_in_j_0 * t192);
     const jg_real t202 = C_j[5] * t201 - C_j[4] * t198;
     const jg_real t203 = C_j[4] * t199 - C_j[3] * t201;
-    jac_phi_q_v_A_i[29] = t178 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t203 + (t181 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t200 + (t177 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t202)) - (omega_j[1] * t200 +
-        omega_j[0] * t202 + omega_j[2] * t203);
     const jg_real t204 = A_j[2] * omega_i[1];
     const jg_real t205 = A_j[8] * omega_i[1];
     const jg_real t206 = s_j[2] * t204 - s_j[0] * t205;
@@ -622,146 +618,146 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t208 = omega_i[0] * t117 - omega_i[2] * t207;
     const jg_real t209 = s_j[1] * t205 - s_j[2] * t208;
     const jg_real t210 = s_j[0] * t208 - s_j[1] * t204;
-    jac_phi_q_v_A_i[30] = t127 + A_ij_3 * t206 + A_ij_0 * t209 + A_ij_6 * t210 + t129;
-    jac_phi_q_v_A_i[31] = t116 + A_ij_7 * t210 + (t122 + A_ij_1 * t209 + A_ij_4 * t206) + t126;
     const jg_real t211 = t207 * s_j_cross_omega_i_in_j_1;
     const jg_real t212 = v_0_in_j_1 * t207 + omega_i[0] * v_1_world_2;
-    jac_phi_q_v_A_i[32] = A_ij_5 * t206 - t211 + A_ij_2 * t209 + A_ij_8 * t210 - t212;
     const jg_real t213 = A_j[8] * C_i[4];
     const jg_real t214 = A_j[2] * C_i[4];
-    const jg_real t215 = C_j[6] * t213 - C_j[8] * t214;
-    const jg_real t216 = C_i[3] * t117 - C_i[5] * t207;
-    const jg_real t217 = C_j[8] * t216 - C_j[7] * t213;
+    const jg_real t215 = t213 * C_j[6] - C_j[8] * t214;
+    const jg_real t216 = t117 * C_i[3] - t207 * C_i[5];
+    const jg_real t217 = C_j[8] * t216 - t213 * C_j[7];
     const jg_real t218 = C_j[7] * t214 - C_j[6] * t216;
-    jac_phi_q_v_A_i[33] = t205 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t218 + (t208 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t215 + (t204 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t217)) - (omega_j[1] * t215 +
-        omega_j[0] * t217 + omega_j[2] * t218);
     const jg_real t219 = A_j[8] * C_i[7];
     const jg_real t220 = A_j[2] * C_i[7];
-    const jg_real t221 = C_j[0] * t219 - C_j[2] * t220;
-    const jg_real t222 = C_i[6] * t117 - C_i[8] * t207;
-    const jg_real t223 = C_j[2] * t222 - C_j[1] * t219;
+    const jg_real t221 = t219 * C_j[0] - C_j[2] * t220;
+    const jg_real t222 = t117 * C_i[6] - t207 * C_i[8];
+    const jg_real t223 = C_j[2] * t222 - t219 * C_j[1];
     const jg_real t224 = C_j[1] * t220 - C_j[0] * t222;
-    jac_phi_q_v_A_i[34] = t205 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t224 + (t204 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t223 + (t208 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t221)) - (omega_j[0] * t223 +
-        omega_j[1] * t221 + omega_j[2] * t224);
     const jg_real t225 = t214 * h_i_in_j_1 + g_i_in_j_0 * t222 - (t216 * h_i_in_j_0 + g_i_in_j_1 * t220);
-    const jg_real t226 = t216 * h_i_in_j_2 + t219 * g_i_in_j_1 - (t213 * h_i_in_j_1 + g_i_in_j_2 * t222);
+    const jg_real t226 = t216 * h_i_in_j_2 + g_i_in_j_1 * t219 - (t213 * h_i_in_j_1 + g_i_in_j_2 * t222);
     const jg_real t227 = C_j[3] * t225 - C_j[5] * t226;
     const jg_real t228 = t213 * h_i_in_j_0 + g_i_in_j_2 * t220 - (t214 * h_i_in_j_2 + g_i_in_j_0 * t219);
     const jg_real t229 = C_j[5] * t228 - C_j[4] * t225;
     const jg_real t230 = C_j[4] * t226 - C_j[3] * t228;
-    jac_phi_q_v_A_i[35] = t205 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t230 + (t208 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t227 + (t204 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t229)) - (omega_j[1] * t227 +
-        omega_j[0] * t229 + omega_j[2] * t230);
     const jg_real t231 = A_j[0] * omega_i[2];
     const jg_real t232 = A_j[6] * omega_i[2];
     const jg_real t233 = s_j[2] * t231 - s_j[0] * t232;
     const jg_real t234 = omega_i[0] * t23 + omega_i[1] * t153;
     const jg_real t235 = s_j[1] * t232 - s_j[2] * t234;
     const jg_real t236 = s_j[0] * t234 - s_j[1] * t231;
+    jac_phi_q_v_A_i[29] = t178 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t203 + (t181 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t200 + (t177 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t202)) - (omega_j[1] * t200 +
+        omega_j[0] * t202 + omega_j[2] * t203);
+    jac_phi_q_v_A_i[30] = t127 + A_ij_3 * t206 + A_ij_0 * t209 + A_ij_6 * t210 + t129;
+    jac_phi_q_v_A_i[31] = t116 + A_ij_7 * t210 + (t122 + A_ij_1 * t209 + A_ij_4 * t206) + t126;
+    jac_phi_q_v_A_i[32] = A_ij_5 * t206 - t211 + A_ij_2 * t209 + A_ij_8 * t210 - t212;
+    jac_phi_q_v_A_i[33] = t205 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t218 + (t204 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t217 + (t208 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t215)) - (omega_j[0] * t217 +
+        omega_j[1] * t215 + omega_j[2] * t218);
+    jac_phi_q_v_A_i[34] = t205 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t224 + (t204 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t223 + (t208 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t221)) - (omega_j[0] * t223 +
+        omega_j[1] * t221 + omega_j[2] * t224);
+    jac_phi_q_v_A_i[35] = t205 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t230 + (t208 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t227 + (t204 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t229)) - (omega_j[1] * t227 +
+        omega_j[0] * t229 + omega_j[2] * t230);
     jac_phi_q_v_A_i[36] = t44 + A_ij_3 * t233 + A_ij_0 * t235 + A_ij_6 * t236 + t45;
-    jac_phi_q_v_A_i[37] = t157 + A_ij_4 * t233 + A_ij_1 * t235 + A_ij_7 * t236 + t158;
-    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t236 + (t29 + A_ij_2 * t235 + A_ij_5 * t233) + t37;
     const jg_real t237 = A_j[6] * C_i[5];
     const jg_real t238 = A_j[0] * C_i[5];
-    const jg_real t239 = C_j[6] * t237 - C_j[8] * t238;
-    const jg_real t240 = C_i[3] * t23 + C_i[4] * t153;
-    const jg_real t241 = C_j[8] * t240 - C_j[7] * t237;
-    const jg_real t242 = C_j[7] * t238 - C_j[6] * t240;
-    jac_phi_q_v_A_i[39] = t232 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t242 + (t234 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t239 + (t231 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t241)) - (omega_j[1] * t239 +
-        omega_j[0] * t241 + omega_j[2] * t242);
+    const jg_real t239 = t237 * C_j[6] - C_j[8] * t238;
+    const jg_real t240 = t23 * C_i[3] + t153 * C_i[4];
+    const jg_real t241 = C_j[8] * t240 - t237 * C_j[7];
+    const jg_real t242 = C_j[7] * t238 - t240 * C_j[6];
     const jg_real t243 = A_j[6] * C_i[8];
     const jg_real t244 = A_j[0] * C_i[8];
-    const jg_real t245 = C_j[0] * t243 - C_j[2] * t244;
-    const jg_real t246 = C_i[6] * t23 + C_i[7] * t153;
-    const jg_real t247 = C_j[2] * t246 - C_j[1] * t243;
-    const jg_real t248 = C_j[1] * t244 - C_j[0] * t246;
-    jac_phi_q_v_A_i[40] = t232 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t248 + (t231 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t247 + (t234 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t245)) - (omega_j[0] * t247 +
-        omega_j[1] * t245 + omega_j[2] * t248);
-    const jg_real t249 = t238 * h_i_in_j_1 + g_i_in_j_0 * t246 - (t240 * h_i_in_j_0 + g_i_in_j_1 * t244);
-    const jg_real t250 = t240 * h_i_in_j_2 + t243 * g_i_in_j_1 - (t237 * h_i_in_j_1 + g_i_in_j_2 * t246);
+    const jg_real t245 = t243 * C_j[0] - C_j[2] * t244;
+    const jg_real t246 = t23 * C_i[6] + t153 * C_i[7];
+    const jg_real t247 = t246 * C_j[2] - t243 * C_j[1];
+    const jg_real t248 = C_j[1] * t244 - t246 * C_j[0];
+    const jg_real t249 = t238 * h_i_in_j_1 + t246 * g_i_in_j_0 - (t240 * h_i_in_j_0 + g_i_in_j_1 * t244);
+    const jg_real t250 = t240 * h_i_in_j_2 + g_i_in_j_1 * t243 - (t237 * h_i_in_j_1 + g_i_in_j_2 * t246);
     const jg_real t251 = C_j[3] * t249 - C_j[5] * t250;
     const jg_real t252 = t237 * h_i_in_j_0 + g_i_in_j_2 * t244 - (t238 * h_i_in_j_2 + g_i_in_j_0 * t243);
     const jg_real t253 = C_j[5] * t252 - C_j[4] * t249;
     const jg_real t254 = C_j[4] * t250 - C_j[3] * t252;
-    jac_phi_q_v_A_i[41] = t232 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t254 + (t234 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t251 + (t231 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t253)) - (omega_j[1] * t251 +
-        omega_j[0] * t253 + omega_j[2] * t254);
     const jg_real t255 = A_j[1] * omega_i[2];
     const jg_real t256 = A_j[7] * omega_i[2];
     const jg_real t257 = s_j[2] * t255 - s_j[0] * t256;
     const jg_real t258 = omega_i[0] * t84 + omega_i[1] * t180;
     const jg_real t259 = s_j[1] * t256 - s_j[2] * t258;
     const jg_real t260 = s_j[0] * t258 - s_j[1] * t255;
+    jac_phi_q_v_A_i[37] = t157 + A_ij_4 * t233 + A_ij_1 * t235 + A_ij_7 * t236 + t158;
+    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t236 + (t29 + A_ij_2 * t235 + A_ij_5 * t233) + t37;
+    jac_phi_q_v_A_i[39] = t232 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t242 + (t231 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t241 + (t234 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t239)) - (omega_j[0] * t241 +
+        omega_j[1] * t239 + omega_j[2] * t242);
+    jac_phi_q_v_A_i[40] = t232 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t248 + (t231 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t247 + (t234 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t245)) - (omega_j[0] * t247 +
+        omega_j[1] * t245 + omega_j[2] * t248);
+    jac_phi_q_v_A_i[41] = t232 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t254 + (t234 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t251 + (t231 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t253)) - (omega_j[1] * t251 +
+        omega_j[0] * t253 + omega_j[2] * t254);
     jac_phi_q_v_A_i[42] = t96 + A_ij_3 * t257 + A_ij_0 * t259 + A_ij_6 * t260 + t97;
     jac_phi_q_v_A_i[43] = t184 + A_ij_4 * t257 + A_ij_1 * t259 + A_ij_7 * t260 + t185;
     jac_phi_q_v_A_i[44] = t82 + A_ij_8 * t260 + (t88 + A_ij_2 * t259 + A_ij_5 * t257) + t92;
     const jg_real t261 = A_j[7] * C_i[5];
     const jg_real t262 = A_j[1] * C_i[5];
-    const jg_real t263 = C_j[6] * t261 - C_j[8] * t262;
-    const jg_real t264 = C_i[3] * t84 + C_i[4] * t180;
-    const jg_real t265 = C_j[8] * t264 - C_j[7] * t261;
-    const jg_real t266 = C_j[7] * t262 - C_j[6] * t264;
-    jac_phi_q_v_A_i[45] = t256 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t266 + (t258 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t263 + (t255 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t265)) - (omega_j[1] * t263 +
-        omega_j[0] * t265 + omega_j[2] * t266);
+    const jg_real t263 = t261 * C_j[6] - C_j[8] * t262;
+    const jg_real t264 = t84 * C_i[3] + t180 * C_i[4];
+    const jg_real t265 = C_j[8] * t264 - t261 * C_j[7];
+    const jg_real t266 = C_j[7] * t262 - t264 * C_j[6];
     const jg_real t267 = A_j[7] * C_i[8];
     const jg_real t268 = A_j[1] * C_i[8];
-    const jg_real t269 = C_j[0] * t267 - C_j[2] * t268;
-    const jg_real t270 = C_i[6] * t84 + C_i[7] * t180;
-    const jg_real t271 = C_j[2] * t270 - C_j[1] * t267;
-    const jg_real t272 = C_j[1] * t268 - C_j[0] * t270;
-    jac_phi_q_v_A_i[46] = t256 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t272 + (t255 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t271 + (t258 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t269)) - (omega_j[0] * t271 +
-        omega_j[1] * t269 + omega_j[2] * t272);
-    const jg_real t273 = t262 * h_i_in_j_1 + g_i_in_j_0 * t270 - (t264 * h_i_in_j_0 + g_i_in_j_1 * t268);
-    const jg_real t274 = t264 * h_i_in_j_2 + t267 * g_i_in_j_1 - (t261 * h_i_in_j_1 + g_i_in_j_2 * t270);
+    const jg_real t269 = t267 * C_j[0] - C_j[2] * t268;
+    const jg_real t270 = t84 * C_i[6] + t180 * C_i[7];
+    const jg_real t271 = t270 * C_j[2] - t267 * C_j[1];
+    const jg_real t272 = C_j[1] * t268 - t270 * C_j[0];
+    const jg_real t273 = t262 * h_i_in_j_1 + t270 * g_i_in_j_0 - (t264 * h_i_in_j_0 + g_i_in_j_1 * t268);
+    const jg_real t274 = t264 * h_i_in_j_2 + g_i_in_j_1 * t267 - (t261 * h_i_in_j_1 + g_i_in_j_2 * t270);
     const jg_real t275 = C_j[3] * t273 - C_j[5] * t274;
     const jg_real t276 = t261 * h_i_in_j_0 + g_i_in_j_2 * t268 - (t262 * h_i_in_j_2 + g_i_in_j_0 * t267);
     const jg_real t277 = C_j[5] * t276 - C_j[4] * t273;
     const jg_real t278 = C_j[4] * t274 - C_j[3] * t276;
-    jac_phi_q_v_A_i[47] = t256 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t278 + (t258 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t275 + (t255 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t277)) - (omega_j[1] * t275 +
-        omega_j[0] * t277 + omega_j[2] * t278);
     const jg_real t279 = A_j[2] * omega_i[2];
     const jg_real t280 = A_j[8] * omega_i[2];
     const jg_real t281 = s_j[2] * t279 - s_j[0] * t280;
     const jg_real t282 = omega_i[0] * t118 + omega_i[1] * t207;
     const jg_real t283 = s_j[1] * t280 - s_j[2] * t282;
     const jg_real t284 = s_j[0] * t282 - s_j[1] * t279;
+    const jg_real t285 = A_j[8] * C_i[5];
+    const jg_real t286 = A_j[2] * C_i[5];
+    const jg_real t287 = t285 * C_j[6] - C_j[8] * t286;
+    const jg_real t288 = t118 * C_i[3] + t207 * C_i[4];
+    const jg_real t289 = C_j[8] * t288 - t285 * C_j[7];
+    const jg_real t290 = C_j[7] * t286 - t288 * C_j[6];
+    const jg_real t291 = A_j[8] * C_i[8];
+    const jg_real t292 = A_j[2] * C_i[8];
+    const jg_real t293 = t291 * C_j[0] - C_j[2] * t292;
+    const jg_real t294 = t118 * C_i[6] + t207 * C_i[7];
+    const jg_real t295 = t294 * C_j[2] - t291 * C_j[1];
+    const jg_real t296 = C_j[1] * t292 - t294 * C_j[0];
+    jac_phi_q_v_A_i[45] = t256 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t266 + (t255 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t265 + (t258 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t263)) - (omega_j[0] * t265 +
+        omega_j[1] * t263 + omega_j[2] * t266);
+    jac_phi_q_v_A_i[46] = t256 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t272 + (t255 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t271 + (t258 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t269)) - (omega_j[0] * t271 +
+        omega_j[1] * t269 + omega_j[2] * t272);
+    jac_phi_q_v_A_i[47] = t256 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t278 + (t258 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t275 + (t255 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t277)) - (omega_j[1] * t275 +
+        omega_j[0] * t277 + omega_j[2] * t278);
     jac_phi_q_v_A_i[48] = t130 + A_ij_3 * t281 + A_ij_0 * t283 + A_ij_6 * t284 + t131;
     jac_phi_q_v_A_i[49] = t211 + A_ij_4 * t281 + A_ij_1 * t283 + A_ij_7 * t284 + t212;
     jac_phi_q_v_A_i[50] = t116 + A_ij_8 * t284 + (t122 + A_ij_2 * t283 + A_ij_5 * t281) + t126;
-    const jg_real t285 = A_j[8] * C_i[5];
-    const jg_real t286 = A_j[2] * C_i[5];
-    const jg_real t287 = C_j[6] * t285 - C_j[8] * t286;
-    const jg_real t288 = C_i[3] * t118 + C_i[4] * t207;
-    const jg_real t289 = C_j[8] * t288 - C_j[7] * t285;
-    const jg_real t290 = C_j[7] * t286 - C_j[6] * t288;
-    jac_phi_q_v_A_i[51] = t280 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t290 + (t282 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t287 + (t279 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t289)) - (omega_j[1] * t287 +
-        omega_j[0] * t289 + omega_j[2] * t290);
-    const jg_real t291 = A_j[8] * C_i[8];
-    const jg_real t292 = A_j[2] * C_i[8];
-    const jg_real t293 = C_j[0] * t291 - C_j[2] * t292;
-    const jg_real t294 = C_i[6] * t118 + C_i[7] * t207;
-    const jg_real t295 = C_j[2] * t294 - C_j[1] * t291;
-    const jg_real t296 = C_j[1] * t292 - C_j[0] * t294;
+    jac_phi_q_v_A_i[51] = t280 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t290 + (t279 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t289 + (t282 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t287)) - (omega_j[0] * t289 +
+        omega_j[1] * t287 + omega_j[2] * t290);
     jac_phi_q_v_A_i[52] = t280 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t296 + (t279 * h_i_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t295 + (t282 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t295 +
         omega_j[1] * t293 + omega_j[2] * t296);
-    const jg_real t297 = t286 * h_i_in_j_1 + g_i_in_j_0 * t294 - (t288 * h_i_in_j_0 + g_i_in_j_1 * t292);
-    const jg_real t298 = t288 * h_i_in_j_2 + t291 * g_i_in_j_1 - (t285 * h_i_in_j_1 + g_i_in_j_2 * t294);
+    const jg_real t297 = t286 * h_i_in_j_1 + t294 * g_i_in_j_0 - (t288 * h_i_in_j_0 + g_i_in_j_1 * t292);
+    const jg_real t298 = t288 * h_i_in_j_2 + g_i_in_j_1 * t291 - (t285 * h_i_in_j_1 + g_i_in_j_2 * t294);
     const jg_real t299 = C_j[3] * t297 - C_j[5] * t298;
     const jg_real t300 = t285 * h_i_in_j_0 + g_i_in_j_2 * t292 - (t286 * h_i_in_j_2 + g_i_in_j_0 * t291);
     const jg_real t301 = C_j[5] * t300 - C_j[4] * t297;
     const jg_real t302 = C_j[4] * t298 - C_j[3] * t300;
-    jac_phi_q_v_A_i[53] = t280 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t302 + (t282 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t299 + (t279 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t301)) - (omega_j[1] * t299 +
-        omega_j[0] * t301 + omega_j[2] * t302);
     const jg_real t303 = A_i[6] * A_ij_7 - A_i[3] * A_ij_8;
     const jg_real t304 = A_i[3] * omega_i[1] + omega_i[0] * A_i[0] + A_i[6] * omega_i[2];
     const jg_real t305 = s_j[2] * t304;
@@ -771,41 +767,26 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t309 = s_j[2] * t308;
     const jg_real t310 = s_j[1] * t304;
     const jg_real t311 = s_j[0] * t308 - t310;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_0 + v_0_in_j_1 * t303 + (t303 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t305
-        + (A_i[0] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t309) + A_ij_6 * t311);
-    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_0 + v_0_in_j_1 * t306 + (t306 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t305
-        + (A_i[3] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t309) + A_ij_7 * t311);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_0_in_j_0 + v_0_in_j_1 * t307 + (t307 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t305
-        + (A_i[6] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t309) + A_ij_8 * t311);
     const jg_real t312 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t313 = C_j[8] * t312;
-    const jg_real t314 = C_i[3] * t303 + C_i[4] * t306 + C_i[5] * t307;
+    const jg_real t314 = t303 * C_i[3] + t306 * C_i[4] + t307 * C_i[5];
     const jg_real t315 = C_j[8] * t314;
     const jg_real t316 = C_j[7] * t312;
     const jg_real t317 = t316 - C_j[6] * t314;
-    jac_phi_q_v_A_j[3] = t308 * g_i_cross_h_j_in_j_1 - omega_i_in_j_1 * t313 + (t304 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t315) + omega_i_in_j_2 * t317 - (omega_j[0] * t315 - omega_j[1] * t313 + omega_j[2] *
-        t317);
     const jg_real t318 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t319 = C_j[2] * t318;
-    const jg_real t320 = C_i[6] * t303 + C_i[7] * t306 + C_i[8] * t307;
+    const jg_real t320 = t303 * C_i[6] + t306 * C_i[7] + t307 * C_i[8];
     const jg_real t321 = C_j[2] * t320;
     const jg_real t322 = C_j[1] * t318;
     const jg_real t323 = t322 - C_j[0] * t320;
-    jac_phi_q_v_A_j[4] = t304 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t321 + (t308 * h_i_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t319) + omega_i_in_j_2 * t323 - (omega_j[0] * t321 - omega_j[1] * t319 + omega_j[2] *
-        t323);
     const jg_real t324 = t312 * h_i_in_j_1;
     const jg_real t325 = g_i_in_j_1 * t318;
-    const jg_real t326 = t324 + g_i_in_j_0 * t320 - (t325 + t314 * h_i_in_j_0);
+    const jg_real t326 = t324 + g_i_in_j_0 * t320 - (t314 * h_i_in_j_0 + t325);
     const jg_real t327 = t314 * h_i_in_j_2 - g_i_in_j_2 * t320;
     const jg_real t328 = C_j[3] * t326 - C_j[5] * t327;
     const jg_real t329 = g_i_in_j_2 * t318 - t312 * h_i_in_j_2;
     const jg_real t330 = C_j[5] * t329 - C_j[4] * t326;
     const jg_real t331 = C_j[4] * t327 - C_j[3] * t329;
-    jac_phi_q_v_A_j[5] = t308 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t328 + (t304 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t330) + omega_i_in_j_2 * t331 - (omega_j[1] * t328 + omega_j[0] * t330 + omega_j[2] *
-        t331);
     const jg_real t332 = A_i[7] * A_ij_7 - A_i[4] * A_ij_8;
     const jg_real t333 = A_i[4] * omega_i[1] + omega_i[0] * A_i[1] + A_i[7] * omega_i[2];
     const jg_real t334 = s_j[2] * t333;
@@ -815,41 +796,46 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t338 = s_j[2] * t337;
     const jg_real t339 = s_j[1] * t333;
     const jg_real t340 = s_j[0] * t337 - t339;
+    jac_phi_q_v_A_i[53] = t280 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t302 + (t282 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t299 + (t279 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t301)) - (omega_j[1] * t299 +
+        omega_j[0] * t301 + omega_j[2] * t302);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_0 + v_0_in_j_1 * t303 + (t303 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t305
+        + (A_i[0] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t309) + A_ij_6 * t311);
+    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_0 + v_0_in_j_1 * t306 + (t306 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t305
+        + (A_i[3] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t309) + A_ij_7 * t311);
+    jac_phi_q_v_A_j[2] = v_0_in_j_1 * t307 + A_i[6] * v_0_in_j_0 + (t307 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t305
+        + (A_i[6] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t309) + A_ij_8 * t311);
+    jac_phi_q_v_A_j[3] = t304 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t315 + (t308 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t313) + omega_i_in_j_2 * t317 - (omega_j[0] * t315 - omega_j[1] * t313 + omega_j[2] *
+        t317);
+    jac_phi_q_v_A_j[4] = t304 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t321 + (t308 * h_i_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t319) + omega_i_in_j_2 * t323 - (omega_j[0] * t321 - omega_j[1] * t319 + omega_j[2] *
+        t323);
+    jac_phi_q_v_A_j[5] = t308 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t328 + (t304 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t330) + omega_i_in_j_2 * t331 - (omega_j[1] * t328 + omega_j[0] * t330 + omega_j[2] *
+        t331);
     jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_0 + v_0_in_j_1 * t332 + (t332 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t334
         + (A_i[1] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t338) + A_ij_6 * t340);
-    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_0 + v_0_in_j_1 * t335 + (t335 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t334
-        + (A_i[4] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t338) + A_ij_7 * t340);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_0_in_j_0 + v_0_in_j_1 * t336 + (t336 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t334
-        + (A_i[7] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t338) + A_ij_8 * t340);
     const jg_real t341 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t342 = C_j[8] * t341;
-    const jg_real t343 = C_i[3] * t332 + C_i[4] * t335 + C_i[5] * t336;
+    const jg_real t343 = t332 * C_i[3] + t335 * C_i[4] + t336 * C_i[5];
     const jg_real t344 = C_j[8] * t343;
     const jg_real t345 = C_j[7] * t341;
     const jg_real t346 = t345 - C_j[6] * t343;
-    jac_phi_q_v_A_j[9] = t337 * g_i_cross_h_j_in_j_1 - omega_i_in_j_1 * t342 + (t333 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t344) + omega_i_in_j_2 * t346 - (omega_j[0] * t344 - omega_j[1] * t342 + omega_j[2] *
-        t346);
     const jg_real t347 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t348 = C_j[2] * t347;
-    const jg_real t349 = C_i[6] * t332 + C_i[7] * t335 + C_i[8] * t336;
+    const jg_real t349 = t332 * C_i[6] + t335 * C_i[7] + t336 * C_i[8];
     const jg_real t350 = C_j[2] * t349;
     const jg_real t351 = C_j[1] * t347;
     const jg_real t352 = t351 - C_j[0] * t349;
-    jac_phi_q_v_A_j[10] = t333 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t350 + (t337 * h_i_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t348) + omega_i_in_j_2 * t352 - (omega_j[0] * t350 - omega_j[1] * t348 + omega_j[2] *
-        t352);
     const jg_real t353 = t341 * h_i_in_j_1;
     const jg_real t354 = g_i_in_j_1 * t347;
-    const jg_real t355 = t353 + g_i_in_j_0 * t349 - (t354 + t343 * h_i_in_j_0);
+    const jg_real t355 = t353 + g_i_in_j_0 * t349 - (t343 * h_i_in_j_0 + t354);
     const jg_real t356 = t343 * h_i_in_j_2 - g_i_in_j_2 * t349;
     const jg_real t357 = C_j[3] * t355 - C_j[5] * t356;
     const jg_real t358 = g_i_in_j_2 * t347 - t341 * h_i_in_j_2;
     const jg_real t359 = C_j[5] * t358 - C_j[4] * t355;
     const jg_real t360 = C_j[4] * t356 - C_j[3] * t358;
-    jac_phi_q_v_A_j[11] = t337 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t357 + (t333 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t359) + omega_i_in_j_2 * t360 - (omega_j[1] * t357 + omega_j[0] * t359 + omega_j[2] *
-        t360);
     const jg_real t361 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
     const jg_real t362 = A_i[5] * omega_i[1] + omega_i[0] * A_i[2] + A_i[8] * omega_i[2];
     const jg_real t363 = s_j[2] * t362;
@@ -859,41 +845,45 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t367 = s_j[2] * t366;
     const jg_real t368 = s_j[1] * t362;
     const jg_real t369 = s_j[0] * t366 - t368;
+    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_0 + v_0_in_j_1 * t335 + (t335 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t334
+        + (A_i[4] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t338) + A_ij_7 * t340);
+    jac_phi_q_v_A_j[8] = v_0_in_j_1 * t336 + A_i[7] * v_0_in_j_0 + (t336 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t334
+        + (A_i[7] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t338) + A_ij_8 * t340);
+    jac_phi_q_v_A_j[9] = t333 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t344 + (t337 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t342) + omega_i_in_j_2 * t346 - (omega_j[0] * t344 - omega_j[1] * t342 + omega_j[2] *
+        t346);
+    jac_phi_q_v_A_j[10] = t333 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t350 + (t337 * h_i_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t348) + omega_i_in_j_2 * t352 - (omega_j[0] * t350 - omega_j[1] * t348 + omega_j[2] *
+        t352);
+    jac_phi_q_v_A_j[11] = t337 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t357 + (t333 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t359) + omega_i_in_j_2 * t360 - (omega_j[1] * t357 + omega_j[0] * t359 + omega_j[2] *
+        t360);
     jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_0 + v_0_in_j_1 * t361 + (t361 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t363
         + (A_i[2] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t367) + A_ij_6 * t369);
     jac_phi_q_v_A_j[13] = A_i[5] * v_0_in_j_0 + v_0_in_j_1 * t364 + (t364 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t363
         + (A_i[5] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t367) + A_ij_7 * t369);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_0_in_j_0 + v_0_in_j_1 * t365 + (t365 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t363
+    jac_phi_q_v_A_j[14] = v_0_in_j_1 * t365 + A_i[8] * v_0_in_j_0 + (t365 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t363
         + (A_i[8] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t367) + A_ij_8 * t369);
     const jg_real t370 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t371 = C_j[8] * t370;
-    const jg_real t372 = C_i[3] * t361 + C_i[4] * t364 + C_i[5] * t365;
+    const jg_real t372 = t361 * C_i[3] + t364 * C_i[4] + t365 * C_i[5];
     const jg_real t373 = C_j[8] * t372;
     const jg_real t374 = C_j[7] * t370;
     const jg_real t375 = t374 - C_j[6] * t372;
-    jac_phi_q_v_A_j[15] = t366 * g_i_cross_h_j_in_j_1 - omega_i_in_j_1 * t371 + (t362 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t373) + omega_i_in_j_2 * t375 - (omega_j[0] * t373 - omega_j[1] * t371 + omega_j[2] *
-        t375);
     const jg_real t376 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t377 = C_j[2] * t376;
-    const jg_real t378 = C_i[6] * t361 + C_i[7] * t364 + C_i[8] * t365;
+    const jg_real t378 = t361 * C_i[6] + t364 * C_i[7] + t365 * C_i[8];
     const jg_real t379 = C_j[2] * t378;
     const jg_real t380 = C_j[1] * t376;
     const jg_real t381 = t380 - C_j[0] * t378;
-    jac_phi_q_v_A_j[16] = t362 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t379 + (t366 * h_i_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t377) + omega_i_in_j_2 * t381 - (omega_j[0] * t379 - omega_j[1] * t377 + omega_j[2] *
-        t381);
     const jg_real t382 = t370 * h_i_in_j_1;
     const jg_real t383 = g_i_in_j_1 * t376;
-    const jg_real t384 = t382 + g_i_in_j_0 * t378 - (t383 + t372 * h_i_in_j_0);
+    const jg_real t384 = t382 + g_i_in_j_0 * t378 - (t372 * h_i_in_j_0 + t383);
     const jg_real t385 = t372 * h_i_in_j_2 - g_i_in_j_2 * t378;
     const jg_real t386 = C_j[3] * t384 - C_j[5] * t385;
     const jg_real t387 = g_i_in_j_2 * t376 - t370 * h_i_in_j_2;
     const jg_real t388 = C_j[5] * t387 - C_j[4] * t384;
     const jg_real t389 = C_j[4] * t385 - C_j[3] * t387;
-    jac_phi_q_v_A_j[17] = t366 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t386 + (t362 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t388) + omega_i_in_j_2 * t389 - (omega_j[1] * t386 + omega_j[0] * t388 + omega_j[2] *
-        t389);
     const jg_real t390 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
     const jg_real t391 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
     const jg_real t392 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
@@ -901,35 +891,41 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t394 = s_j[0] * t393;
     const jg_real t395 = s_j[0] * t304;
     const jg_real t396 = t310 - s_j[2] * t393;
+    const jg_real t397 = C_j[6] * t312;
+    const jg_real t398 = t390 * C_i[3] + t391 * C_i[4] + t392 * C_i[5];
+    const jg_real t399 = C_j[8] * t398 - t316;
+    const jg_real t400 = C_j[6] * t398;
+    const jg_real t401 = C_j[0] * t318;
+    const jg_real t402 = t390 * C_i[6] + t391 * C_i[7] + t392 * C_i[8];
+    const jg_real t403 = C_j[2] * t402 - t322;
+    const jg_real t404 = C_j[0] * t402;
+    jac_phi_q_v_A_j[15] = t362 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t373 + (t366 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t371) + omega_i_in_j_2 * t375 - (omega_j[0] * t373 - omega_j[1] * t371 + omega_j[2] *
+        t375);
+    jac_phi_q_v_A_j[16] = t362 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t379 + (t366 * h_i_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t377) + omega_i_in_j_2 * t381 - (omega_j[0] * t379 - omega_j[1] * t377 + omega_j[2] *
+        t381);
+    jac_phi_q_v_A_j[17] = t366 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t386 + (t362 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t388) + omega_i_in_j_2 * t389 - (omega_j[1] * t386 + omega_j[0] * t388 + omega_j[2] *
+        t389);
     jac_phi_q_v_A_j[18] = A_i[0] * v_0_in_j_2 + v_0_in_j_1 * t390 + (A_i[0] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
         t394 + (t390 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t395 + A_ij_0 * t396));
     jac_phi_q_v_A_j[19] = A_i[3] * v_0_in_j_2 + v_0_in_j_1 * t391 + (A_i[3] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
         t394 + (t391 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t395 + A_ij_1 * t396));
-    jac_phi_q_v_A_j[20] = A_i[6] * v_0_in_j_2 + v_0_in_j_1 * t392 + (A_i[6] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
+    jac_phi_q_v_A_j[20] = v_0_in_j_1 * t392 + A_i[6] * v_0_in_j_2 + (A_i[6] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
         t394 + (t392 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t395 + A_ij_2 * t396));
-    const jg_real t397 = C_j[6] * t312;
-    const jg_real t398 = C_i[3] * t390 + C_i[4] * t391 + C_i[5] * t392;
-    const jg_real t399 = C_j[8] * t398 - t316;
-    const jg_real t400 = C_j[6] * t398;
     jac_phi_q_v_A_j[21] = t304 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t400 + (t393 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t397 + omega_i_in_j_0 * t399) - (omega_j[1] * t397 + omega_j[0] * t399 - omega_j[2] *
+        omega_i_in_j_1 * t397 + omega_i_in_j_0 * t399) - (omega_j[0] * t399 + omega_j[1] * t397 - omega_j[2] *
         t400);
-    const jg_real t401 = C_j[0] * t318;
-    const jg_real t402 = C_i[6] * t390 + C_i[7] * t391 + C_i[8] * t392;
-    const jg_real t403 = C_j[2] * t402 - t322;
-    const jg_real t404 = C_j[0] * t402;
     jac_phi_q_v_A_j[22] = t304 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t404 + (t393 * h_i_cross_f_j_in_j_1 +
         omega_i_in_j_1 * t401 + omega_i_in_j_0 * t403) - (omega_j[0] * t403 + omega_j[1] * t401 - omega_j[2] *
         t404);
-    const jg_real t405 = t398 * h_i_in_j_2 + t325 - (t324 + g_i_in_j_2 * t402);
+    const jg_real t405 = t325 + t398 * h_i_in_j_2 - (t324 + g_i_in_j_2 * t402);
     const jg_real t406 = t312 * h_i_in_j_0 - g_i_in_j_0 * t318;
     const jg_real t407 = C_j[4] * t405 - C_j[3] * t406;
     const jg_real t408 = g_i_in_j_0 * t402 - t398 * h_i_in_j_0;
     const jg_real t409 = C_j[3] * t408 - C_j[5] * t405;
     const jg_real t410 = C_j[5] * t406 - C_j[4] * t408;
-    jac_phi_q_v_A_j[23] = t304 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t407 + (t393 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t409 + omega_i_in_j_0 * t410) - (omega_j[1] * t409 + omega_j[0] * t410 + omega_j[2] *
-        t407);
     const jg_real t411 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
     const jg_real t412 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
     const jg_real t413 = A_i[1] * A_ij_1 - A_i[4] * A_ij_0;
@@ -937,35 +933,20 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t415 = s_j[0] * t414;
     const jg_real t416 = s_j[0] * t333;
     const jg_real t417 = t339 - s_j[2] * t414;
-    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_1 * t411 + (A_i[1] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
-        t415 + (t411 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t416 + A_ij_0 * t417));
-    jac_phi_q_v_A_j[25] = A_i[4] * v_0_in_j_2 + v_0_in_j_1 * t412 + (A_i[4] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
-        t415 + (t412 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t416 + A_ij_1 * t417));
-    jac_phi_q_v_A_j[26] = A_i[7] * v_0_in_j_2 + v_0_in_j_1 * t413 + (A_i[7] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
-        t415 + (t413 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t416 + A_ij_2 * t417));
     const jg_real t418 = C_j[6] * t341;
-    const jg_real t419 = C_i[3] * t411 + C_i[4] * t412 + C_i[5] * t413;
+    const jg_real t419 = t411 * C_i[3] + t412 * C_i[4] + t413 * C_i[5];
     const jg_real t420 = C_j[8] * t419 - t345;
     const jg_real t421 = C_j[6] * t419;
-    jac_phi_q_v_A_j[27] = t333 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t421 + (t414 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t418 + omega_i_in_j_0 * t420) - (omega_j[1] * t418 + omega_j[0] * t420 - omega_j[2] *
-        t421);
     const jg_real t422 = C_j[0] * t347;
-    const jg_real t423 = C_i[6] * t411 + C_i[7] * t412 + C_i[8] * t413;
+    const jg_real t423 = t411 * C_i[6] + t412 * C_i[7] + t413 * C_i[8];
     const jg_real t424 = C_j[2] * t423 - t351;
     const jg_real t425 = C_j[0] * t423;
-    jac_phi_q_v_A_j[28] = t333 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t425 + (t414 * h_i_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t422 + omega_i_in_j_0 * t424) - (omega_j[0] * t424 + omega_j[1] * t422 - omega_j[2] *
-        t425);
-    const jg_real t426 = t419 * h_i_in_j_2 + t354 - (t353 + g_i_in_j_2 * t423);
+    const jg_real t426 = t354 + t419 * h_i_in_j_2 - (t353 + g_i_in_j_2 * t423);
     const jg_real t427 = t341 * h_i_in_j_0 - g_i_in_j_0 * t347;
     const jg_real t428 = C_j[4] * t426 - C_j[3] * t427;
     const jg_real t429 = g_i_in_j_0 * t423 - t419 * h_i_in_j_0;
     const jg_real t430 = C_j[3] * t429 - C_j[5] * t426;
     const jg_real t431 = C_j[5] * t427 - C_j[4] * t429;
-    jac_phi_q_v_A_j[29] = t333 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t428 + (t414 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t430 + omega_i_in_j_0 * t431) - (omega_j[1] * t430 + omega_j[0] * t431 + omega_j[2] *
-        t428);
     const jg_real t432 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
     const jg_real t433 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
     const jg_real t434 = A_i[2] * A_ij_1 - A_i[5] * A_ij_0;
@@ -973,103 +954,121 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t436 = s_j[0] * t435;
     const jg_real t437 = s_j[0] * t362;
     const jg_real t438 = t368 - s_j[2] * t435;
+    jac_phi_q_v_A_j[23] = t304 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t407 + (t393 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t409 + omega_i_in_j_0 * t410) - (omega_j[1] * t409 + omega_j[0] * t410 + omega_j[2] *
+        t407);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_1 * t411 + (A_i[1] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
+        t415 + (t411 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t416 + A_ij_0 * t417));
+    jac_phi_q_v_A_j[25] = A_i[4] * v_0_in_j_2 + v_0_in_j_1 * t412 + (A_i[4] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
+        t415 + (t412 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t416 + A_ij_1 * t417));
+    jac_phi_q_v_A_j[26] = v_0_in_j_1 * t413 + A_i[7] * v_0_in_j_2 + (A_i[7] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
+        t415 + (t413 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t416 + A_ij_2 * t417));
+    jac_phi_q_v_A_j[27] = t333 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t421 + (t414 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t418 + omega_i_in_j_0 * t420) - (omega_j[0] * t420 + omega_j[1] * t418 - omega_j[2] *
+        t421);
+    jac_phi_q_v_A_j[28] = t333 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t425 + (t414 * h_i_cross_f_j_in_j_1 +
+        omega_i_in_j_1 * t422 + omega_i_in_j_0 * t424) - (omega_j[0] * t424 + omega_j[1] * t422 - omega_j[2] *
+        t425);
+    jac_phi_q_v_A_j[29] = t333 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t428 + (t414 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t430 + omega_i_in_j_0 * t431) - (omega_j[1] * t430 + omega_j[0] * t431 + omega_j[2] *
+        t428);
     jac_phi_q_v_A_j[30] = A_i[2] * v_0_in_j_2 + v_0_in_j_1 * t432 + (A_i[2] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
         t436 + (t432 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t437 + A_ij_0 * t438));
-    jac_phi_q_v_A_j[31] = A_i[5] * v_0_in_j_2 + v_0_in_j_1 * t433 + (A_i[5] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
-        t436 + (t433 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t437 + A_ij_1 * t438));
-    jac_phi_q_v_A_j[32] = A_i[8] * v_0_in_j_2 + v_0_in_j_1 * t434 + (A_i[8] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
-        t436 + (t434 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t437 + A_ij_2 * t438));
     const jg_real t439 = C_j[6] * t370;
-    const jg_real t440 = C_i[3] * t432 + C_i[4] * t433 + C_i[5] * t434;
+    const jg_real t440 = t432 * C_i[3] + t433 * C_i[4] + t434 * C_i[5];
     const jg_real t441 = C_j[8] * t440 - t374;
     const jg_real t442 = C_j[6] * t440;
-    jac_phi_q_v_A_j[33] = t362 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t442 + (t435 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t439 + omega_i_in_j_0 * t441) - (omega_j[1] * t439 + omega_j[0] * t441 - omega_j[2] *
-        t442);
     const jg_real t443 = C_j[0] * t376;
-    const jg_real t444 = C_i[6] * t432 + C_i[7] * t433 + C_i[8] * t434;
+    const jg_real t444 = t432 * C_i[6] + t433 * C_i[7] + t434 * C_i[8];
     const jg_real t445 = C_j[2] * t444 - t380;
     const jg_real t446 = C_j[0] * t444;
-    jac_phi_q_v_A_j[34] = t362 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t446 + (t435 * h_i_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t443 + omega_i_in_j_0 * t445) - (omega_j[0] * t445 + omega_j[1] * t443 - omega_j[2] *
-        t446);
-    const jg_real t447 = t440 * h_i_in_j_2 + t383 - (t382 + g_i_in_j_2 * t444);
+    const jg_real t447 = t383 + t440 * h_i_in_j_2 - (t382 + g_i_in_j_2 * t444);
     const jg_real t448 = t370 * h_i_in_j_0 - g_i_in_j_0 * t376;
     const jg_real t449 = C_j[4] * t447 - C_j[3] * t448;
     const jg_real t450 = g_i_in_j_0 * t444 - t440 * h_i_in_j_0;
     const jg_real t451 = C_j[3] * t450 - C_j[5] * t447;
     const jg_real t452 = C_j[5] * t448 - C_j[4] * t450;
-    jac_phi_q_v_A_j[35] = t362 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t449 + (t435 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t451 + omega_i_in_j_0 * t452) - (omega_j[1] * t451 + omega_j[0] * t452 + omega_j[2] *
-        t449);
-    const jg_real t453 = C_j[6] * A_ij_6 - C_j[8] * A_ij_0;
-    const jg_real t454 = C_j[8] * A_ij_3 - C_j[7] * A_ij_6;
-    const jg_real t455 = C_j[7] * A_ij_0 - C_j[6] * A_ij_3;
-    jac_phi_q_v_geometry[0] = omega_i_in_j_1 * t453 + omega_i_in_j_0 * t454 + omega_i_in_j_2 * t455 - (omega_j[1] *
-        t453 + omega_j[0] * t454 + omega_j[2] * t455);
+    const jg_real t453 = A_ij_6 * C_j[6] - A_ij_0 * C_j[8];
+    const jg_real t454 = A_ij_3 * C_j[8] - A_ij_6 * C_j[7];
+    const jg_real t455 = A_ij_0 * C_j[7] - A_ij_3 * C_j[6];
     const jg_real t456 = A_ij_0 * h_i_in_j_1 - A_ij_3 * h_i_in_j_0;
     const jg_real t457 = A_ij_3 * h_i_in_j_2 - A_ij_6 * h_i_in_j_1;
     const jg_real t458 = C_j[3] * t456 - C_j[5] * t457;
     const jg_real t459 = A_ij_6 * h_i_in_j_0 - A_ij_0 * h_i_in_j_2;
     const jg_real t460 = C_j[5] * t459 - C_j[4] * t456;
     const jg_real t461 = C_j[4] * t457 - C_j[3] * t459;
+    const jg_real t462 = A_ij_7 * C_j[6] - A_ij_1 * C_j[8];
+    const jg_real t463 = A_ij_4 * C_j[8] - A_ij_7 * C_j[7];
+    const jg_real t464 = A_ij_1 * C_j[7] - A_ij_4 * C_j[6];
+    jac_phi_q_v_A_j[31] = A_i[5] * v_0_in_j_2 + v_0_in_j_1 * t433 + (A_i[5] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
+        t436 + (t433 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t437 + A_ij_1 * t438));
+    jac_phi_q_v_A_j[32] = v_0_in_j_1 * t434 + A_i[8] * v_0_in_j_2 + (A_i[8] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
+        t436 + (t434 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t437 + A_ij_2 * t438));
+    jac_phi_q_v_A_j[33] = t362 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t442 + (t435 * g_i_cross_h_j_in_j_1 +
+        omega_i_in_j_1 * t439 + omega_i_in_j_0 * t441) - (omega_j[0] * t441 + omega_j[1] * t439 - omega_j[2] *
+        t442);
+    jac_phi_q_v_A_j[34] = t362 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t446 + (t435 * h_i_cross_f_j_in_j_1 +
+        omega_i_in_j_1 * t443 + omega_i_in_j_0 * t445) - (omega_j[0] * t445 + omega_j[1] * t443 - omega_j[2] *
+        t446);
+    jac_phi_q_v_A_j[35] = t362 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t449 + (t435 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t451 + omega_i_in_j_0 * t452) - (omega_j[1] * t451 + omega_j[0] * t452 + omega_j[2] *
+        t449);
+    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t454 + omega_i_in_j_1 * t453 + omega_i_in_j_2 * t455 - (omega_j[0] *
+        t454 + omega_j[1] * t453 + omega_j[2] * t455);
     jac_phi_q_v_geometry[1] = omega_i_in_j_1 * t458 + omega_i_in_j_0 * t460 + omega_i_in_j_2 * t461 - (omega_j[1] *
         t458 + omega_j[0] * t460 + omega_j[2] * t461);
-    const jg_real t462 = C_j[6] * A_ij_7 - C_j[8] * A_ij_1;
-    const jg_real t463 = C_j[8] * A_ij_4 - C_j[7] * A_ij_7;
-    const jg_real t464 = C_j[7] * A_ij_1 - C_j[6] * A_ij_4;
-    jac_phi_q_v_geometry[2] = omega_i_in_j_1 * t462 + omega_i_in_j_0 * t463 + omega_i_in_j_2 * t464 - (omega_j[1] *
-        t462 + omega_j[0] * t463 + omega_j[2] * t464);
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t463 + omega_i_in_j_1 * t462 + omega_i_in_j_2 * t464 - (omega_j[0] *
+        t463 + omega_j[1] * t462 + omega_j[2] * t464);
     const jg_real t465 = A_ij_1 * h_i_in_j_1 - A_ij_4 * h_i_in_j_0;
     const jg_real t466 = A_ij_4 * h_i_in_j_2 - A_ij_7 * h_i_in_j_1;
     const jg_real t467 = C_j[3] * t465 - C_j[5] * t466;
     const jg_real t468 = A_ij_7 * h_i_in_j_0 - A_ij_1 * h_i_in_j_2;
     const jg_real t469 = C_j[5] * t468 - C_j[4] * t465;
     const jg_real t470 = C_j[4] * t466 - C_j[3] * t468;
-    jac_phi_q_v_geometry[3] = omega_i_in_j_1 * t467 + omega_i_in_j_0 * t469 + omega_i_in_j_2 * t470 - (omega_j[1] *
-        t467 + omega_j[0] * t469 + omega_j[2] * t470);
-    const jg_real t471 = C_j[6] * A_ij_8 - A_ij_2 * C_j[8];
-    const jg_real t472 = C_j[8] * A_ij_5 - C_j[7] * A_ij_8;
-    const jg_real t473 = A_ij_2 * C_j[7] - C_j[6] * A_ij_5;
-    jac_phi_q_v_geometry[4] = omega_i_in_j_1 * t471 + omega_i_in_j_0 * t472 + omega_i_in_j_2 * t473 - (omega_j[1] *
-        t471 + omega_j[0] * t472 + omega_j[2] * t473);
+    const jg_real t471 = A_ij_8 * C_j[6] - A_ij_2 * C_j[8];
+    const jg_real t472 = A_ij_5 * C_j[8] - A_ij_8 * C_j[7];
+    const jg_real t473 = A_ij_2 * C_j[7] - A_ij_5 * C_j[6];
     const jg_real t474 = A_ij_2 * h_i_in_j_1 - A_ij_5 * h_i_in_j_0;
     const jg_real t475 = A_ij_5 * h_i_in_j_2 - A_ij_8 * h_i_in_j_1;
     const jg_real t476 = C_j[3] * t474 - C_j[5] * t475;
     const jg_real t477 = A_ij_8 * h_i_in_j_0 - A_ij_2 * h_i_in_j_2;
     const jg_real t478 = C_j[5] * t477 - C_j[4] * t474;
     const jg_real t479 = C_j[4] * t475 - C_j[3] * t477;
-    jac_phi_q_v_geometry[5] = omega_i_in_j_1 * t476 + omega_i_in_j_0 * t478 + omega_i_in_j_2 * t479 - (omega_j[1] *
-        t476 + omega_j[0] * t478 + omega_j[2] * t479);
-    const jg_real t480 = C_j[0] * A_ij_6 - C_j[2] * A_ij_0;
-    const jg_real t481 = C_j[2] * A_ij_3 - C_j[1] * A_ij_6;
-    const jg_real t482 = C_j[1] * A_ij_0 - C_j[0] * A_ij_3;
-    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t481 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t482 - (omega_j[0] *
-        t481 + omega_j[1] * t480 + omega_j[2] * t482);
+    const jg_real t480 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
+    const jg_real t481 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
+    const jg_real t482 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
     const jg_real t483 = A_ij_3 * g_i_in_j_0 - A_ij_0 * g_i_in_j_1;
     const jg_real t484 = A_ij_6 * g_i_in_j_1 - A_ij_3 * g_i_in_j_2;
     const jg_real t485 = C_j[3] * t483 - C_j[5] * t484;
     const jg_real t486 = A_ij_0 * g_i_in_j_2 - A_ij_6 * g_i_in_j_0;
     const jg_real t487 = C_j[5] * t486 - C_j[4] * t483;
     const jg_real t488 = C_j[4] * t484 - C_j[3] * t486;
-    jac_phi_q_v_geometry[7] = omega_i_in_j_1 * t485 + omega_i_in_j_0 * t487 + omega_i_in_j_2 * t488 - (omega_j[1] *
-        t485 + omega_j[0] * t487 + omega_j[2] * t488);
-    const jg_real t489 = C_j[0] * A_ij_7 - C_j[2] * A_ij_1;
-    const jg_real t490 = C_j[2] * A_ij_4 - C_j[1] * A_ij_7;
-    const jg_real t491 = C_j[1] * A_ij_1 - C_j[0] * A_ij_4;
-    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t490 + omega_i_in_j_1 * t489 + omega_i_in_j_2 * t491 - (omega_j[0] *
-        t490 + omega_j[1] * t489 + omega_j[2] * t491);
+    const jg_real t489 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
+    const jg_real t490 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
+    const jg_real t491 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
     const jg_real t492 = A_ij_4 * g_i_in_j_0 - A_ij_1 * g_i_in_j_1;
     const jg_real t493 = A_ij_7 * g_i_in_j_1 - A_ij_4 * g_i_in_j_2;
     const jg_real t494 = C_j[3] * t492 - C_j[5] * t493;
     const jg_real t495 = A_ij_1 * g_i_in_j_2 - A_ij_7 * g_i_in_j_0;
     const jg_real t496 = C_j[5] * t495 - C_j[4] * t492;
     const jg_real t497 = C_j[4] * t493 - C_j[3] * t495;
+    const jg_real t498 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
+    const jg_real t499 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
+    const jg_real t500 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
+    jac_phi_q_v_geometry[3] = omega_i_in_j_1 * t467 + omega_i_in_j_0 * t469 + omega_i_in_j_2 * t470 - (omega_j[1] *
+        t467 + omega_j[0] * t469 + omega_j[2] * t470);
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t472 + omega_i_in_j_1 * t471 + omega_i_in_j_2 * t473 - (omega_j[0] *
+        t472 + omega_j[1] * t471 + omega_j[2] * t473);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_1 * t476 + omega_i_in_j_0 * t478 + omega_i_in_j_2 * t479 - (omega_j[1] *
+        t476 + omega_j[0] * t478 + omega_j[2] * t479);
+    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t481 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t482 - (omega_j[0] *
+        t481 + omega_j[1] * t480 + omega_j[2] * t482);
+    jac_phi_q_v_geometry[7] = omega_i_in_j_1 * t485 + omega_i_in_j_0 * t487 + omega_i_in_j_2 * t488 - (omega_j[1] *
+        t485 + omega_j[0] * t487 + omega_j[2] * t488);
+    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t490 + omega_i_in_j_1 * t489 + omega_i_in_j_2 * t491 - (omega_j[0] *
+        t490 + omega_j[1] * t489 + omega_j[2] * t491);
     jac_phi_q_v_geometry[9] = omega_i_in_j_1 * t494 + omega_i_in_j_0 * t496 + omega_i_in_j_2 * t497 - (omega_j[1] *
         t494 + omega_j[0] * t496 + omega_j[2] * t497);
-    const jg_real t498 = C_j[0] * A_ij_8 - A_ij_2 * C_j[2];
-    const jg_real t499 = C_j[2] * A_ij_5 - C_j[1] * A_ij_8;
-    const jg_real t500 = A_ij_2 * C_j[1] - C_j[0] * A_ij_5;
     jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t499 + omega_i_in_j_1 * t498 + omega_i_in_j_2 * t500 - (omega_j[0] *
         t499 + omega_j[1] * t498 + omega_j[2] * t500);
     const jg_real t501 = A_ij_5 * g_i_in_j_0 - A_ij_2 * g_i_in_j_1;
@@ -1096,7 +1095,7 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         omega_i_in_j_1);
     jac_phi_q_v_geometry[19] = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4 + (A_ij_4 * omega_i_in_j_0 - A_ij_1 *
         omega_i_in_j_1);
-    jac_phi_q_v_geometry[20] = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5 + (A_ij_5 * omega_i_in_j_0 - A_ij_2 *
+    jac_phi_q_v_geometry[20] = A_ij_2 * omega_j[1] - omega_j[0] * A_ij_5 + (A_ij_5 * omega_i_in_j_0 - A_ij_2 *
         omega_i_in_j_1);
     jac_phi_q_v_geometry[21] = omega_i_in_j_1 * h_i_in_j_2 - omega_i_in_j_2 * h_i_in_j_1 - (omega_j[1] * h_i_in_j_2
         - omega_j[2] * h_i_in_j_1);
@@ -1110,59 +1109,59 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         - omega_j[0] * f_i_in_j_2);
     jac_phi_q_v_geometry[26] = omega_i_in_j_0 * f_i_in_j_1 - omega_i_in_j_1 * f_i_in_j_0 - (omega_j[0] * f_i_in_j_1
         - omega_j[1] * f_i_in_j_0);
-    jac_phi_q_v_geometry[27] = g_i_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
+    const jg_real t507 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    const jg_real t508 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    jac_phi_q_v_geometry[27] = omega_i_in_j_1 * g_i_in_j_2 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
         - omega_j[2] * g_i_in_j_1);
     jac_phi_q_v_geometry[28] = omega_i_in_j_2 * g_i_in_j_0 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
         - omega_j[0] * g_i_in_j_2);
-    jac_phi_q_v_geometry[29] = omega_i_in_j_0 * g_i_in_j_1 - g_i_in_j_0 * omega_i_in_j_1 - (omega_j[0] * g_i_in_j_1
+    jac_phi_q_v_geometry[29] = omega_i_in_j_0 * g_i_in_j_1 - omega_i_in_j_1 * g_i_in_j_0 - (omega_j[0] * g_i_in_j_1
         - omega_j[1] * g_i_in_j_0);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    const jg_real t507 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_v_velocity[36] = t507;
-    const jg_real t508 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_v_velocity[30] = t508;
     const jg_real t509 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    jac_phi_q_v_velocity[42] = t509;
-    jac_phi_q_v_velocity[3] = A_ij_3 * t507 + A_ij_0 * t508 + A_ij_6 * t509;
     /* v_1_in_i = r_j - r_i, axes of body i */
     const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
-    jac_phi_q_v_velocity[4] = A_ij_4 * t507 + A_ij_1 * t508 + A_ij_7 * t509 + v_1_in_i_2;
     const jg_real v_1_in_i_1 = A_i[3] * v_1_world_0 + A_i[4] * v_1_world_1 + A_i[5] * v_1_world_2;
+    const jg_real t512 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    jac_phi_q_v_velocity[42] = t509;
+    jac_phi_q_v_velocity[3] = A_ij_3 * t507 + A_ij_0 * t508 + A_ij_6 * t509;
+    jac_phi_q_v_velocity[4] = A_ij_4 * t507 + A_ij_1 * t508 + A_ij_7 * t509 + v_1_in_i_2;
     jac_phi_q_v_velocity[5] = A_ij_5 * t507 + A_ij_2 * t508 + A_ij_8 * t509 - v_1_in_i_1;
-    jac_phi_q_v_velocity[6] = A_ij_3 * g_i_cross_h_j_in_j_1 + A_ij_0 * g_i_cross_h_j_in_j_0 + A_ij_6 *
+    jac_phi_q_v_velocity[6] = A_ij_0 * g_i_cross_h_j_in_j_0 + A_ij_3 * g_i_cross_h_j_in_j_1 + A_ij_6 *
         g_i_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[7] = A_ij_0 * h_i_cross_f_j_in_j_0 + A_ij_3 * h_i_cross_f_j_in_j_1 + A_ij_6 *
         h_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[8] = A_ij_3 * f_i_cross_g_j_in_j_1 + A_ij_0 * f_i_cross_g_j_in_j_0 + A_ij_6 *
         f_i_cross_g_j_in_j_2;
-    const jg_real t512 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_v_velocity[37] = t512;
     const jg_real t513 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    jac_phi_q_v_velocity[31] = t513;
     const jg_real t514 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
+    jac_phi_q_v_velocity[31] = t513;
     jac_phi_q_v_velocity[43] = t514;
     jac_phi_q_v_velocity[9] = A_ij_3 * t512 + A_ij_0 * t513 + A_ij_6 * t514 - v_1_in_i_2;
     jac_phi_q_v_velocity[10] = A_ij_4 * t512 + A_ij_1 * t513 + A_ij_7 * t514;
-    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
     jac_phi_q_v_velocity[11] = A_ij_5 * t512 + A_ij_2 * t513 + A_ij_8 * t514 + v_1_in_i_0;
-    jac_phi_q_v_velocity[12] = A_ij_4 * g_i_cross_h_j_in_j_1 + A_ij_1 * g_i_cross_h_j_in_j_0 + A_ij_7 *
+    jac_phi_q_v_velocity[12] = A_ij_1 * g_i_cross_h_j_in_j_0 + A_ij_4 * g_i_cross_h_j_in_j_1 + A_ij_7 *
         g_i_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[13] = A_ij_1 * h_i_cross_f_j_in_j_0 + A_ij_4 * h_i_cross_f_j_in_j_1 + A_ij_7 *
         h_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ij_4 * f_i_cross_g_j_in_j_1 + A_ij_1 * f_i_cross_g_j_in_j_0 + A_ij_7 *
         f_i_cross_g_j_in_j_2;
     const jg_real t516 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    jac_phi_q_v_velocity[38] = t516;
     const jg_real t517 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    jac_phi_q_v_velocity[32] = t517;
     const jg_real t518 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    jac_phi_q_v_velocity[38] = t516;
+    jac_phi_q_v_velocity[32] = t517;
     jac_phi_q_v_velocity[44] = t518;
     jac_phi_q_v_velocity[15] = A_ij_3 * t516 + A_ij_0 * t517 + A_ij_6 * t518 + v_1_in_i_1;
     jac_phi_q_v_velocity[16] = A_ij_4 * t516 + A_ij_1 * t517 + A_ij_7 * t518 - v_1_in_i_0;
     jac_phi_q_v_velocity[17] = A_ij_5 * t516 + A_ij_2 * t517 + A_ij_8 * t518;
-    jac_phi_q_v_velocity[18] = A_ij_5 * g_i_cross_h_j_in_j_1 + A_ij_2 * g_i_cross_h_j_in_j_0 + A_ij_8 *
+    jac_phi_q_v_velocity[18] = A_ij_2 * g_i_cross_h_j_in_j_0 + A_ij_5 * g_i_cross_h_j_in_j_1 + A_ij_8 *
         g_i_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[19] = A_ij_2 * h_i_cross_f_j_in_j_0 + A_ij_5 * h_i_cross_f_j_in_j_1 + A_ij_8 *
         h_i_cross_f_j_in_j_2;
@@ -1190,47 +1189,43 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[24] = A_ij_2;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[16] = A_ij_7;
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_q_t_lambda_lambda[14] = A_ij_1;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ij_8;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
-    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[24] = A_ij_2;
+    jac_phi_q_t_lambda_lambda[16] = A_ij_7;
+    jac_phi_q_t_lambda_lambda[14] = A_ij_1;
+    jac_phi_q_t_lambda_lambda[26] = A_ij_8;
+    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
+    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     jac_phi_q_t_lambda_lambda[6] = A_ij_6;
     const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
-    jac_phi_q_t_lambda_lambda[15] = A_ij_4;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
-    jac_phi_q_t_lambda_lambda[25] = A_ij_5;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[40] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ij_7 + lambda[0] * A_ij_6 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[44] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* h_i_in_j = h_i, axes of body j */
@@ -1238,7 +1233,6 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real h_i_in_j_2 = C_i[7] * A_ij_7 + C_i[6] * A_ij_6 + C_i[8] * A_ij_8;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[39] = f_j_cross_h_i_in_j_0;
     /* v_2_in_j = lambda_4 f_j x h_i, axes of body j */
     const jg_real v_2_in_j_0 = lambda[4] * f_j_cross_h_i_in_j_0;
     /* g_i_in_j = g_i, axes of body j */
@@ -1251,12 +1245,10 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real f_i_in_j_1 = h_i_in_j_0 * g_i_in_j_2 - g_i_in_j_0 * h_i_in_j_2;
     /* g_j_cross_f_i_in_j = g_j x f_i, axes of body j */
     const jg_real g_j_cross_f_i_in_j_0 = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[45] = g_j_cross_f_i_in_j_0;
     /* v_3_in_j = lambda_5 g_j x f_i, axes of body j */
     const jg_real v_3_in_j_0 = lambda[5] * g_j_cross_f_i_in_j_0;
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_0 = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[33] = h_j_cross_g_i_in_j_0;
     /* v_4_in_j = lambda_3 h_j x g_i, axes of body j */
     const jg_real v_4_in_j_0 = lambda[3] * h_j_cross_g_i_in_j_0;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_i + lambda_4 f_j x h_i + lambda_5 g_j x f_i, axes of ... */
@@ -1274,55 +1266,55 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t46 = t41 * g_i_in_j_2 + t44 * h_i_in_j_0 - (t45 * g_i_in_j_0 + t37 * h_i_in_j_2);
     const jg_real t47 = lambda[1] * t38 + lambda[2] * t39;
     const jg_real t48 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_lambda[15] = A_ij_4;
+    jac_phi_q_t_lambda_lambda[25] = A_ij_5;
+    jac_phi_q_t_lambda_geometry[40] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[44] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_lambda[39] = f_j_cross_h_i_in_j_0;
+    jac_phi_q_t_lambda_lambda[45] = g_j_cross_f_i_in_j_0;
+    jac_phi_q_t_lambda_lambda[33] = h_j_cross_g_i_in_j_0;
     jac_phi_q_t_lambda_A_i[5] = t48;
     const jg_real t49 = s_j[1] * t48 + s_j[2] * t47 + lambda[4] * (C_j[1] * t45 + C_j[2] * t40) + lambda[5] *
         (C_j[4] * t43 - C_j[5] * t46) + lambda[3] * (C_j[7] * t44 + C_j[8] * t42);
-    jac_phi_q_t_lambda_A_i[6] = t49;
     const jg_real t50 = t45 * g_i_in_j_1 - h_i_in_j_2 * t42 - (t44 * h_i_in_j_1 - g_i_in_j_2 * t40);
     const jg_real t51 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t51;
     const jg_real t52 = s_j[2] * t51 - s_j[0] * t48 + lambda[4] * (C_j[2] * t41 - C_j[0] * t45) + lambda[5] *
         (C_j[5] * t50 - C_j[3] * t43) + lambda[3] * (C_j[8] * t37 - C_j[6] * t44);
-    jac_phi_q_t_lambda_A_i[7] = t52;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_h_i_in_j_2 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[41] = f_j_cross_h_i_in_j_2;
     const jg_real v_2_in_j_2 = lambda[4] * f_j_cross_h_i_in_j_2;
     const jg_real f_i_in_j_0 = h_i_in_j_2 * g_i_in_j_1 - g_i_in_j_2 * h_i_in_j_1;
     const jg_real g_j_cross_f_i_in_j_2 = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[47] = g_j_cross_f_i_in_j_2;
     const jg_real v_3_in_j_2 = lambda[5] * g_j_cross_f_i_in_j_2;
     const jg_real h_j_cross_g_i_in_j_2 = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[35] = h_j_cross_g_i_in_j_2;
     const jg_real v_4_in_j_2 = lambda[3] * h_j_cross_g_i_in_j_2;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
     const jg_real t63 = A_j[6] * v_5_in_j_2;
     const jg_real t64 = lambda[5] * (C_j[3] * t46 - C_j[4] * t50) - (s_j[1] * t51 + s_j[0] * t47 + lambda[4] *
         (C_j[1] * t41 + C_j[0] * t40)) - lambda[3] * (C_j[7] * t37 + C_j[6] * t42);
+    jac_phi_q_t_lambda_A_i[6] = t49;
+    jac_phi_q_t_lambda_A_i[3] = t51;
+    jac_phi_q_t_lambda_A_i[7] = t52;
+    jac_phi_q_t_lambda_geometry[50] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_lambda[41] = f_j_cross_h_i_in_j_2;
+    jac_phi_q_t_lambda_lambda[47] = g_j_cross_f_i_in_j_2;
+    jac_phi_q_t_lambda_lambda[35] = h_j_cross_g_i_in_j_2;
     jac_phi_q_t_lambda_A_i[8] = t64;
-    jac_phi_q_t_lambda_A_i[0] = -(t63 + A_ij_6 * t64 + (t36 + A_ij_0 * t49 + A_ij_3 * t52));
     const jg_real g_j_cross_f_i_in_j_1 = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[46] = g_j_cross_f_i_in_j_1;
     const jg_real v_3_in_j_1 = lambda[5] * g_j_cross_f_i_in_j_1;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_j_cross_h_i_in_j_1 = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[40] = f_j_cross_h_i_in_j_1;
     const jg_real v_2_in_j_1 = lambda[4] * f_j_cross_h_i_in_j_1;
     const jg_real h_j_cross_g_i_in_j_1 = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[34] = h_j_cross_g_i_in_j_1;
     const jg_real v_4_in_j_1 = lambda[3] * h_j_cross_g_i_in_j_1;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
     const jg_real t73 = t38 * v_5_in_j_1;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t75 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = t75 - (A_ij_4 * t52 - t73 + A_ij_1 * t49 + A_ij_7 * t64);
     const jg_real t76 = t39 * v_5_in_j_1;
     const jg_real t77 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[2] = -(A_ij_5 * t52 - t76 + A_ij_2 * t49 + A_ij_8 * t64 + t77);
-    jac_phi_q_t_lambda_A_i[4] = -t47;
     const jg_real t78 = A_j[1] * v_5_in_j_0;
     const jg_real t79 = A_j[1] * C_i[3];
     const jg_real t80 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
@@ -1336,27 +1328,34 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t88 = t83 * g_i_in_j_2 + t86 * h_i_in_j_0 - (t87 * g_i_in_j_0 + t79 * h_i_in_j_2);
     const jg_real t89 = lambda[1] * t80 + lambda[2] * t81;
     const jg_real t90 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[0] = -(t63 + A_ij_6 * t64 + (t36 + A_ij_0 * t49 + A_ij_3 * t52));
+    jac_phi_q_t_lambda_lambda[46] = g_j_cross_f_i_in_j_1;
+    jac_phi_q_t_lambda_lambda[40] = f_j_cross_h_i_in_j_1;
+    jac_phi_q_t_lambda_lambda[34] = h_j_cross_g_i_in_j_1;
+    jac_phi_q_t_lambda_A_i[1] = t75 - (A_ij_4 * t52 - t73 + A_ij_1 * t49 + A_ij_7 * t64);
+    jac_phi_q_t_lambda_A_i[2] = -(A_ij_5 * t52 - t76 + A_ij_2 * t49 + A_ij_8 * t64 + t77);
+    jac_phi_q_t_lambda_A_i[4] = -t47;
     jac_phi_q_t_lambda_A_i[14] = t90;
     const jg_real t91 = s_j[1] * t90 + s_j[2] * t89 + lambda[4] * (C_j[1] * t87 + C_j[2] * t82) + lambda[5] *
         (C_j[4] * t85 - C_j[5] * t88) + lambda[3] * (C_j[7] * t86 + C_j[8] * t84);
-    jac_phi_q_t_lambda_A_i[15] = t91;
     const jg_real t92 = t87 * g_i_in_j_1 - h_i_in_j_2 * t84 - (t86 * h_i_in_j_1 - g_i_in_j_2 * t82);
     const jg_real t93 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[12] = t93;
     const jg_real t94 = s_j[2] * t93 - s_j[0] * t90 + lambda[4] * (C_j[2] * t83 - C_j[0] * t87) + lambda[5] *
         (C_j[5] * t92 - C_j[3] * t85) + lambda[3] * (C_j[8] * t79 - C_j[6] * t86);
-    jac_phi_q_t_lambda_A_i[16] = t94;
     const jg_real t95 = A_j[7] * v_5_in_j_2;
     const jg_real t96 = lambda[5] * (C_j[3] * t88 - C_j[4] * t92) - (s_j[1] * t93 + s_j[0] * t89 + lambda[4] *
         (C_j[1] * t83 + C_j[0] * t82)) - lambda[3] * (C_j[7] * t79 + C_j[6] * t84);
-    jac_phi_q_t_lambda_A_i[17] = t96;
-    jac_phi_q_t_lambda_A_i[9] = -(t95 + A_ij_6 * t96 + (t78 + A_ij_0 * t91 + A_ij_3 * t94));
     const jg_real t97 = t80 * v_5_in_j_1;
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t99 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[10] = t99 - (A_ij_4 * t94 - t97 + A_ij_1 * t91 + A_ij_7 * t96);
     const jg_real t100 = t81 * v_5_in_j_1;
     const jg_real t101 = lambda[1] * v_0_world_1;
+    jac_phi_q_t_lambda_A_i[15] = t91;
+    jac_phi_q_t_lambda_A_i[12] = t93;
+    jac_phi_q_t_lambda_A_i[16] = t94;
+    jac_phi_q_t_lambda_A_i[17] = t96;
+    jac_phi_q_t_lambda_A_i[9] = -(t95 + A_ij_6 * t96 + (t78 + A_ij_0 * t91 + A_ij_3 * t94));
+    jac_phi_q_t_lambda_A_i[10] = t99 - (A_ij_4 * t94 - t97 + A_ij_1 * t91 + A_ij_7 * t96);
     jac_phi_q_t_lambda_A_i[11] = -(A_ij_5 * t94 - t100 + A_ij_2 * t91 + A_ij_8 * t96 + t101);
     jac_phi_q_t_lambda_A_i[13] = -t89;
     const jg_real t102 = A_j[2] * v_5_in_j_0;
@@ -1372,29 +1371,28 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t112 = t107 * g_i_in_j_2 + t110 * h_i_in_j_0 - (t111 * g_i_in_j_0 + t103 * h_i_in_j_2);
     const jg_real t113 = lambda[1] * t104 + lambda[2] * t105;
     const jg_real t114 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[23] = t114;
     const jg_real t115 = s_j[1] * t114 + s_j[2] * t113 + lambda[4] * (C_j[1] * t111 + C_j[2] * t106) + lambda[5] *
         (C_j[4] * t109 - C_j[5] * t112) + lambda[3] * (C_j[7] * t110 + C_j[8] * t108);
-    jac_phi_q_t_lambda_A_i[24] = t115;
     const jg_real t116 = t111 * g_i_in_j_1 - h_i_in_j_2 * t108 - (t110 * h_i_in_j_1 - g_i_in_j_2 * t106);
     const jg_real t117 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[21] = t117;
     const jg_real t118 = s_j[2] * t117 - s_j[0] * t114 + lambda[4] * (C_j[2] * t107 - C_j[0] * t111) + lambda[5] *
         (C_j[5] * t116 - C_j[3] * t109) + lambda[3] * (C_j[8] * t103 - C_j[6] * t110);
-    jac_phi_q_t_lambda_A_i[25] = t118;
     const jg_real t119 = A_j[8] * v_5_in_j_2;
     const jg_real t120 = lambda[5] * (C_j[3] * t112 - C_j[4] * t116) - (s_j[1] * t117 + s_j[0] * t113 + lambda[4] *
         (C_j[1] * t107 + C_j[0] * t106)) - lambda[3] * (C_j[7] * t103 + C_j[6] * t108);
-    jac_phi_q_t_lambda_A_i[26] = t120;
-    jac_phi_q_t_lambda_A_i[18] = -(t119 + A_ij_6 * t120 + (t102 + A_ij_0 * t115 + A_ij_3 * t118));
     const jg_real t121 = t104 * v_5_in_j_1;
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t123 = lambda[2] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[19] = t123 - (A_ij_4 * t118 - t121 + A_ij_1 * t115 + A_ij_7 * t120);
     const jg_real t124 = t105 * v_5_in_j_1;
     const jg_real t125 = lambda[1] * v_0_world_2;
+    jac_phi_q_t_lambda_A_i[23] = t114;
+    jac_phi_q_t_lambda_A_i[24] = t115;
+    jac_phi_q_t_lambda_A_i[21] = t117;
+    jac_phi_q_t_lambda_A_i[25] = t118;
+    jac_phi_q_t_lambda_A_i[26] = t120;
+    jac_phi_q_t_lambda_A_i[18] = -(t119 + A_ij_6 * t120 + (t102 + A_ij_0 * t115 + A_ij_3 * t118));
+    jac_phi_q_t_lambda_A_i[19] = t123 - (A_ij_4 * t118 - t121 + A_ij_1 * t115 + A_ij_7 * t120);
     jac_phi_q_t_lambda_A_i[20] = -(A_ij_5 * t118 - t124 + A_ij_2 * t115 + A_ij_8 * t120 + t125);
-    jac_phi_q_t_lambda_A_i[22] = -t113;
     const jg_real t126 = A_j[6] * C_i[7];
     const jg_real t127 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
     const jg_real t128 = C_i[3] * t38 - C_i[5] * t127;
@@ -1405,26 +1403,25 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t133 = A_j[0] * C_i[7];
     const jg_real t134 = g_i_in_j_0 * t130 + t132 * h_i_in_j_1 - (t133 * g_i_in_j_1 + h_i_in_j_0 * t128);
     const jg_real t135 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[30] = t135;
     const jg_real t136 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[32] = t136;
     const jg_real t137 = s_j[2] * t135 - s_j[0] * t136 + lambda[4] * (C_j[2] * t133 - C_j[0] * t126) + lambda[5] *
         (C_j[5] * t131 - C_j[3] * t134) + lambda[3] * (C_j[8] * t132 - C_j[6] * t129);
-    jac_phi_q_t_lambda_A_i[34] = t137;
     const jg_real t138 = t133 * g_i_in_j_2 + t129 * h_i_in_j_0 - (t126 * g_i_in_j_0 + t132 * h_i_in_j_2);
     const jg_real t139 = lambda[0] * t38 - lambda[2] * t127;
-    jac_phi_q_t_lambda_A_i[31] = t139;
     const jg_real t140 = s_j[1] * t136 - s_j[2] * t139 + lambda[4] * (C_j[1] * t126 - C_j[2] * t130) + lambda[5] *
         (C_j[4] * t134 - C_j[5] * t138) + lambda[3] * (C_j[7] * t129 - C_j[8] * t128);
-    jac_phi_q_t_lambda_A_i[33] = t140;
     const jg_real t141 = s_j[0] * t139 - s_j[1] * t135 + lambda[4] * (C_j[0] * t130 - C_j[1] * t133) + lambda[5] *
         (C_j[3] * t138 - C_j[4] * t131) + lambda[3] * (C_j[6] * t128 - C_j[7] * t132);
+    jac_phi_q_t_lambda_A_i[22] = -t113;
+    jac_phi_q_t_lambda_A_i[30] = t135;
+    jac_phi_q_t_lambda_A_i[32] = t136;
+    jac_phi_q_t_lambda_A_i[34] = t137;
+    jac_phi_q_t_lambda_A_i[31] = t139;
+    jac_phi_q_t_lambda_A_i[33] = t140;
     jac_phi_q_t_lambda_A_i[35] = t141;
     jac_phi_q_t_lambda_A_i[27] = -(t73 + A_ij_3 * t137 + A_ij_0 * t140 + A_ij_6 * t141 + t75);
-    jac_phi_q_t_lambda_A_i[28] = -(t63 + A_ij_7 * t141 + (t36 + A_ij_1 * t140 + A_ij_4 * t137));
     const jg_real t142 = t127 * v_5_in_j_1;
     const jg_real t143 = lambda[0] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[29] = t143 - (A_ij_5 * t137 - t142 + A_ij_2 * t140 + A_ij_8 * t141);
     const jg_real t144 = A_j[7] * C_i[7];
     const jg_real t145 = A_j[7] * A_ij_0 - A_j[1] * A_ij_6;
     const jg_real t146 = C_i[3] * t80 - C_i[5] * t145;
@@ -1435,26 +1432,25 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t151 = A_j[1] * C_i[7];
     const jg_real t152 = g_i_in_j_0 * t148 + t150 * h_i_in_j_1 - (t151 * g_i_in_j_1 + h_i_in_j_0 * t146);
     const jg_real t153 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[39] = t153;
     const jg_real t154 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[41] = t154;
     const jg_real t155 = s_j[2] * t153 - s_j[0] * t154 + lambda[4] * (C_j[2] * t151 - C_j[0] * t144) + lambda[5] *
         (C_j[5] * t149 - C_j[3] * t152) + lambda[3] * (C_j[8] * t150 - C_j[6] * t147);
-    jac_phi_q_t_lambda_A_i[43] = t155;
     const jg_real t156 = t151 * g_i_in_j_2 + t147 * h_i_in_j_0 - (t144 * g_i_in_j_0 + t150 * h_i_in_j_2);
     const jg_real t157 = lambda[0] * t80 - lambda[2] * t145;
-    jac_phi_q_t_lambda_A_i[40] = t157;
     const jg_real t158 = s_j[1] * t154 - s_j[2] * t157 + lambda[4] * (C_j[1] * t144 - C_j[2] * t148) + lambda[5] *
         (C_j[4] * t152 - C_j[5] * t156) + lambda[3] * (C_j[7] * t147 - C_j[8] * t146);
-    jac_phi_q_t_lambda_A_i[42] = t158;
     const jg_real t159 = s_j[0] * t157 - s_j[1] * t153 + lambda[4] * (C_j[0] * t148 - C_j[1] * t151) + lambda[5] *
         (C_j[3] * t156 - C_j[4] * t149) + lambda[3] * (C_j[6] * t146 - C_j[7] * t150);
+    jac_phi_q_t_lambda_A_i[28] = -(t63 + A_ij_7 * t141 + (t36 + A_ij_1 * t140 + A_ij_4 * t137));
+    jac_phi_q_t_lambda_A_i[29] = t143 - (A_ij_5 * t137 - t142 + A_ij_2 * t140 + A_ij_8 * t141);
+    jac_phi_q_t_lambda_A_i[39] = t153;
+    jac_phi_q_t_lambda_A_i[41] = t154;
+    jac_phi_q_t_lambda_A_i[43] = t155;
+    jac_phi_q_t_lambda_A_i[40] = t157;
+    jac_phi_q_t_lambda_A_i[42] = t158;
     jac_phi_q_t_lambda_A_i[44] = t159;
-    jac_phi_q_t_lambda_A_i[36] = -(t97 + A_ij_3 * t155 + A_ij_0 * t158 + A_ij_6 * t159 + t99);
-    jac_phi_q_t_lambda_A_i[37] = -(t95 + A_ij_7 * t159 + (t78 + A_ij_1 * t158 + A_ij_4 * t155));
     const jg_real t160 = t145 * v_5_in_j_1;
     const jg_real t161 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[38] = t161 - (A_ij_5 * t155 - t160 + A_ij_2 * t158 + A_ij_8 * t159);
     const jg_real t162 = A_j[8] * C_i[7];
     const jg_real t163 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
     const jg_real t164 = C_i[3] * t104 - C_i[5] * t163;
@@ -1465,26 +1461,25 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t169 = A_j[2] * C_i[7];
     const jg_real t170 = g_i_in_j_0 * t166 + t168 * h_i_in_j_1 - (t169 * g_i_in_j_1 + h_i_in_j_0 * t164);
     const jg_real t171 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[48] = t171;
     const jg_real t172 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[50] = t172;
     const jg_real t173 = s_j[2] * t171 - s_j[0] * t172 + lambda[4] * (C_j[2] * t169 - C_j[0] * t162) + lambda[5] *
         (C_j[5] * t167 - C_j[3] * t170) + lambda[3] * (C_j[8] * t168 - C_j[6] * t165);
-    jac_phi_q_t_lambda_A_i[52] = t173;
     const jg_real t174 = t169 * g_i_in_j_2 + t165 * h_i_in_j_0 - (t162 * g_i_in_j_0 + t168 * h_i_in_j_2);
     const jg_real t175 = lambda[0] * t104 - lambda[2] * t163;
-    jac_phi_q_t_lambda_A_i[49] = t175;
     const jg_real t176 = s_j[1] * t172 - s_j[2] * t175 + lambda[4] * (C_j[1] * t162 - C_j[2] * t166) + lambda[5] *
         (C_j[4] * t170 - C_j[5] * t174) + lambda[3] * (C_j[7] * t165 - C_j[8] * t164);
+    jac_phi_q_t_lambda_A_i[36] = -(t97 + A_ij_3 * t155 + A_ij_0 * t158 + A_ij_6 * t159 + t99);
+    jac_phi_q_t_lambda_A_i[37] = -(t95 + A_ij_7 * t159 + (t78 + A_ij_1 * t158 + A_ij_4 * t155));
+    jac_phi_q_t_lambda_A_i[38] = t161 - (A_ij_5 * t155 - t160 + A_ij_2 * t158 + A_ij_8 * t159);
+    jac_phi_q_t_lambda_A_i[48] = t171;
+    jac_phi_q_t_lambda_A_i[50] = t172;
+    jac_phi_q_t_lambda_A_i[52] = t173;
+    jac_phi_q_t_lambda_A_i[49] = t175;
     jac_phi_q_t_lambda_A_i[51] = t176;
     const jg_real t177 = s_j[0] * t175 - s_j[1] * t171 + lambda[4] * (C_j[0] * t166 - C_j[1] * t169) + lambda[5] *
         (C_j[3] * t174 - C_j[4] * t167) + lambda[3] * (C_j[6] * t164 - C_j[7] * t168);
-    jac_phi_q_t_lambda_A_i[53] = t177;
-    jac_phi_q_t_lambda_A_i[45] = -(t121 + A_ij_3 * t173 + A_ij_0 * t176 + A_ij_6 * t177 + t123);
-    jac_phi_q_t_lambda_A_i[46] = -(t119 + A_ij_7 * t177 + (t102 + A_ij_1 * t176 + A_ij_4 * t173));
     const jg_real t178 = t163 * v_5_in_j_1;
     const jg_real t179 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[47] = t179 - (A_ij_5 * t173 - t178 + A_ij_2 * t176 + A_ij_8 * t177);
     const jg_real t180 = A_j[6] * C_i[8];
     const jg_real t181 = C_i[3] * t39 + C_i[4] * t127;
     const jg_real t182 = A_j[6] * C_i[5];
@@ -1494,24 +1489,23 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t186 = A_j[0] * C_i[8];
     const jg_real t187 = g_i_in_j_0 * t183 + t185 * h_i_in_j_1 - (t186 * g_i_in_j_1 + h_i_in_j_0 * t181);
     const jg_real t188 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[57] = t188;
     const jg_real t189 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[59] = t189;
     const jg_real t190 = s_j[2] * t188 - s_j[0] * t189 + lambda[4] * (C_j[2] * t186 - C_j[0] * t180) + lambda[5] *
         (C_j[5] * t184 - C_j[3] * t187) + lambda[3] * (C_j[8] * t185 - C_j[6] * t182);
-    jac_phi_q_t_lambda_A_i[61] = t190;
     const jg_real t191 = t186 * g_i_in_j_2 + t182 * h_i_in_j_0 - (t180 * g_i_in_j_0 + t185 * h_i_in_j_2);
     const jg_real t192 = lambda[0] * t39 + lambda[1] * t127;
+    jac_phi_q_t_lambda_A_i[53] = t177;
+    jac_phi_q_t_lambda_A_i[45] = -(t121 + A_ij_3 * t173 + A_ij_0 * t176 + A_ij_6 * t177 + t123);
+    jac_phi_q_t_lambda_A_i[46] = -(t119 + A_ij_7 * t177 + (t102 + A_ij_1 * t176 + A_ij_4 * t173));
+    jac_phi_q_t_lambda_A_i[47] = t179 - (A_ij_5 * t173 - t178 + A_ij_2 * t176 + A_ij_8 * t177);
+    jac_phi_q_t_lambda_A_i[57] = t188;
+    jac_phi_q_t_lambda_A_i[59] = t189;
+    jac_phi_q_t_lambda_A_i[61] = t190;
     jac_phi_q_t_lambda_A_i[58] = t192;
     const jg_real t193 = s_j[1] * t189 - s_j[2] * t192 + lambda[4] * (C_j[1] * t180 - C_j[2] * t183) + lambda[5] *
         (C_j[4] * t187 - C_j[5] * t191) + lambda[3] * (C_j[7] * t182 - C_j[8] * t181);
-    jac_phi_q_t_lambda_A_i[60] = t193;
     const jg_real t194 = s_j[0] * t192 - s_j[1] * t188 + lambda[4] * (C_j[0] * t183 - C_j[1] * t186) + lambda[5] *
         (C_j[3] * t191 - C_j[4] * t184) + lambda[3] * (C_j[6] * t181 - C_j[7] * t185);
-    jac_phi_q_t_lambda_A_i[62] = t194;
-    jac_phi_q_t_lambda_A_i[54] = t77 - (t76 + A_ij_3 * t190 + A_ij_0 * t193 + A_ij_6 * t194);
-    jac_phi_q_t_lambda_A_i[55] = -(t142 + A_ij_4 * t190 + A_ij_1 * t193 + A_ij_7 * t194 + t143);
-    jac_phi_q_t_lambda_A_i[56] = -(t63 + A_ij_8 * t194 + (t36 + A_ij_2 * t193 + A_ij_5 * t190));
     const jg_real t195 = A_j[7] * C_i[8];
     const jg_real t196 = C_i[3] * t81 + C_i[4] * t145;
     const jg_real t197 = A_j[7] * C_i[5];
@@ -1521,24 +1515,23 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t201 = A_j[1] * C_i[8];
     const jg_real t202 = g_i_in_j_0 * t198 + t200 * h_i_in_j_1 - (t201 * g_i_in_j_1 + h_i_in_j_0 * t196);
     const jg_real t203 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[66] = t203;
     const jg_real t204 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[68] = t204;
     const jg_real t205 = s_j[2] * t203 - s_j[0] * t204 + lambda[4] * (C_j[2] * t201 - C_j[0] * t195) + lambda[5] *
         (C_j[5] * t199 - C_j[3] * t202) + lambda[3] * (C_j[8] * t200 - C_j[6] * t197);
+    jac_phi_q_t_lambda_A_i[60] = t193;
+    jac_phi_q_t_lambda_A_i[62] = t194;
+    jac_phi_q_t_lambda_A_i[54] = t77 - (t76 + A_ij_3 * t190 + A_ij_0 * t193 + A_ij_6 * t194);
+    jac_phi_q_t_lambda_A_i[55] = -(t142 + A_ij_4 * t190 + A_ij_1 * t193 + A_ij_7 * t194 + t143);
+    jac_phi_q_t_lambda_A_i[56] = -(t63 + A_ij_8 * t194 + (t36 + A_ij_2 * t193 + A_ij_5 * t190));
+    jac_phi_q_t_lambda_A_i[66] = t203;
+    jac_phi_q_t_lambda_A_i[68] = t204;
     jac_phi_q_t_lambda_A_i[70] = t205;
     const jg_real t206 = t201 * g_i_in_j_2 + t197 * h_i_in_j_0 - (t195 * g_i_in_j_0 + t200 * h_i_in_j_2);
     const jg_real t207 = lambda[0] * t81 + lambda[1] * t145;
-    jac_phi_q_t_lambda_A_i[67] = t207;
     const jg_real t208 = s_j[1] * t204 - s_j[2] * t207 + lambda[4] * (C_j[1] * t195 - C_j[2] * t198) + lambda[5] *
         (C_j[4] * t202 - C_j[5] * t206) + lambda[3] * (C_j[7] * t197 - C_j[8] * t196);
-    jac_phi_q_t_lambda_A_i[69] = t208;
     const jg_real t209 = s_j[0] * t207 - s_j[1] * t203 + lambda[4] * (C_j[0] * t198 - C_j[1] * t201) + lambda[5] *
         (C_j[3] * t206 - C_j[4] * t199) + lambda[3] * (C_j[6] * t196 - C_j[7] * t200);
-    jac_phi_q_t_lambda_A_i[71] = t209;
-    jac_phi_q_t_lambda_A_i[63] = t101 - (t100 + A_ij_3 * t205 + A_ij_0 * t208 + A_ij_6 * t209);
-    jac_phi_q_t_lambda_A_i[64] = -(t160 + A_ij_4 * t205 + A_ij_1 * t208 + A_ij_7 * t209 + t161);
-    jac_phi_q_t_lambda_A_i[65] = -(t95 + A_ij_8 * t209 + (t78 + A_ij_2 * t208 + A_ij_5 * t205));
     const jg_real t210 = A_j[8] * C_i[8];
     const jg_real t211 = C_i[3] * t105 + C_i[4] * t163;
     const jg_real t212 = A_j[8] * C_i[5];
@@ -1548,20 +1541,26 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t216 = A_j[2] * C_i[8];
     const jg_real t217 = g_i_in_j_0 * t213 + t215 * h_i_in_j_1 - (t216 * g_i_in_j_1 + h_i_in_j_0 * t211);
     const jg_real t218 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[75] = t218;
     const jg_real t219 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[67] = t207;
+    jac_phi_q_t_lambda_A_i[69] = t208;
+    jac_phi_q_t_lambda_A_i[71] = t209;
+    jac_phi_q_t_lambda_A_i[63] = t101 - (t100 + A_ij_3 * t205 + A_ij_0 * t208 + A_ij_6 * t209);
+    jac_phi_q_t_lambda_A_i[64] = -(t160 + A_ij_4 * t205 + A_ij_1 * t208 + A_ij_7 * t209 + t161);
+    jac_phi_q_t_lambda_A_i[65] = -(t95 + A_ij_8 * t209 + (t78 + A_ij_2 * t208 + A_ij_5 * t205));
+    jac_phi_q_t_lambda_A_i[75] = t218;
     jac_phi_q_t_lambda_A_i[77] = t219;
     const jg_real t220 = s_j[2] * t218 - s_j[0] * t219 + lambda[4] * (C_j[2] * t216 - C_j[0] * t210) + lambda[5] *
         (C_j[5] * t214 - C_j[3] * t217) + lambda[3] * (C_j[8] * t215 - C_j[6] * t212);
-    jac_phi_q_t_lambda_A_i[79] = t220;
     const jg_real t221 = t216 * g_i_in_j_2 + t212 * h_i_in_j_0 - (t210 * g_i_in_j_0 + t215 * h_i_in_j_2);
     const jg_real t222 = lambda[0] * t105 + lambda[1] * t163;
-    jac_phi_q_t_lambda_A_i[76] = t222;
     const jg_real t223 = s_j[1] * t219 - s_j[2] * t222 + lambda[4] * (C_j[1] * t210 - C_j[2] * t213) + lambda[5] *
         (C_j[4] * t217 - C_j[5] * t221) + lambda[3] * (C_j[7] * t212 - C_j[8] * t211);
-    jac_phi_q_t_lambda_A_i[78] = t223;
     const jg_real t224 = s_j[0] * t222 - s_j[1] * t218 + lambda[4] * (C_j[0] * t213 - C_j[1] * t216) + lambda[5] *
         (C_j[3] * t221 - C_j[4] * t214) + lambda[3] * (C_j[6] * t211 - C_j[7] * t215);
+    jac_phi_q_t_lambda_A_i[79] = t220;
+    jac_phi_q_t_lambda_A_i[76] = t222;
+    jac_phi_q_t_lambda_A_i[78] = t223;
     jac_phi_q_t_lambda_A_i[80] = t224;
     jac_phi_q_t_lambda_A_i[72] = t125 - (t124 + A_ij_3 * t220 + A_ij_0 * t223 + A_ij_6 * t224);
     jac_phi_q_t_lambda_A_i[73] = -(t178 + A_ij_4 * t220 + A_ij_1 * t223 + A_ij_7 * t224 + t179);
@@ -1587,28 +1586,26 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t234 = g_i_in_j_0 * t230 + t226 - (t232 + h_i_in_j_0 * t233);
     const jg_real t235 = t231 * g_i_in_j_2 - t225 * h_i_in_j_2;
     const jg_real t236 = lambda[0] * t227 + lambda[1] * t228 + lambda[2] * t229;
-    jac_phi_q_t_lambda_A_j[4] = t236;
     const jg_real t237 = lambda[5] * (C_j[4] * t234 - C_j[5] * t235) - (s_j[2] * t236 + C_j[2] * t230 * lambda[4]) -
         C_j[8] * t233 * lambda[3];
-    jac_phi_q_t_lambda_A_j[5] = t237;
     const jg_real t238 = h_i_in_j_2 * t233 - g_i_in_j_2 * t230;
     const jg_real t239 = lambda[1] * A_i[3] + lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t239;
-    jac_phi_q_t_lambda_A_j[28] = t239;
     const jg_real t240 = s_j[2] * t239 + C_j[2] * t231 * lambda[4] + lambda[5] * (C_j[5] * t238 - C_j[3] * t234) +
         C_j[8] * t225 * lambda[3];
-    jac_phi_q_t_lambda_A_j[6] = t240;
     const jg_real t241 = s_j[1] * t239;
     const jg_real t242 = C_j[1] * t231;
     const jg_real t243 = C_j[7] * t225;
     const jg_real t244 = s_j[0] * t236 - t241 + lambda[4] * (C_j[0] * t230 - t242) + lambda[5] * (C_j[3] * t235 -
         C_j[4] * t238) + lambda[3] * (C_j[6] * t233 - t243);
+    jac_phi_q_t_lambda_A_j[4] = t236;
+    jac_phi_q_t_lambda_A_j[5] = t237;
+    jac_phi_q_t_lambda_A_j[3] = t239;
+    jac_phi_q_t_lambda_A_j[28] = t239;
+    jac_phi_q_t_lambda_A_j[6] = t240;
     jac_phi_q_t_lambda_A_j[7] = t244;
     jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_5_in_j_0 + A_ij_0 * t237 + (t227 * v_5_in_j_1 + A_ij_3 * t240) + A_ij_6
         * t244);
     jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_5_in_j_0 + A_ij_1 * t237 + (t228 * v_5_in_j_1 + A_ij_4 * t240) + A_ij_7
-        * t244);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ij_2 * t237 + (t229 * v_5_in_j_1 + A_ij_5 * t240) + A_ij_8
         * t244);
     const jg_real t245 = A_i[4] * C_i[4] + A_i[1] * C_i[3] + A_i[7] * C_i[5];
     const jg_real t246 = t245 * h_i_in_j_1;
@@ -1622,29 +1619,27 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t254 = g_i_in_j_0 * t250 + t246 - (t252 + h_i_in_j_0 * t253);
     const jg_real t255 = t251 * g_i_in_j_2 - t245 * h_i_in_j_2;
     const jg_real t256 = lambda[0] * t247 + lambda[1] * t248 + lambda[2] * t249;
-    jac_phi_q_t_lambda_A_j[12] = t256;
     const jg_real t257 = lambda[5] * (C_j[4] * t254 - C_j[5] * t255) - (s_j[2] * t256 + C_j[2] * t250 * lambda[4]) -
         C_j[8] * t253 * lambda[3];
-    jac_phi_q_t_lambda_A_j[13] = t257;
     const jg_real t258 = h_i_in_j_2 * t253 - g_i_in_j_2 * t250;
     const jg_real t259 = lambda[1] * A_i[4] + lambda[0] * A_i[1] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[11] = t259;
-    jac_phi_q_t_lambda_A_j[36] = t259;
     const jg_real t260 = s_j[2] * t259 + C_j[2] * t251 * lambda[4] + lambda[5] * (C_j[5] * t258 - C_j[3] * t254) +
         C_j[8] * t245 * lambda[3];
-    jac_phi_q_t_lambda_A_j[14] = t260;
     const jg_real t261 = s_j[1] * t259;
     const jg_real t262 = C_j[1] * t251;
     const jg_real t263 = C_j[7] * t245;
     const jg_real t264 = s_j[0] * t256 - t261 + lambda[4] * (C_j[0] * t250 - t262) + lambda[5] * (C_j[3] * t255 -
         C_j[4] * t258) + lambda[3] * (C_j[6] * t253 - t263);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ij_2 * t237 + (t229 * v_5_in_j_1 + A_ij_5 * t240) + A_ij_8
+        * t244);
+    jac_phi_q_t_lambda_A_j[12] = t256;
+    jac_phi_q_t_lambda_A_j[13] = t257;
+    jac_phi_q_t_lambda_A_j[11] = t259;
+    jac_phi_q_t_lambda_A_j[36] = t259;
+    jac_phi_q_t_lambda_A_j[14] = t260;
     jac_phi_q_t_lambda_A_j[15] = t264;
     jac_phi_q_t_lambda_A_j[8] = -(A_i[1] * v_5_in_j_0 + A_ij_0 * t257 + (t247 * v_5_in_j_1 + A_ij_3 * t260) + A_ij_6
         * t264);
-    jac_phi_q_t_lambda_A_j[9] = -(A_i[4] * v_5_in_j_0 + A_ij_1 * t257 + (t248 * v_5_in_j_1 + A_ij_4 * t260) + A_ij_7
-        * t264);
-    jac_phi_q_t_lambda_A_j[10] = -(A_i[7] * v_5_in_j_0 + A_ij_2 * t257 + (t249 * v_5_in_j_1 + A_ij_5 * t260) +
-        A_ij_8 * t264);
     const jg_real t265 = A_i[5] * C_i[4] + A_i[2] * C_i[3] + A_i[8] * C_i[5];
     const jg_real t266 = t265 * h_i_in_j_1;
     const jg_real t267 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
@@ -1657,29 +1652,27 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t274 = g_i_in_j_0 * t270 + t266 - (t272 + h_i_in_j_0 * t273);
     const jg_real t275 = t271 * g_i_in_j_2 - t265 * h_i_in_j_2;
     const jg_real t276 = lambda[0] * t267 + lambda[1] * t268 + lambda[2] * t269;
-    jac_phi_q_t_lambda_A_j[20] = t276;
     const jg_real t277 = lambda[5] * (C_j[4] * t274 - C_j[5] * t275) - (s_j[2] * t276 + C_j[2] * t270 * lambda[4]) -
         C_j[8] * t273 * lambda[3];
-    jac_phi_q_t_lambda_A_j[21] = t277;
     const jg_real t278 = h_i_in_j_2 * t273 - g_i_in_j_2 * t270;
     const jg_real t279 = lambda[1] * A_i[5] + lambda[0] * A_i[2] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[19] = t279;
-    jac_phi_q_t_lambda_A_j[44] = t279;
     const jg_real t280 = s_j[2] * t279 + C_j[2] * t271 * lambda[4] + lambda[5] * (C_j[5] * t278 - C_j[3] * t274) +
         C_j[8] * t265 * lambda[3];
-    jac_phi_q_t_lambda_A_j[22] = t280;
     const jg_real t281 = s_j[1] * t279;
     const jg_real t282 = C_j[1] * t271;
     const jg_real t283 = C_j[7] * t265;
     const jg_real t284 = s_j[0] * t276 - t281 + lambda[4] * (C_j[0] * t270 - t282) + lambda[5] * (C_j[3] * t275 -
         C_j[4] * t278) + lambda[3] * (C_j[6] * t273 - t283);
+    jac_phi_q_t_lambda_A_j[9] = -(A_i[4] * v_5_in_j_0 + A_ij_1 * t257 + (t248 * v_5_in_j_1 + A_ij_4 * t260) + A_ij_7
+        * t264);
+    jac_phi_q_t_lambda_A_j[10] = -(A_i[7] * v_5_in_j_0 + A_ij_2 * t257 + (t249 * v_5_in_j_1 + A_ij_5 * t260) +
+        A_ij_8 * t264);
+    jac_phi_q_t_lambda_A_j[20] = t276;
+    jac_phi_q_t_lambda_A_j[21] = t277;
+    jac_phi_q_t_lambda_A_j[19] = t279;
+    jac_phi_q_t_lambda_A_j[44] = t279;
+    jac_phi_q_t_lambda_A_j[22] = t280;
     jac_phi_q_t_lambda_A_j[23] = t284;
-    jac_phi_q_t_lambda_A_j[16] = -(A_i[2] * v_5_in_j_0 + A_ij_0 * t277 + (t267 * v_5_in_j_1 + A_ij_3 * t280) +
-        A_ij_6 * t284);
-    jac_phi_q_t_lambda_A_j[17] = -(A_i[5] * v_5_in_j_0 + A_ij_1 * t277 + (t268 * v_5_in_j_1 + A_ij_4 * t280) +
-        A_ij_7 * t284);
-    jac_phi_q_t_lambda_A_j[18] = -(A_i[8] * v_5_in_j_0 + A_ij_2 * t277 + (t269 * v_5_in_j_1 + A_ij_5 * t280) +
-        A_ij_8 * t284);
     const jg_real t285 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
     const jg_real t286 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
     const jg_real t287 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
@@ -1688,22 +1681,24 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t290 = t232 + h_i_in_j_2 * t288 - (t226 + g_i_in_j_2 * t289);
     const jg_real t291 = t225 * h_i_in_j_0 - g_i_in_j_0 * t231;
     const jg_real t292 = lambda[0] * t285 + lambda[1] * t286 + lambda[2] * t287;
-    jac_phi_q_t_lambda_A_j[27] = t292;
     const jg_real t293 = s_j[0] * t292 + C_j[0] * t289 * lambda[4] + lambda[5] * (C_j[3] * t291 - C_j[4] * t290) +
         C_j[6] * t288 * lambda[3];
-    jac_phi_q_t_lambda_A_j[31] = t293;
     const jg_real t294 = g_i_in_j_0 * t289 - h_i_in_j_0 * t288;
     const jg_real t295 = lambda[5] * (C_j[5] * t290 - C_j[3] * t294) - (s_j[0] * t239 + C_j[0] * t231 * lambda[4]) -
         C_j[6] * t225 * lambda[3];
-    jac_phi_q_t_lambda_A_j[30] = t295;
     const jg_real t296 = t241 - s_j[2] * t292 + lambda[4] * (t242 - C_j[2] * t289) + lambda[5] * (C_j[4] * t294 -
         C_j[5] * t291) + lambda[3] * (t243 - C_j[8] * t288);
+    jac_phi_q_t_lambda_A_j[16] = -(A_i[2] * v_5_in_j_0 + A_ij_0 * t277 + (t267 * v_5_in_j_1 + A_ij_3 * t280) +
+        A_ij_6 * t284);
+    jac_phi_q_t_lambda_A_j[17] = -(A_i[5] * v_5_in_j_0 + A_ij_1 * t277 + (t268 * v_5_in_j_1 + A_ij_4 * t280) +
+        A_ij_7 * t284);
+    jac_phi_q_t_lambda_A_j[18] = -(A_i[8] * v_5_in_j_0 + A_ij_2 * t277 + (t269 * v_5_in_j_1 + A_ij_5 * t280) +
+        A_ij_8 * t284);
+    jac_phi_q_t_lambda_A_j[27] = t292;
+    jac_phi_q_t_lambda_A_j[31] = t293;
+    jac_phi_q_t_lambda_A_j[30] = t295;
     jac_phi_q_t_lambda_A_j[29] = t296;
     jac_phi_q_t_lambda_A_j[24] = -(A_i[0] * v_5_in_j_2 + A_ij_6 * t293 + (t285 * v_5_in_j_1 + A_ij_3 * t295 + A_ij_0
-        * t296));
-    jac_phi_q_t_lambda_A_j[25] = -(A_i[3] * v_5_in_j_2 + A_ij_7 * t293 + (t286 * v_5_in_j_1 + A_ij_4 * t295 + A_ij_1
-        * t296));
-    jac_phi_q_t_lambda_A_j[26] = -(A_i[6] * v_5_in_j_2 + A_ij_8 * t293 + (t287 * v_5_in_j_1 + A_ij_5 * t295 + A_ij_2
         * t296));
     const jg_real t297 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
     const jg_real t298 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
@@ -1713,22 +1708,24 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t302 = t252 + h_i_in_j_2 * t300 - (t246 + g_i_in_j_2 * t301);
     const jg_real t303 = t245 * h_i_in_j_0 - g_i_in_j_0 * t251;
     const jg_real t304 = lambda[0] * t297 + lambda[1] * t298 + lambda[2] * t299;
-    jac_phi_q_t_lambda_A_j[35] = t304;
     const jg_real t305 = s_j[0] * t304 + C_j[0] * t301 * lambda[4] + lambda[5] * (C_j[3] * t303 - C_j[4] * t302) +
         C_j[6] * t300 * lambda[3];
-    jac_phi_q_t_lambda_A_j[39] = t305;
     const jg_real t306 = g_i_in_j_0 * t301 - h_i_in_j_0 * t300;
     const jg_real t307 = lambda[5] * (C_j[5] * t302 - C_j[3] * t306) - (s_j[0] * t259 + C_j[0] * t251 * lambda[4]) -
         C_j[6] * t245 * lambda[3];
-    jac_phi_q_t_lambda_A_j[38] = t307;
     const jg_real t308 = t261 - s_j[2] * t304 + lambda[4] * (t262 - C_j[2] * t301) + lambda[5] * (C_j[4] * t306 -
         C_j[5] * t303) + lambda[3] * (t263 - C_j[8] * t300);
+    jac_phi_q_t_lambda_A_j[25] = -(A_i[3] * v_5_in_j_2 + A_ij_7 * t293 + (t286 * v_5_in_j_1 + A_ij_4 * t295 + A_ij_1
+        * t296));
+    jac_phi_q_t_lambda_A_j[26] = -(A_i[6] * v_5_in_j_2 + A_ij_8 * t293 + (t287 * v_5_in_j_1 + A_ij_5 * t295 + A_ij_2
+        * t296));
+    jac_phi_q_t_lambda_A_j[35] = t304;
+    jac_phi_q_t_lambda_A_j[39] = t305;
+    jac_phi_q_t_lambda_A_j[38] = t307;
     jac_phi_q_t_lambda_A_j[37] = t308;
     jac_phi_q_t_lambda_A_j[32] = -(A_i[1] * v_5_in_j_2 + A_ij_6 * t305 + (t297 * v_5_in_j_1 + A_ij_3 * t307 + A_ij_0
         * t308));
     jac_phi_q_t_lambda_A_j[33] = -(A_i[4] * v_5_in_j_2 + A_ij_7 * t305 + (t298 * v_5_in_j_1 + A_ij_4 * t307 + A_ij_1
-        * t308));
-    jac_phi_q_t_lambda_A_j[34] = -(A_i[7] * v_5_in_j_2 + A_ij_8 * t305 + (t299 * v_5_in_j_1 + A_ij_5 * t307 + A_ij_2
         * t308));
     const jg_real t309 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
     const jg_real t310 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
@@ -1738,16 +1735,18 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t314 = t272 + h_i_in_j_2 * t312 - (t266 + g_i_in_j_2 * t313);
     const jg_real t315 = t265 * h_i_in_j_0 - g_i_in_j_0 * t271;
     const jg_real t316 = lambda[0] * t309 + lambda[1] * t310 + lambda[2] * t311;
-    jac_phi_q_t_lambda_A_j[43] = t316;
     const jg_real t317 = s_j[0] * t316 + C_j[0] * t313 * lambda[4] + lambda[5] * (C_j[3] * t315 - C_j[4] * t314) +
         C_j[6] * t312 * lambda[3];
-    jac_phi_q_t_lambda_A_j[47] = t317;
     const jg_real t318 = g_i_in_j_0 * t313 - h_i_in_j_0 * t312;
     const jg_real t319 = lambda[5] * (C_j[5] * t314 - C_j[3] * t318) - (s_j[0] * t279 + C_j[0] * t271 * lambda[4]) -
         C_j[6] * t265 * lambda[3];
-    jac_phi_q_t_lambda_A_j[46] = t319;
     const jg_real t320 = t281 - s_j[2] * t316 + lambda[4] * (t282 - C_j[2] * t313) + lambda[5] * (C_j[4] * t318 -
         C_j[5] * t315) + lambda[3] * (t283 - C_j[8] * t312);
+    jac_phi_q_t_lambda_A_j[34] = -(A_i[7] * v_5_in_j_2 + A_ij_8 * t305 + (t299 * v_5_in_j_1 + A_ij_5 * t307 + A_ij_2
+        * t308));
+    jac_phi_q_t_lambda_A_j[43] = t316;
+    jac_phi_q_t_lambda_A_j[47] = t317;
+    jac_phi_q_t_lambda_A_j[46] = t319;
     jac_phi_q_t_lambda_A_j[45] = t320;
     jac_phi_q_t_lambda_A_j[40] = -(A_i[2] * v_5_in_j_2 + A_ij_6 * t317 + (t309 * v_5_in_j_1 + A_ij_3 * t319 + A_ij_0
         * t320));
@@ -1759,58 +1758,58 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t322 = A_ij_0 * h_i_in_j_1 - A_ij_3 * h_i_in_j_0;
     const jg_real t323 = lambda[3] * (C_j[8] * A_ij_0 - C_j[6] * A_ij_6) + lambda[5] * (C_j[5] * t321 - C_j[3] *
         t322);
-    jac_phi_q_t_lambda_geometry[4] = t323;
     const jg_real t324 = A_ij_6 * h_i_in_j_0 - A_ij_0 * h_i_in_j_2;
     const jg_real t325 = lambda[3] * (C_j[7] * A_ij_6 - C_j[8] * A_ij_3) + lambda[5] * (C_j[4] * t322 - C_j[5] *
         t324);
-    jac_phi_q_t_lambda_geometry[3] = t325;
     const jg_real t326 = lambda[3] * (C_j[6] * A_ij_3 - C_j[7] * A_ij_0) + lambda[5] * (C_j[3] * t324 - C_j[4] *
         t321);
-    jac_phi_q_t_lambda_geometry[5] = t326;
-    jac_phi_q_t_lambda_geometry[0] = -(A_ij_0 * t325 + A_ij_3 * t323 + A_ij_6 * t326);
-    jac_phi_q_t_lambda_geometry[1] = -(A_ij_1 * t325 + A_ij_4 * t323 + A_ij_7 * t326);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t325 + A_ij_5 * t323 + A_ij_8 * t326);
     const jg_real t327 = A_ij_4 * h_i_in_j_2 - A_ij_7 * h_i_in_j_1;
     const jg_real t328 = A_ij_1 * h_i_in_j_1 - A_ij_4 * h_i_in_j_0;
     const jg_real t329 = lambda[3] * (C_j[8] * A_ij_1 - C_j[6] * A_ij_7) + lambda[5] * (C_j[5] * t327 - C_j[3] *
         t328);
-    jac_phi_q_t_lambda_geometry[10] = t329;
     const jg_real t330 = A_ij_7 * h_i_in_j_0 - A_ij_1 * h_i_in_j_2;
     const jg_real t331 = lambda[3] * (C_j[7] * A_ij_7 - C_j[8] * A_ij_4) + lambda[5] * (C_j[4] * t328 - C_j[5] *
         t330);
+    jac_phi_q_t_lambda_geometry[4] = t323;
+    jac_phi_q_t_lambda_geometry[3] = t325;
+    jac_phi_q_t_lambda_geometry[5] = t326;
+    jac_phi_q_t_lambda_geometry[0] = -(A_ij_0 * t325 + A_ij_3 * t323 + A_ij_6 * t326);
+    jac_phi_q_t_lambda_geometry[1] = -(A_ij_1 * t325 + A_ij_4 * t323 + A_ij_7 * t326);
+    jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t325 + A_ij_5 * t323 + A_ij_8 * t326);
+    jac_phi_q_t_lambda_geometry[10] = t329;
     jac_phi_q_t_lambda_geometry[9] = t331;
     const jg_real t332 = lambda[3] * (C_j[6] * A_ij_4 - C_j[7] * A_ij_1) + lambda[5] * (C_j[3] * t330 - C_j[4] *
         t327);
-    jac_phi_q_t_lambda_geometry[11] = t332;
-    jac_phi_q_t_lambda_geometry[6] = -(A_ij_0 * t331 + A_ij_3 * t329 + A_ij_6 * t332);
-    jac_phi_q_t_lambda_geometry[7] = -(A_ij_1 * t331 + A_ij_4 * t329 + A_ij_7 * t332);
-    jac_phi_q_t_lambda_geometry[8] = -(A_ij_2 * t331 + A_ij_5 * t329 + A_ij_8 * t332);
     const jg_real t333 = A_ij_5 * h_i_in_j_2 - A_ij_8 * h_i_in_j_1;
     const jg_real t334 = A_ij_2 * h_i_in_j_1 - A_ij_5 * h_i_in_j_0;
     const jg_real t335 = lambda[3] * (C_j[8] * A_ij_2 - C_j[6] * A_ij_8) + lambda[5] * (C_j[5] * t333 - C_j[3] *
         t334);
-    jac_phi_q_t_lambda_geometry[16] = t335;
     const jg_real t336 = A_ij_8 * h_i_in_j_0 - A_ij_2 * h_i_in_j_2;
     const jg_real t337 = lambda[3] * (C_j[7] * A_ij_8 - C_j[8] * A_ij_5) + lambda[5] * (C_j[4] * t334 - C_j[5] *
         t336);
-    jac_phi_q_t_lambda_geometry[15] = t337;
     const jg_real t338 = lambda[3] * (C_j[6] * A_ij_5 - C_j[7] * A_ij_2) + lambda[5] * (C_j[3] * t336 - C_j[4] *
         t333);
+    jac_phi_q_t_lambda_geometry[11] = t332;
+    jac_phi_q_t_lambda_geometry[6] = -(A_ij_0 * t331 + A_ij_3 * t329 + A_ij_6 * t332);
+    jac_phi_q_t_lambda_geometry[7] = -(A_ij_1 * t331 + A_ij_4 * t329 + A_ij_7 * t332);
+    jac_phi_q_t_lambda_geometry[8] = -(A_ij_2 * t331 + A_ij_5 * t329 + A_ij_8 * t332);
+    jac_phi_q_t_lambda_geometry[16] = t335;
+    jac_phi_q_t_lambda_geometry[15] = t337;
     jac_phi_q_t_lambda_geometry[17] = t338;
     jac_phi_q_t_lambda_geometry[12] = -(A_ij_0 * t337 + A_ij_3 * t335 + A_ij_6 * t338);
-    jac_phi_q_t_lambda_geometry[13] = -(A_ij_1 * t337 + A_ij_4 * t335 + A_ij_7 * t338);
-    jac_phi_q_t_lambda_geometry[14] = -(A_ij_2 * t337 + A_ij_5 * t335 + A_ij_8 * t338);
     const jg_real t339 = A_ij_6 * g_i_in_j_1 - A_ij_3 * g_i_in_j_2;
     const jg_real t340 = A_ij_3 * g_i_in_j_0 - A_ij_0 * g_i_in_j_1;
     const jg_real t341 = lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6) + lambda[5] * (C_j[5] * t339 - C_j[3] *
         t340);
-    jac_phi_q_t_lambda_geometry[22] = t341;
     const jg_real t342 = A_ij_0 * g_i_in_j_2 - A_ij_6 * g_i_in_j_0;
     const jg_real t343 = lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3) + lambda[5] * (C_j[4] * t340 - C_j[5] *
         t342);
-    jac_phi_q_t_lambda_geometry[21] = t343;
     const jg_real t344 = lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0) + lambda[5] * (C_j[3] * t342 - C_j[4] *
         t339);
+    jac_phi_q_t_lambda_geometry[13] = -(A_ij_1 * t337 + A_ij_4 * t335 + A_ij_7 * t338);
+    jac_phi_q_t_lambda_geometry[14] = -(A_ij_2 * t337 + A_ij_5 * t335 + A_ij_8 * t338);
+    jac_phi_q_t_lambda_geometry[22] = t341;
+    jac_phi_q_t_lambda_geometry[21] = t343;
     jac_phi_q_t_lambda_geometry[23] = t344;
     jac_phi_q_t_lambda_geometry[18] = -(A_ij_0 * t343 + A_ij_3 * t341 + A_ij_6 * t344);
     jac_phi_q_t_lambda_geometry[19] = -(A_ij_1 * t343 + A_ij_4 * t341 + A_ij_7 * t344);
@@ -1819,25 +1818,25 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t346 = A_ij_4 * g_i_in_j_0 - A_ij_1 * g_i_in_j_1;
     const jg_real t347 = lambda[4] * (C_j[2] * A_ij_1 - C_j[0] * A_ij_7) + lambda[5] * (C_j[5] * t345 - C_j[3] *
         t346);
-    jac_phi_q_t_lambda_geometry[28] = t347;
     const jg_real t348 = A_ij_1 * g_i_in_j_2 - A_ij_7 * g_i_in_j_0;
     const jg_real t349 = lambda[4] * (C_j[1] * A_ij_7 - C_j[2] * A_ij_4) + lambda[5] * (C_j[4] * t346 - C_j[5] *
         t348);
-    jac_phi_q_t_lambda_geometry[27] = t349;
     const jg_real t350 = lambda[4] * (C_j[0] * A_ij_4 - C_j[1] * A_ij_1) + lambda[5] * (C_j[3] * t348 - C_j[4] *
         t345);
-    jac_phi_q_t_lambda_geometry[29] = t350;
-    jac_phi_q_t_lambda_geometry[24] = -(A_ij_0 * t349 + A_ij_3 * t347 + A_ij_6 * t350);
-    jac_phi_q_t_lambda_geometry[25] = -(A_ij_1 * t349 + A_ij_4 * t347 + A_ij_7 * t350);
-    jac_phi_q_t_lambda_geometry[26] = -(A_ij_2 * t349 + A_ij_5 * t347 + A_ij_8 * t350);
     const jg_real t351 = A_ij_8 * g_i_in_j_1 - A_ij_5 * g_i_in_j_2;
     const jg_real t352 = A_ij_5 * g_i_in_j_0 - A_ij_2 * g_i_in_j_1;
     const jg_real t353 = lambda[4] * (C_j[2] * A_ij_2 - C_j[0] * A_ij_8) + lambda[5] * (C_j[5] * t351 - C_j[3] *
         t352);
-    jac_phi_q_t_lambda_geometry[34] = t353;
     const jg_real t354 = A_ij_2 * g_i_in_j_2 - A_ij_8 * g_i_in_j_0;
     const jg_real t355 = lambda[4] * (C_j[1] * A_ij_8 - C_j[2] * A_ij_5) + lambda[5] * (C_j[4] * t352 - C_j[5] *
         t354);
+    jac_phi_q_t_lambda_geometry[28] = t347;
+    jac_phi_q_t_lambda_geometry[27] = t349;
+    jac_phi_q_t_lambda_geometry[29] = t350;
+    jac_phi_q_t_lambda_geometry[24] = -(A_ij_0 * t349 + A_ij_3 * t347 + A_ij_6 * t350);
+    jac_phi_q_t_lambda_geometry[25] = -(A_ij_1 * t349 + A_ij_4 * t347 + A_ij_7 * t350);
+    jac_phi_q_t_lambda_geometry[26] = -(A_ij_2 * t349 + A_ij_5 * t347 + A_ij_8 * t350);
+    jac_phi_q_t_lambda_geometry[34] = t353;
     jac_phi_q_t_lambda_geometry[33] = t355;
     const jg_real t356 = lambda[4] * (C_j[0] * A_ij_5 - C_j[1] * A_ij_2) + lambda[5] * (C_j[3] * t354 - C_j[4] *
         t351);
@@ -1858,16 +1857,17 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_geometry[48] = A_ij_2 * lambda_0_1_2_in_j_1 - A_ij_5 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[49] = -lambda_0_1_2_in_j_1;
     const jg_real t357 = lambda[4] * h_i_in_j_1;
-    jac_phi_q_t_lambda_geometry[55] = t357;
     const jg_real t358 = lambda[4] * h_i_in_j_2;
+    const jg_real t359 = lambda[4] * h_i_in_j_0;
+    jac_phi_q_t_lambda_geometry[55] = t357;
     jac_phi_q_t_lambda_geometry[59] = t358;
     jac_phi_q_t_lambda_geometry[51] = A_ij_3 * t358 - A_ij_6 * t357;
     jac_phi_q_t_lambda_geometry[52] = A_ij_4 * t358 - A_ij_7 * t357;
     jac_phi_q_t_lambda_geometry[53] = A_ij_5 * t358 - A_ij_8 * t357;
     jac_phi_q_t_lambda_geometry[54] = -t358;
-    const jg_real t359 = lambda[4] * h_i_in_j_0;
     jac_phi_q_t_lambda_geometry[65] = t359;
     jac_phi_q_t_lambda_geometry[56] = A_ij_6 * t359 - A_ij_0 * t358;
+    const jg_real t360 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[57] = A_ij_7 * t359 - A_ij_1 * t358;
     jac_phi_q_t_lambda_geometry[58] = A_ij_8 * t359 - A_ij_2 * t358;
     jac_phi_q_t_lambda_geometry[60] = -t359;
@@ -1875,33 +1875,32 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_geometry[62] = A_ij_1 * t357 - A_ij_4 * t359;
     jac_phi_q_t_lambda_geometry[63] = A_ij_2 * t357 - A_ij_5 * t359;
     jac_phi_q_t_lambda_geometry[64] = -t357;
-    const jg_real t360 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[74] = t360;
     const jg_real t361 = lambda[5] * f_i_in_j_1;
+    const jg_real t362 = lambda[5] * f_i_in_j_0;
     jac_phi_q_t_lambda_geometry[70] = t361;
     jac_phi_q_t_lambda_geometry[66] = A_ij_3 * t360 - A_ij_6 * t361;
     jac_phi_q_t_lambda_geometry[67] = A_ij_4 * t360 - A_ij_7 * t361;
     jac_phi_q_t_lambda_geometry[68] = A_ij_5 * t360 - A_ij_8 * t361;
     jac_phi_q_t_lambda_geometry[69] = -t360;
-    const jg_real t362 = lambda[5] * f_i_in_j_0;
     jac_phi_q_t_lambda_geometry[80] = t362;
     jac_phi_q_t_lambda_geometry[71] = A_ij_6 * t362 - A_ij_0 * t360;
     jac_phi_q_t_lambda_geometry[72] = A_ij_7 * t362 - A_ij_1 * t360;
+    const jg_real t363 = lambda[3] * g_i_in_j_1;
+    const jg_real t364 = lambda[3] * g_i_in_j_2;
     jac_phi_q_t_lambda_geometry[73] = A_ij_8 * t362 - A_ij_2 * t360;
     jac_phi_q_t_lambda_geometry[75] = -t362;
     jac_phi_q_t_lambda_geometry[76] = A_ij_0 * t361 - A_ij_3 * t362;
     jac_phi_q_t_lambda_geometry[77] = A_ij_1 * t361 - A_ij_4 * t362;
     jac_phi_q_t_lambda_geometry[78] = A_ij_2 * t361 - A_ij_5 * t362;
     jac_phi_q_t_lambda_geometry[79] = -t361;
-    const jg_real t363 = lambda[3] * g_i_in_j_1;
     jac_phi_q_t_lambda_geometry[85] = t363;
-    const jg_real t364 = lambda[3] * g_i_in_j_2;
     jac_phi_q_t_lambda_geometry[89] = t364;
+    const jg_real t365 = lambda[3] * g_i_in_j_0;
     jac_phi_q_t_lambda_geometry[81] = A_ij_3 * t364 - A_ij_6 * t363;
     jac_phi_q_t_lambda_geometry[82] = A_ij_4 * t364 - A_ij_7 * t363;
     jac_phi_q_t_lambda_geometry[83] = A_ij_5 * t364 - A_ij_8 * t363;
     jac_phi_q_t_lambda_geometry[84] = -t364;
-    const jg_real t365 = lambda[3] * g_i_in_j_0;
     jac_phi_q_t_lambda_geometry[95] = t365;
     jac_phi_q_t_lambda_geometry[86] = A_ij_6 * t365 - A_ij_0 * t364;
     jac_phi_q_t_lambda_geometry[87] = A_ij_7 * t365 - A_ij_1 * t364;
@@ -1915,32 +1914,32 @@ static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
     const jg_real t366 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    jac_phi_q_t_lambda_lambda[7] = t366;
     const jg_real t367 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
-    jac_phi_q_t_lambda_lambda[8] = t367;
     const jg_real t368 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    jac_phi_q_t_lambda_lambda[9] = t368;
-    jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t366 + A_ij_3 * t367 + A_ij_6 * t368);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t366 + A_ij_4 * t367 + A_ij_7 * t368 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ij_2 * t366 + A_ij_5 * t367 + A_ij_8 * t368);
     const jg_real t371 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    jac_phi_q_t_lambda_lambda[17] = t371;
     const jg_real t372 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    jac_phi_q_t_lambda_lambda[7] = t366;
+    jac_phi_q_t_lambda_lambda[8] = t367;
+    jac_phi_q_t_lambda_lambda[9] = t368;
+    jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t366 + A_ij_3 * t367 + A_ij_6 * t368);
+    jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t366 + A_ij_4 * t367 + A_ij_7 * t368 + v_0_in_i_2);
+    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ij_2 * t366 + A_ij_5 * t367 + A_ij_8 * t368);
+    jac_phi_q_t_lambda_lambda[17] = t371;
     jac_phi_q_t_lambda_lambda[18] = t372;
     const jg_real t373 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real t375 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    const jg_real t376 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    const jg_real t377 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_t_lambda_lambda[19] = t373;
     jac_phi_q_t_lambda_lambda[11] = v_0_in_i_2 - (A_ij_0 * t371 + A_ij_3 * t372 + A_ij_6 * t373);
     jac_phi_q_t_lambda_lambda[12] = -(A_ij_1 * t371 + A_ij_4 * t372 + A_ij_7 * t373);
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[13] = -(A_ij_2 * t371 + A_ij_5 * t372 + A_ij_8 * t373 + v_0_in_i_0);
-    const jg_real t375 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[27] = t375;
-    const jg_real t376 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[28] = t376;
-    const jg_real t377 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_t_lambda_lambda[29] = t377;
     jac_phi_q_t_lambda_lambda[21] = -(A_ij_0 * t375 + A_ij_3 * t376 + A_ij_6 * t377 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[22] = v_0_in_i_0 - (A_ij_1 * t375 + A_ij_4 * t376 + A_ij_7 * t377);

@@ -35,45 +35,39 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real revolutions = geometry[26];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    jac_phi_r_j[0] = f_i_world_0;
-    jac_phi_r_i[0] = -f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real t2 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    jac_phi_r_j[0] = f_i_world_0;
+    jac_phi_r_i[0] = -f_i_world_0;
     jac_phi_r_j[1] = g_i_world_0;
     jac_phi_r_i[1] = -g_i_world_0;
-    const jg_real t2 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_r_j[2] = t2;
     jac_phi_r_i[2] = -t2;
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     jac_phi_r_j[3] = f_i_world_1;
     jac_phi_r_i[3] = -f_i_world_1;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t5 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_r_j[4] = g_i_world_1;
     jac_phi_r_i[4] = -g_i_world_1;
-    const jg_real t5 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     jac_phi_r_j[5] = t5;
     jac_phi_r_i[5] = -t5;
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_r_j[6] = f_i_world_2;
     jac_phi_r_i[6] = -f_i_world_2;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_r_j[7] = g_i_world_2;
     jac_phi_r_i[7] = -g_i_world_2;
     const jg_real t8 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_r_j[8] = t8;
-    jac_phi_r_i[8] = -t8;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* r_ij_world = r_ij, world axes */
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = C_i[0] * e_ij_world_0;
-    jac_phi_A_i[1] = C_i[3] * e_ij_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[2] = C_i[0] * h_j_world_0;
-    jac_phi_A_i[3] = C_i[3] * h_j_world_0;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
@@ -85,22 +79,28 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real t18 = f_i_dot_f_j * f_i_dot_f_j + g_i_dot_f_j * g_i_dot_f_j;
     const jg_real t19 = f_i_dot_f_j / t18;
     const jg_real t20 = g_i_dot_f_j / t18;
-    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - pitch * (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20);
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    jac_phi_r_j[8] = t8;
+    jac_phi_r_i[8] = -t8;
+    jac_phi_A_i[0] = C_i[0] * e_ij_world_0;
+    jac_phi_A_i[1] = C_i[3] * e_ij_world_0;
+    jac_phi_A_i[2] = C_i[0] * h_j_world_0;
+    jac_phi_A_i[3] = C_i[3] * h_j_world_0;
+    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - pitch * (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20);
     jac_phi_A_i[5] = C_i[0] * e_ij_world_1;
-    jac_phi_A_i[6] = C_i[3] * e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[7] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[8] = C_i[3] * h_j_world_1;
-    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - pitch * (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20);
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[6] = C_i[3] * e_ij_world_1;
+    jac_phi_A_i[7] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[8] = C_i[3] * h_j_world_1;
+    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - pitch * (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20);
     jac_phi_A_i[10] = C_i[0] * e_ij_world_2;
     jac_phi_A_i[11] = C_i[3] * e_ij_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[12] = C_i[0] * h_j_world_2;
     jac_phi_A_i[13] = C_i[3] * h_j_world_2;
     jac_phi_A_i[14] = e_ij_world_2 * C_i[6] - pitch * (C_i[3] * f_j_world_2 * t19 - C_i[0] * f_j_world_2 * t20);
@@ -127,6 +127,9 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_A_i[35] = C_i[2] * e_ij_world_1;
     jac_phi_A_i[36] = C_i[5] * e_ij_world_1;
     jac_phi_A_i[37] = C_i[2] * h_j_world_1;
+    const jg_real t29 = s_j[0] * A_i[0];
+    const jg_real t30 = s_j[0] * A_i[3];
+    const jg_real t31 = s_j[0] * A_i[6];
     jac_phi_A_i[38] = C_i[5] * h_j_world_1;
     jac_phi_A_i[39] = e_ij_world_1 * C_i[8] - pitch * (C_i[5] * f_j_world_1 * t19 - C_i[2] * f_j_world_1 * t20);
     jac_phi_A_i[40] = C_i[2] * e_ij_world_2;
@@ -134,45 +137,42 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_A_i[42] = C_i[2] * h_j_world_2;
     jac_phi_A_i[43] = C_i[5] * h_j_world_2;
     jac_phi_A_i[44] = e_ij_world_2 * C_i[8] - pitch * (C_i[5] * f_j_world_2 * t19 - C_i[2] * f_j_world_2 * t20);
-    const jg_real t29 = s_j[0] * A_i[0];
-    const jg_real t30 = s_j[0] * A_i[3];
-    const jg_real t31 = s_j[0] * A_i[6];
     jac_phi_A_j[0] = C_i[0] * t29 + C_i[1] * t30 + C_i[2] * t31;
-    jac_phi_A_j[1] = C_i[3] * t29 + C_i[4] * t30 + C_i[5] * t31;
-    jac_phi_A_j[2] = C_j[6] * f_i_world_0;
-    jac_phi_A_j[3] = C_j[6] * g_i_world_0;
-    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - pitch * (C_j[0] * g_i_world_0 * t19 - f_i_world_0
-        * C_j[0] * t20);
     const jg_real t32 = s_j[0] * A_i[1];
     const jg_real t33 = s_j[0] * A_i[4];
     const jg_real t34 = s_j[0] * A_i[7];
+    jac_phi_A_j[1] = C_i[3] * t29 + C_i[4] * t30 + C_i[5] * t31;
+    jac_phi_A_j[2] = C_j[6] * f_i_world_0;
+    jac_phi_A_j[3] = C_j[6] * g_i_world_0;
+    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - pitch * (g_i_world_0 * C_j[0] * t19 - f_i_world_0
+        * C_j[0] * t20);
     jac_phi_A_j[5] = C_i[0] * t32 + C_i[1] * t33 + C_i[2] * t34;
     jac_phi_A_j[6] = C_i[3] * t32 + C_i[4] * t33 + C_i[5] * t34;
     jac_phi_A_j[7] = C_j[6] * f_i_world_1;
     jac_phi_A_j[8] = C_j[6] * g_i_world_1;
-    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - pitch * (C_j[0] * g_i_world_1 * t19 - f_i_world_1
-        * C_j[0] * t20);
     const jg_real t35 = s_j[0] * A_i[2];
     const jg_real t36 = s_j[0] * A_i[5];
     const jg_real t37 = s_j[0] * A_i[8];
+    const jg_real t38 = s_j[1] * A_i[0];
+    const jg_real t39 = s_j[1] * A_i[3];
+    const jg_real t40 = s_j[1] * A_i[6];
+    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - pitch * (C_j[0] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[0] * t20);
     jac_phi_A_j[10] = C_i[0] * t35 + C_i[1] * t36 + C_i[2] * t37;
     jac_phi_A_j[11] = C_i[3] * t35 + C_i[4] * t36 + C_i[5] * t37;
     jac_phi_A_j[12] = C_j[6] * f_i_world_2;
     jac_phi_A_j[13] = C_j[6] * g_i_world_2;
-    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - pitch * (C_j[0] * g_i_world_2 * t19 - C_j[0] *
-        f_i_world_2 * t20);
-    const jg_real t38 = s_j[1] * A_i[0];
-    const jg_real t39 = s_j[1] * A_i[3];
-    const jg_real t40 = s_j[1] * A_i[6];
+    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - pitch * (C_j[0] * g_i_world_2 * t19 - f_i_world_2
+        * C_j[0] * t20);
     jac_phi_A_j[15] = C_i[0] * t38 + C_i[1] * t39 + C_i[2] * t40;
     jac_phi_A_j[16] = C_i[3] * t38 + C_i[4] * t39 + C_i[5] * t40;
-    jac_phi_A_j[17] = C_j[7] * f_i_world_0;
-    jac_phi_A_j[18] = C_j[7] * g_i_world_0;
-    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - pitch * (C_j[1] * g_i_world_0 * t19 - f_i_world_0
-        * C_j[1] * t20);
     const jg_real t41 = s_j[1] * A_i[1];
     const jg_real t42 = s_j[1] * A_i[4];
     const jg_real t43 = s_j[1] * A_i[7];
+    jac_phi_A_j[17] = C_j[7] * f_i_world_0;
+    jac_phi_A_j[18] = C_j[7] * g_i_world_0;
+    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - pitch * (g_i_world_0 * C_j[1] * t19 - f_i_world_0
+        * C_j[1] * t20);
     jac_phi_A_j[20] = C_i[0] * t41 + C_i[1] * t42 + C_i[2] * t43;
     jac_phi_A_j[21] = C_i[3] * t41 + C_i[4] * t42 + C_i[5] * t43;
     jac_phi_A_j[22] = C_j[7] * f_i_world_1;
@@ -182,33 +182,33 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     const jg_real t44 = s_j[1] * A_i[2];
     const jg_real t45 = s_j[1] * A_i[5];
     const jg_real t46 = s_j[1] * A_i[8];
+    const jg_real t47 = s_j[2] * A_i[0];
+    const jg_real t48 = s_j[2] * A_i[3];
+    const jg_real t49 = s_j[2] * A_i[6];
     jac_phi_A_j[25] = C_i[0] * t44 + C_i[1] * t45 + C_i[2] * t46;
     jac_phi_A_j[26] = C_i[3] * t44 + C_i[4] * t45 + C_i[5] * t46;
     jac_phi_A_j[27] = C_j[7] * f_i_world_2;
     jac_phi_A_j[28] = C_j[7] * g_i_world_2;
     jac_phi_A_j[29] = t44 * C_i[6] + t45 * C_i[7] + t46 * C_i[8] - pitch * (C_j[1] * g_i_world_2 * t19 - f_i_world_2
         * C_j[1] * t20);
-    const jg_real t47 = s_j[2] * A_i[0];
-    const jg_real t48 = s_j[2] * A_i[3];
-    const jg_real t49 = s_j[2] * A_i[6];
     jac_phi_A_j[30] = C_i[0] * t47 + C_i[1] * t48 + C_i[2] * t49;
     jac_phi_A_j[31] = C_i[3] * t47 + C_i[4] * t48 + C_i[5] * t49;
     jac_phi_A_j[32] = C_j[8] * f_i_world_0;
-    jac_phi_A_j[33] = C_j[8] * g_i_world_0;
-    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - pitch * (C_j[2] * g_i_world_0 * t19 - f_i_world_0
-        * C_j[2] * t20);
     const jg_real t50 = s_j[2] * A_i[1];
     const jg_real t51 = s_j[2] * A_i[4];
     const jg_real t52 = s_j[2] * A_i[7];
+    const jg_real t53 = s_j[2] * A_i[2];
+    const jg_real t54 = s_j[2] * A_i[5];
+    const jg_real t55 = s_j[2] * A_i[8];
+    jac_phi_A_j[33] = C_j[8] * g_i_world_0;
+    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - pitch * (g_i_world_0 * C_j[2] * t19 - f_i_world_0
+        * C_j[2] * t20);
     jac_phi_A_j[35] = C_i[0] * t50 + C_i[1] * t51 + C_i[2] * t52;
     jac_phi_A_j[36] = C_i[3] * t50 + C_i[4] * t51 + C_i[5] * t52;
     jac_phi_A_j[37] = C_j[8] * f_i_world_1;
     jac_phi_A_j[38] = C_j[8] * g_i_world_1;
     jac_phi_A_j[39] = t50 * C_i[6] + t51 * C_i[7] + t52 * C_i[8] - pitch * (C_j[2] * g_i_world_1 * t19 - f_i_world_1
         * C_j[2] * t20);
-    const jg_real t53 = s_j[2] * A_i[2];
-    const jg_real t54 = s_j[2] * A_i[5];
-    const jg_real t55 = s_j[2] * A_i[8];
     jac_phi_A_j[40] = C_i[0] * t53 + C_i[1] * t54 + C_i[2] * t55;
     jac_phi_A_j[41] = C_i[3] * t53 + C_i[4] * t54 + C_i[5] * t55;
     jac_phi_A_j[42] = C_j[8] * f_i_world_2;
@@ -219,91 +219,90 @@ static void jg_screw_conventional_phi_jacobian(const jg_real *JG_RESTRICT r_i, c
     jac_phi_geometry[1] = -C_i[3];
     jac_phi_geometry[2] = -C_i[6];
     jac_phi_geometry[3] = -C_i[1];
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[4] = -C_i[4];
     jac_phi_geometry[5] = -C_i[7];
     jac_phi_geometry[6] = -C_i[2];
     jac_phi_geometry[7] = -C_i[5];
     jac_phi_geometry[8] = -C_i[8];
-    /* e_ij_in_i = r_ij + s_j, axes of body i */
-    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
-    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
     jac_phi_geometry[18] = d_ij_in_i_0;
     jac_phi_geometry[27] = d_ij_in_i_0;
     const jg_real t58 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
-    jac_phi_geometry[10] = t58;
-    jac_phi_geometry[19] = t58;
     const jg_real t59 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[11] = t59 * t20 * pitch;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real t62 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    jac_phi_geometry[10] = t58;
+    jac_phi_geometry[19] = t58;
+    jac_phi_geometry[11] = t59 * t20 * pitch;
     jac_phi_geometry[12] = d_ij_in_i_1;
     jac_phi_geometry[21] = d_ij_in_i_1;
     jac_phi_geometry[28] = d_ij_in_i_1;
-    const jg_real t62 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[13] = t62;
     jac_phi_geometry[22] = t62;
     const jg_real t63 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[14] = t63 * t20 * pitch;
     const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real t66 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
+    const jg_real t67 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    jac_phi_geometry[14] = t63 * t20 * pitch;
     jac_phi_geometry[15] = d_ij_in_i_2;
     jac_phi_geometry[24] = d_ij_in_i_2;
     jac_phi_geometry[29] = d_ij_in_i_2;
-    const jg_real t66 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[16] = t66;
     jac_phi_geometry[25] = t66;
-    const jg_real t67 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[17] = t67 * t20 * pitch;
     jac_phi_geometry[20] = -(t59 * t19 * pitch);
-    jac_phi_geometry[23] = -(t63 * t19 * pitch);
-    jac_phi_geometry[26] = -(t67 * t19 * pitch);
     const jg_real t68 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real t69 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real t70 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[30] = C_i[0] * t68 + C_i[1] * t69 + C_i[2] * t70;
-    jac_phi_geometry[31] = C_i[3] * t68 + C_i[4] * t69 + C_i[5] * t70;
-    jac_phi_geometry[32] = C_i[6] * t68 + C_i[7] * t69 + C_i[8] * t70;
     const jg_real t71 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real t72 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real t73 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    jac_phi_geometry[23] = -(t63 * t19 * pitch);
+    jac_phi_geometry[26] = -(t67 * t19 * pitch);
+    jac_phi_geometry[30] = C_i[0] * t68 + C_i[1] * t69 + C_i[2] * t70;
+    jac_phi_geometry[31] = C_i[3] * t68 + C_i[4] * t69 + C_i[5] * t70;
+    jac_phi_geometry[32] = t68 * C_i[6] + t69 * C_i[7] + t70 * C_i[8];
     jac_phi_geometry[33] = C_i[0] * t71 + C_i[1] * t72 + C_i[2] * t73;
     jac_phi_geometry[34] = C_i[3] * t71 + C_i[4] * t72 + C_i[5] * t73;
-    jac_phi_geometry[35] = C_i[6] * t71 + C_i[7] * t72 + C_i[8] * t73;
+    jac_phi_geometry[35] = t71 * C_i[6] + t72 * C_i[7] + t73 * C_i[8];
     const jg_real t74 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real t75 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real t76 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real t77 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    const jg_real t78 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t79 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real t80 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[36] = C_i[0] * t74 + C_i[1] * t75 + C_i[2] * t76;
     jac_phi_geometry[37] = C_i[3] * t74 + C_i[4] * t75 + C_i[5] * t76;
-    jac_phi_geometry[38] = C_i[6] * t74 + C_i[7] * t75 + C_i[8] * t76;
-    const jg_real t77 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    jac_phi_geometry[38] = t74 * C_i[6] + t75 * C_i[7] + t76 * C_i[8];
     jac_phi_geometry[43] = t77;
-    const jg_real t78 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[42] = t78;
     jac_phi_geometry[39] = -(pitch * (t77 * t19 - t78 * t20));
-    const jg_real t79 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
     jac_phi_geometry[45] = t79;
-    const jg_real t80 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[44] = t80;
-    jac_phi_geometry[40] = -(pitch * (t79 * t19 - t80 * t20));
     const jg_real t81 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    jac_phi_geometry[47] = t81;
     const jg_real t82 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
-    jac_phi_geometry[46] = t82;
-    jac_phi_geometry[41] = -(pitch * (t81 * t19 - t82 * t20));
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
+    jac_phi_geometry[40] = -(pitch * (t79 * t19 - t80 * t20));
+    jac_phi_geometry[47] = t81;
+    jac_phi_geometry[46] = t82;
+    jac_phi_geometry[41] = -(pitch * (t81 * t19 - t82 * t20));
     jac_phi_geometry[48] = -(theta_0 + theta + revolutions * JG_REAL(6.283185307179586));
     jac_phi_geometry[49] = -pitch;
     jac_phi_geometry[50] = -(JG_REAL(6.283185307179586) * pitch);
 }
 
-static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT geometry,
-    const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *jac_phi_q_v_r_i,
+    jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j, jg_real *jac_phi_q_v_geometry,
+    jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -315,49 +314,47 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    jac_phi_q_v_velocity[27] = f_i_world_1;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    jac_phi_q_v_velocity[31] = g_i_world_2;
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    jac_phi_q_v_velocity[30] = f_i_world_2;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    jac_phi_q_v_velocity[28] = g_i_world_1;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    jac_phi_q_v_velocity[26] = h_i_world_0;
     /* g_i_dot_omega_i = g_i . omega_i */
     const jg_real g_i_dot_omega_i = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    jac_phi_q_v_velocity[25] = g_i_world_0;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
     const jg_real t8 = g_i_dot_omega_i * h_i_world_0 - g_i_world_0 * h_i_dot_omega_i;
-    jac_phi_q_v_r_i[0] = t8;
     /* f_i_dot_omega_i = f_i . omega_i */
     const jg_real f_i_dot_omega_i = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
+    jac_phi_q_v_velocity[27] = f_i_world_1;
+    jac_phi_q_v_velocity[31] = g_i_world_2;
+    jac_phi_q_v_velocity[30] = f_i_world_2;
+    jac_phi_q_v_velocity[28] = g_i_world_1;
+    jac_phi_q_v_velocity[26] = h_i_world_0;
+    jac_phi_q_v_velocity[25] = g_i_world_0;
+    jac_phi_q_v_r_i[0] = t8;
     jac_phi_q_v_velocity[24] = f_i_world_0;
     const jg_real t11 = f_i_world_0 * h_i_dot_omega_i - h_i_world_0 * f_i_dot_omega_i;
-    jac_phi_q_v_r_i[1] = t11;
     const jg_real t12 = g_i_world_0 * f_i_dot_omega_i - f_i_world_0 * g_i_dot_omega_i;
-    jac_phi_q_v_r_i[2] = t12;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - g_i_world_2 * f_i_world_0;
-    jac_phi_q_v_velocity[29] = h_i_world_1;
     const jg_real t14 = g_i_dot_omega_i * h_i_world_1 - g_i_world_1 * h_i_dot_omega_i;
-    jac_phi_q_v_r_i[3] = t14;
-    const jg_real t15 = f_i_world_1 * h_i_dot_omega_i - f_i_dot_omega_i * h_i_world_1;
-    jac_phi_q_v_r_i[4] = t15;
+    const jg_real t15 = f_i_world_1 * h_i_dot_omega_i - h_i_world_1 * f_i_dot_omega_i;
     const jg_real t16 = g_i_world_1 * f_i_dot_omega_i - f_i_world_1 * g_i_dot_omega_i;
-    jac_phi_q_v_r_i[5] = t16;
     const jg_real h_i_world_2 = g_i_world_1 * f_i_world_0 - f_i_world_1 * g_i_world_0;
-    jac_phi_q_v_velocity[32] = h_i_world_2;
     const jg_real t18 = g_i_dot_omega_i * h_i_world_2 - g_i_world_2 * h_i_dot_omega_i;
+    jac_phi_q_v_r_i[1] = t11;
+    jac_phi_q_v_r_i[2] = t12;
+    jac_phi_q_v_velocity[29] = h_i_world_1;
+    jac_phi_q_v_r_i[3] = t14;
+    jac_phi_q_v_r_i[4] = t15;
+    jac_phi_q_v_r_i[5] = t16;
+    jac_phi_q_v_velocity[32] = h_i_world_2;
     jac_phi_q_v_r_i[6] = t18;
-    const jg_real t19 = f_i_world_2 * h_i_dot_omega_i - f_i_dot_omega_i * h_i_world_2;
-    jac_phi_q_v_r_i[7] = t19;
+    const jg_real t19 = f_i_world_2 * h_i_dot_omega_i - h_i_world_2 * f_i_dot_omega_i;
     const jg_real t20 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
-    jac_phi_q_v_r_i[8] = t20;
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
@@ -377,7 +374,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_0 = A_j[1] * g_i_world_1 + A_j[0] * g_i_world_0 + A_j[2] * g_i_world_2;
     const jg_real g_i_in_j_1 = A_j[4] * g_i_world_1 + A_j[3] * g_i_world_0 + A_j[5] * g_i_world_2;
-    const jg_real g_i_in_j_2 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
+    const jg_real g_i_in_j_2 = A_j[7] * g_i_world_1 + A_j[6] * g_i_world_0 + A_j[8] * g_i_world_2;
     /* omega_j_in_joint_i = omega_j, axes of joint i */
     const jg_real omega_j_in_joint_i_1 = omega_j[0] * g_i_in_j_0 + omega_j[1] * g_i_in_j_1 + omega_j[2] *
         g_i_in_j_2;
@@ -392,9 +389,6 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t45 = r_ij_world_1 * t29 + r_ij_world_2 * t30;
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real t47 = C_i[3] * r_ij_world_0;
-    jac_phi_q_v_A_i[0] = t28 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t34 - (t40 * omega_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * t41) - (C_i[0] * v_i[0] - (h_i_dot_omega_i * t47 + g_i_dot_omega_i * t45 +
-        (h_i_dot_omega_i * t40 + g_i_dot_omega_i * t34)) - C_i[0] * v_j[0]);
     const jg_real t48 = t26 * h_i_in_j_2 - g_i_in_j_1 * t33 - (t27 * h_i_in_j_1 - g_i_in_j_2 * t32);
     const jg_real t49 = t27 * h_i_in_j_0 - g_i_in_j_2 * t31 - (t25 * h_i_in_j_2 - g_i_in_j_0 * t33);
     const jg_real t50 = t25 * h_i_in_j_1 - g_i_in_j_0 * t32 - (t26 * h_i_in_j_0 - g_i_in_j_1 * t31);
@@ -408,48 +402,35 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real omega_j_in_joint_i_0 = omega_j[0] * f_i_in_j_0 + omega_j[1] * f_i_in_j_1 + omega_j[2] *
         f_i_in_j_2;
     const jg_real t58 = C_i[0] * r_ij_world_0;
-    jac_phi_q_v_A_i[1] = omega_j_in_joint_i_2 * t51 - t41 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t56 - t34 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t58 + f_i_dot_omega_i * t45 + (f_i_dot_omega_i * t34 +
-        h_i_dot_omega_i * t51) + C_i[3] * v_i[0] - C_i[3] * v_j[0]);
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = C_j[6] * h_i_in_j_0 + C_j[7] * h_i_in_j_1 + C_j[8] * h_i_in_j_2;
-    const jg_real t60 = C_j[6] * t31 + C_j[7] * t32 + C_j[8] * t33;
-    const jg_real t61 = C_j[6] * t25 + C_j[7] * t26 + C_j[8] * t27;
-    const jg_real h_j_in_joint_i_1 = C_j[6] * g_i_in_j_0 + C_j[7] * g_i_in_j_1 + C_j[8] * g_i_in_j_2;
-    jac_phi_q_v_A_i[2] = t28 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t60 - (omega_j_in_joint_i_2 * t61 - t41 *
-        h_j_in_joint_i_1) + (h_i_dot_omega_i * t61 + g_i_dot_omega_i * t60);
-    const jg_real t63 = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
-    const jg_real h_j_in_joint_i_0 = C_j[6] * f_i_in_j_0 + C_j[7] * f_i_in_j_1 + C_j[8] * f_i_in_j_2;
-    jac_phi_q_v_A_i[3] = omega_j_in_joint_i_2 * t63 - t41 * h_j_in_joint_i_0 - (h_j_in_joint_i_2 * t56 - t60 *
-        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t60 + h_i_dot_omega_i * t63);
+    const jg_real h_j_in_joint_i_2 = h_i_in_j_0 * C_j[6] + h_i_in_j_1 * C_j[7] + h_i_in_j_2 * C_j[8];
+    const jg_real t60 = t31 * C_j[6] + t32 * C_j[7] + t33 * C_j[8];
+    const jg_real t61 = t25 * C_j[6] + t26 * C_j[7] + t27 * C_j[8];
+    const jg_real h_j_in_joint_i_1 = g_i_in_j_0 * C_j[6] + g_i_in_j_1 * C_j[7] + g_i_in_j_2 * C_j[8];
+    const jg_real t63 = t48 * C_j[6] + t49 * C_j[7] + t50 * C_j[8];
+    const jg_real h_j_in_joint_i_0 = f_i_in_j_0 * C_j[6] + f_i_in_j_1 * C_j[7] + f_i_in_j_2 * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
-    const jg_real f_i_dot_f_j = C_j[0] * f_i_in_j_0 + C_j[1] * f_i_in_j_1 + C_j[2] * f_i_in_j_2;
-    const jg_real t66 = C_j[0] * t48 + C_j[1] * t49 + C_j[2] * t50;
+    const jg_real f_i_dot_f_j = f_i_in_j_0 * C_j[0] + f_i_in_j_1 * C_j[1] + f_i_in_j_2 * C_j[2];
+    const jg_real t66 = t48 * C_j[0] + t49 * C_j[1] + t50 * C_j[2];
     /* g_i_dot_f_j = g_i . f_j */
-    const jg_real g_i_dot_f_j = C_j[0] * g_i_in_j_0 + C_j[1] * g_i_in_j_1 + C_j[2] * g_i_in_j_2;
-    const jg_real t68 = C_j[0] * t25 + C_j[1] * t26 + C_j[2] * t27;
+    const jg_real g_i_dot_f_j = g_i_in_j_0 * C_j[0] + g_i_in_j_1 * C_j[1] + g_i_in_j_2 * C_j[2];
+    const jg_real t68 = t25 * C_j[0] + t26 * C_j[1] + t27 * C_j[2];
     /* h_i_dot_f_j = h_i . f_j */
-    const jg_real h_i_dot_f_j = C_j[0] * h_i_in_j_0 + C_j[1] * h_i_in_j_1 + C_j[2] * h_i_in_j_2;
-    const jg_real t70 = C_j[0] * t31 + C_j[1] * t32 + C_j[2] * t33;
+    const jg_real h_i_dot_f_j = h_i_in_j_0 * C_j[0] + h_i_in_j_1 * C_j[1] + h_i_in_j_2 * C_j[2];
+    const jg_real t70 = t31 * C_j[0] + t32 * C_j[1] + t33 * C_j[2];
     /* omega_j_dot_f_j = omega_j . f_j */
-    const jg_real omega_j_dot_f_j = omega_j_in_joint_i_1 * g_i_dot_f_j + omega_j_in_joint_i_0 * f_i_dot_f_j +
+    const jg_real omega_j_dot_f_j = omega_j_in_joint_i_0 * f_i_dot_f_j + omega_j_in_joint_i_1 * g_i_dot_f_j +
         omega_j_in_joint_i_2 * h_i_dot_f_j;
     /* omega_i_dot_f_j = omega_i . f_j */
-    const jg_real omega_i_dot_f_j = g_i_dot_omega_i * g_i_dot_f_j + f_i_dot_omega_i * f_i_dot_f_j + h_i_dot_omega_i
+    const jg_real omega_i_dot_f_j = f_i_dot_omega_i * f_i_dot_f_j + g_i_dot_omega_i * g_i_dot_f_j + h_i_dot_omega_i
         * h_i_dot_f_j;
     const jg_real t73 = omega_i_dot_f_j - omega_j_dot_f_j;
     /* spread =  */
     const jg_real spread = JG_REAL(1.0) / (JG_REAL(1.0) - h_i_dot_f_j * h_i_dot_f_j);
     const jg_real t75 = pitch * spread;
-    const jg_real t76 = spread * spread;
-    const jg_real t77 = h_i_dot_f_j * t70;
-    const jg_real t78 = h_i_dot_f_j * t73 - h_i_dot_omega_i + omega_j_in_joint_i_2;
-    jac_phi_q_v_A_i[4] = t40 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t56 - (omega_j_in_joint_i_1 * t51 + t28 *
-        s_j_in_joint_i_0) - (v_j[1] * t29 + v_j[2] * t30 + (f_i_dot_omega_i * t40 - g_i_dot_omega_i * t51 + (t47 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t58 + (t75 * (h_i_dot_f_j * (g_i_dot_omega_i * t68 + f_i_dot_omega_i *
-        t66 - h_i_dot_omega_i * t70 - (t28 * g_i_dot_f_j + omega_j_in_joint_i_1 * t68 + (t56 * f_i_dot_f_j +
-        omega_j_in_joint_i_0 * t66) - (t41 * h_i_dot_f_j + omega_j_in_joint_i_2 * t70))) - t70 * t73 - t41) - (t77 +
-        t77) * t76 * pitch * t78)) - (v_i[1] * t29 + v_i[2] * t30)));
+    const jg_real t76 = h_i_dot_f_j * t73 - h_i_dot_omega_i + omega_j_in_joint_i_2;
+    const jg_real t77 = spread * spread;
+    const jg_real t78 = h_i_dot_f_j * t70;
     const jg_real t79 = C_i[3] * A_j[1];
     const jg_real t80 = C_i[3] * A_j[4];
     const jg_real t81 = C_i[3] * A_j[7];
@@ -463,6 +444,24 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t89 = omega_j[0] * t84 + omega_j[1] * t85 + omega_j[2] * t86;
     const jg_real t90 = r_ij_world_0 * t29 - r_ij_world_2 * t83;
     const jg_real t91 = C_i[3] * r_ij_world_1;
+    jac_phi_q_v_r_i[7] = t19;
+    jac_phi_q_v_r_i[8] = t20;
+    jac_phi_q_v_A_i[0] = t28 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t34 - (t40 * omega_j_in_joint_i_2 -
+        s_j_in_joint_i_1 * t41) - (C_i[0] * v_i[0] - (h_i_dot_omega_i * t47 + g_i_dot_omega_i * t45 +
+        (h_i_dot_omega_i * t40 + g_i_dot_omega_i * t34)) - C_i[0] * v_j[0]);
+    jac_phi_q_v_A_i[1] = omega_j_in_joint_i_2 * t51 - t41 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t56 - t34 *
+        omega_j_in_joint_i_0) - (t45 * f_i_dot_omega_i + h_i_dot_omega_i * t58 + (t34 * f_i_dot_omega_i +
+        h_i_dot_omega_i * t51) + C_i[3] * v_i[0] - C_i[3] * v_j[0]);
+    jac_phi_q_v_A_i[2] = t28 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t60 - (omega_j_in_joint_i_2 * t61 - t41 *
+        h_j_in_joint_i_1) + (g_i_dot_omega_i * t60 + h_i_dot_omega_i * t61);
+    jac_phi_q_v_A_i[3] = omega_j_in_joint_i_2 * t63 - t41 * h_j_in_joint_i_0 - (t56 * h_j_in_joint_i_2 -
+        omega_j_in_joint_i_0 * t60) - (f_i_dot_omega_i * t60 + h_i_dot_omega_i * t63);
+    jac_phi_q_v_A_i[4] = t40 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t56 - (omega_j_in_joint_i_1 * t51 + t28 *
+        s_j_in_joint_i_0) - (t29 * v_j[1] + t30 * v_j[2] + (t40 * f_i_dot_omega_i - g_i_dot_omega_i * t51 + (t47 *
+        f_i_dot_omega_i - g_i_dot_omega_i * t58 + ((h_i_dot_f_j * (f_i_dot_omega_i * t66 + g_i_dot_omega_i * t68 -
+        h_i_dot_omega_i * t70 - (t56 * f_i_dot_f_j + omega_j_in_joint_i_0 * t66 + (t28 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t68) - (t41 * h_i_dot_f_j + omega_j_in_joint_i_2 * t70))) - t70 * t73 - t41) * t75 -
+        (t78 + t78) * t77 * pitch * t76)) - (v_i[1] * t29 + t30 * v_i[2])));
     jac_phi_q_v_A_i[5] = omega_j_in_joint_i_1 * t87 + t82 * s_j_in_joint_i_2 - (t88 * omega_j_in_joint_i_2 +
         s_j_in_joint_i_1 * t89) - (g_i_dot_omega_i * t90 - h_i_dot_omega_i * t91 + (g_i_dot_omega_i * t87 -
         h_i_dot_omega_i * t88) + C_i[0] * v_i[1] - C_i[0] * v_j[1]);
@@ -472,26 +471,13 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t95 = s_j[0] * t92 + s_j[1] * t93 + s_j[2] * t94;
     const jg_real t96 = omega_j[0] * t92 + omega_j[1] * t93 + omega_j[2] * t94;
     const jg_real t97 = C_i[0] * r_ij_world_1;
-    jac_phi_q_v_A_i[6] = omega_j_in_joint_i_2 * t95 + t89 * s_j_in_joint_i_0 - (t87 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t96) - (h_i_dot_omega_i * t97 - f_i_dot_omega_i * t90 + (h_i_dot_omega_i * t95 -
-        f_i_dot_omega_i * t87) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
-    const jg_real t98 = C_j[6] * t84 + C_j[7] * t85 + C_j[8] * t86;
-    const jg_real t99 = C_j[6] * t79 + C_j[7] * t80 + C_j[8] * t81;
-    jac_phi_q_v_A_i[7] = t82 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t98 - (t89 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t99) - (g_i_dot_omega_i * t98 - h_i_dot_omega_i * t99);
-    const jg_real t100 = C_j[6] * t92 + C_j[7] * t93 + C_j[8] * t94;
-    jac_phi_q_v_A_i[8] = t89 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t100 - (h_j_in_joint_i_2 * t96 + t98 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t100 - f_i_dot_omega_i * t98);
-    const jg_real t101 = C_j[0] * t92 + C_j[1] * t93 + C_j[2] * t94;
-    const jg_real t102 = C_j[0] * t79 + C_j[1] * t80 + C_j[2] * t81;
-    const jg_real t103 = C_j[0] * t84 + C_j[1] * t85 + C_j[2] * t86;
+    const jg_real t98 = t84 * C_j[6] + t85 * C_j[7] + t86 * C_j[8];
+    const jg_real t99 = t79 * C_j[6] + t80 * C_j[7] + t81 * C_j[8];
+    const jg_real t100 = t92 * C_j[6] + t93 * C_j[7] + t94 * C_j[8];
+    const jg_real t101 = t92 * C_j[0] + t93 * C_j[1] + t94 * C_j[2];
+    const jg_real t102 = t79 * C_j[0] + t80 * C_j[1] + t81 * C_j[2];
+    const jg_real t103 = t84 * C_j[0] + t85 * C_j[1] + t86 * C_j[2];
     const jg_real t104 = h_i_dot_f_j * t103;
-    jac_phi_q_v_A_i[9] = t88 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t96 - (omega_j_in_joint_i_1 * t95 + t82 *
-        s_j_in_joint_i_0) - (v_i[0] * t29 - v_i[2] * t83 + (f_i_dot_omega_i * t88 - g_i_dot_omega_i * t95 + (t91 *
-        f_i_dot_omega_i - g_i_dot_omega_i * t97 + (t75 * (t103 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * t102 +
-        f_i_dot_omega_i * t101 + h_i_dot_omega_i * t103 - (t89 * h_i_dot_f_j + omega_j_in_joint_i_2 * t103 + (t82 *
-        g_i_dot_f_j + omega_j_in_joint_i_1 * t102 + (t96 * f_i_dot_f_j + omega_j_in_joint_i_0 * t101)))) + t89) +
-        (t104 + t104) * t76 * pitch * t78))) - (v_j[0] * t29 - v_j[2] * t83));
     const jg_real t105 = C_i[3] * A_j[2];
     const jg_real t106 = C_i[3] * A_j[5];
     const jg_real t107 = C_i[3] * A_j[8];
@@ -504,35 +490,42 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t114 = omega_j[0] * t109 + omega_j[1] * t110 + omega_j[2] * t111;
     const jg_real t115 = r_ij_world_0 * t30 + r_ij_world_1 * t83;
     const jg_real t116 = C_i[3] * r_ij_world_2;
-    jac_phi_q_v_A_i[10] = omega_j_in_joint_i_1 * t112 + t108 * s_j_in_joint_i_2 - (t113 * omega_j_in_joint_i_2 +
-        s_j_in_joint_i_1 * t114) - (g_i_dot_omega_i * t115 - h_i_dot_omega_i * t116 + (g_i_dot_omega_i * t112 -
-        h_i_dot_omega_i * t113) + C_i[0] * v_i[2] - C_i[0] * v_j[2]);
     const jg_real t117 = t106 * h_i_in_j_2 + g_i_in_j_1 * t111 - (t107 * h_i_in_j_1 + g_i_in_j_2 * t110);
     const jg_real t118 = t107 * h_i_in_j_0 + g_i_in_j_2 * t109 - (t105 * h_i_in_j_2 + g_i_in_j_0 * t111);
     const jg_real t119 = t105 * h_i_in_j_1 + g_i_in_j_0 * t110 - (t106 * h_i_in_j_0 + g_i_in_j_1 * t109);
     const jg_real t120 = s_j[0] * t117 + s_j[1] * t118 + s_j[2] * t119;
     const jg_real t121 = omega_j[0] * t117 + omega_j[1] * t118 + omega_j[2] * t119;
     const jg_real t122 = C_i[0] * r_ij_world_2;
+    const jg_real t123 = t109 * C_j[6] + t110 * C_j[7] + t111 * C_j[8];
+    const jg_real t124 = t105 * C_j[6] + t106 * C_j[7] + t107 * C_j[8];
+    const jg_real t125 = t117 * C_j[6] + t118 * C_j[7] + t119 * C_j[8];
+    jac_phi_q_v_A_i[6] = omega_j_in_joint_i_2 * t95 + t89 * s_j_in_joint_i_0 - (t87 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t96) - (h_i_dot_omega_i * t97 - t90 * f_i_dot_omega_i + (h_i_dot_omega_i * t95 - t87 *
+        f_i_dot_omega_i) + C_i[3] * v_i[1] - C_i[3] * v_j[1]);
+    jac_phi_q_v_A_i[7] = t82 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t98 - (t89 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t99) - (g_i_dot_omega_i * t98 - h_i_dot_omega_i * t99);
+    jac_phi_q_v_A_i[8] = t89 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t100 - (t96 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t98) - (h_i_dot_omega_i * t100 - f_i_dot_omega_i * t98);
+    jac_phi_q_v_A_i[9] = t88 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t96 - (omega_j_in_joint_i_1 * t95 + t82 *
+        s_j_in_joint_i_0) - (v_i[0] * t29 - t83 * v_i[2] + (t88 * f_i_dot_omega_i - g_i_dot_omega_i * t95 + (t91 *
+        f_i_dot_omega_i - g_i_dot_omega_i * t97 + ((t103 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t101 +
+        g_i_dot_omega_i * t102 + h_i_dot_omega_i * t103 - (t96 * f_i_dot_f_j + omega_j_in_joint_i_0 * t101 + (t82 *
+        g_i_dot_f_j + omega_j_in_joint_i_1 * t102) + (t89 * h_i_dot_f_j + omega_j_in_joint_i_2 * t103))) + t89) *
+        t75 + (t104 + t104) * t77 * pitch * t76))) - (t29 * v_j[0] - t83 * v_j[2]));
+    jac_phi_q_v_A_i[10] = omega_j_in_joint_i_1 * t112 + t108 * s_j_in_joint_i_2 - (t113 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t114) - (g_i_dot_omega_i * t115 - h_i_dot_omega_i * t116 + (g_i_dot_omega_i * t112 -
+        h_i_dot_omega_i * t113) + C_i[0] * v_i[2] - C_i[0] * v_j[2]);
     jac_phi_q_v_A_i[11] = omega_j_in_joint_i_2 * t120 + t114 * s_j_in_joint_i_0 - (t112 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t121) - (h_i_dot_omega_i * t122 - f_i_dot_omega_i * t115 + (h_i_dot_omega_i * t120 -
-        f_i_dot_omega_i * t112) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
-    const jg_real t123 = C_j[6] * t109 + C_j[7] * t110 + C_j[8] * t111;
-    const jg_real t124 = C_j[6] * t105 + C_j[7] * t106 + C_j[8] * t107;
+        s_j_in_joint_i_2 * t121) - (h_i_dot_omega_i * t122 - t115 * f_i_dot_omega_i + (h_i_dot_omega_i * t120 - t112
+        * f_i_dot_omega_i) + C_i[3] * v_i[2] - C_i[3] * v_j[2]);
     jac_phi_q_v_A_i[12] = t108 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t123 - (t114 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t124) - (g_i_dot_omega_i * t123 - h_i_dot_omega_i * t124);
-    const jg_real t125 = C_j[6] * t117 + C_j[7] * t118 + C_j[8] * t119;
-    jac_phi_q_v_A_i[13] = t114 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t125 - (h_j_in_joint_i_2 * t121 + t123 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t125 - f_i_dot_omega_i * t123);
-    const jg_real t126 = C_j[0] * t117 + C_j[1] * t118 + C_j[2] * t119;
-    const jg_real t127 = C_j[0] * t105 + C_j[1] * t106 + C_j[2] * t107;
-    const jg_real t128 = C_j[0] * t109 + C_j[1] * t110 + C_j[2] * t111;
+    jac_phi_q_v_A_i[13] = t114 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t125 - (t121 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t123) - (h_i_dot_omega_i * t125 - f_i_dot_omega_i * t123);
+    const jg_real t126 = t117 * C_j[0] + t118 * C_j[1] + t119 * C_j[2];
+    const jg_real t127 = t105 * C_j[0] + t106 * C_j[1] + t107 * C_j[2];
+    const jg_real t128 = t109 * C_j[0] + t110 * C_j[1] + t111 * C_j[2];
     const jg_real t129 = h_i_dot_f_j * t128;
-    jac_phi_q_v_A_i[14] = t113 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t121 - (omega_j_in_joint_i_1 * t120 +
-        t108 * s_j_in_joint_i_0) - (v_i[0] * t30 + v_i[1] * t83 + (f_i_dot_omega_i * t113 - g_i_dot_omega_i * t120 +
-        (t116 * f_i_dot_omega_i - g_i_dot_omega_i * t122 + (t75 * (t128 * t73 + h_i_dot_f_j * (g_i_dot_omega_i *
-        t127 + f_i_dot_omega_i * t126 + h_i_dot_omega_i * t128 - (t114 * h_i_dot_f_j + omega_j_in_joint_i_2 * t128 +
-        (t108 * g_i_dot_f_j + omega_j_in_joint_i_1 * t127 + (t121 * f_i_dot_f_j + omega_j_in_joint_i_0 * t126)))) +
-        t114) + (t129 + t129) * t76 * pitch * t78))) - (v_j[0] * t30 + v_j[1] * t83));
     const jg_real t130 = C_i[4] * A_j[0];
     const jg_real t131 = C_i[4] * A_j[3];
     const jg_real t132 = C_i[4] * A_j[6];
@@ -547,35 +540,19 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t141 = omega_j[0] * t136 + omega_j[1] * t137 + omega_j[2] * t138;
     const jg_real t142 = r_ij_world_1 * t134 + r_ij_world_2 * t135;
     const jg_real t143 = C_i[4] * r_ij_world_0;
-    jac_phi_q_v_A_i[15] = t133 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t139 - (t140 * omega_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * t141) - (C_i[1] * v_i[0] - (h_i_dot_omega_i * t143 + g_i_dot_omega_i * t142 +
-        (h_i_dot_omega_i * t140 + g_i_dot_omega_i * t139)) - C_i[1] * v_j[0]);
     const jg_real t144 = t131 * h_i_in_j_2 - g_i_in_j_1 * t138 - (t132 * h_i_in_j_1 - g_i_in_j_2 * t137);
     const jg_real t145 = t132 * h_i_in_j_0 - g_i_in_j_2 * t136 - (t130 * h_i_in_j_2 - g_i_in_j_0 * t138);
     const jg_real t146 = t130 * h_i_in_j_1 - g_i_in_j_0 * t137 - (t131 * h_i_in_j_0 - g_i_in_j_1 * t136);
     const jg_real t147 = s_j[0] * t144 + s_j[1] * t145 + s_j[2] * t146;
     const jg_real t148 = omega_j[0] * t144 + omega_j[1] * t145 + omega_j[2] * t146;
     const jg_real t149 = C_i[1] * r_ij_world_0;
-    jac_phi_q_v_A_i[16] = omega_j_in_joint_i_2 * t147 - t141 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t148 - t139 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t149 + f_i_dot_omega_i * t142 + (f_i_dot_omega_i * t139 +
-        h_i_dot_omega_i * t147) + C_i[4] * v_i[0] - C_i[4] * v_j[0]);
-    const jg_real t150 = C_j[6] * t136 + C_j[7] * t137 + C_j[8] * t138;
-    const jg_real t151 = C_j[6] * t130 + C_j[7] * t131 + C_j[8] * t132;
-    jac_phi_q_v_A_i[17] = t133 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t150 - (omega_j_in_joint_i_2 * t151 -
-        t141 * h_j_in_joint_i_1) + (h_i_dot_omega_i * t151 + g_i_dot_omega_i * t150);
-    const jg_real t152 = C_j[6] * t144 + C_j[7] * t145 + C_j[8] * t146;
-    jac_phi_q_v_A_i[18] = omega_j_in_joint_i_2 * t152 - t141 * h_j_in_joint_i_0 - (h_j_in_joint_i_2 * t148 - t150 *
-        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t150 + h_i_dot_omega_i * t152);
-    const jg_real t153 = C_j[0] * t144 + C_j[1] * t145 + C_j[2] * t146;
-    const jg_real t154 = C_j[0] * t130 + C_j[1] * t131 + C_j[2] * t132;
-    const jg_real t155 = C_j[0] * t136 + C_j[1] * t137 + C_j[2] * t138;
+    const jg_real t150 = t136 * C_j[6] + t137 * C_j[7] + t138 * C_j[8];
+    const jg_real t151 = t130 * C_j[6] + t131 * C_j[7] + t132 * C_j[8];
+    const jg_real t152 = t144 * C_j[6] + t145 * C_j[7] + t146 * C_j[8];
+    const jg_real t153 = t144 * C_j[0] + t145 * C_j[1] + t146 * C_j[2];
+    const jg_real t154 = t130 * C_j[0] + t131 * C_j[1] + t132 * C_j[2];
+    const jg_real t155 = t136 * C_j[0] + t137 * C_j[1] + t138 * C_j[2];
     const jg_real t156 = h_i_dot_f_j * t155;
-    jac_phi_q_v_A_i[19] = t140 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t148 - (omega_j_in_joint_i_1 * t147 +
-        t133 * s_j_in_joint_i_0) - (v_j[1] * t134 + v_j[2] * t135 + (f_i_dot_omega_i * t140 - g_i_dot_omega_i * t147
-        + (t143 * f_i_dot_omega_i - g_i_dot_omega_i * t149 + (t75 * (h_i_dot_f_j * (g_i_dot_omega_i * t154 +
-        f_i_dot_omega_i * t153 - h_i_dot_omega_i * t155 - (t133 * g_i_dot_f_j + omega_j_in_joint_i_1 * t154 + (t148
-        * f_i_dot_f_j + omega_j_in_joint_i_0 * t153) - (t141 * h_i_dot_f_j + omega_j_in_joint_i_2 * t155))) - t155 *
-        t73 - t141) - (t156 + t156) * t76 * pitch * t78)) - (v_i[1] * t134 + v_i[2] * t135)));
     const jg_real t157 = C_i[4] * A_j[1];
     const jg_real t158 = C_i[4] * A_j[4];
     const jg_real t159 = C_i[4] * A_j[7];
@@ -589,35 +566,47 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t167 = omega_j[0] * t162 + omega_j[1] * t163 + omega_j[2] * t164;
     const jg_real t168 = r_ij_world_0 * t134 - r_ij_world_2 * t161;
     const jg_real t169 = C_i[4] * r_ij_world_1;
-    jac_phi_q_v_A_i[20] = omega_j_in_joint_i_1 * t165 + t160 * s_j_in_joint_i_2 - (t166 * omega_j_in_joint_i_2 +
-        s_j_in_joint_i_1 * t167) - (g_i_dot_omega_i * t168 - h_i_dot_omega_i * t169 + (g_i_dot_omega_i * t165 -
-        h_i_dot_omega_i * t166) + C_i[1] * v_i[1] - C_i[1] * v_j[1]);
     const jg_real t170 = t158 * h_i_in_j_2 + g_i_in_j_1 * t164 - (t159 * h_i_in_j_1 + g_i_in_j_2 * t163);
     const jg_real t171 = t159 * h_i_in_j_0 + g_i_in_j_2 * t162 - (t157 * h_i_in_j_2 + g_i_in_j_0 * t164);
     const jg_real t172 = t157 * h_i_in_j_1 + g_i_in_j_0 * t163 - (t158 * h_i_in_j_0 + g_i_in_j_1 * t162);
     const jg_real t173 = s_j[0] * t170 + s_j[1] * t171 + s_j[2] * t172;
     const jg_real t174 = omega_j[0] * t170 + omega_j[1] * t171 + omega_j[2] * t172;
     const jg_real t175 = C_i[1] * r_ij_world_1;
+    jac_phi_q_v_A_i[14] = t113 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t121 - (omega_j_in_joint_i_1 * t120 +
+        t108 * s_j_in_joint_i_0) - (v_i[0] * t30 + v_i[1] * t83 + (t113 * f_i_dot_omega_i - g_i_dot_omega_i * t120 +
+        (t116 * f_i_dot_omega_i - g_i_dot_omega_i * t122 + ((t128 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t126 +
+        g_i_dot_omega_i * t127 + h_i_dot_omega_i * t128 - (t121 * f_i_dot_f_j + omega_j_in_joint_i_0 * t126 + (t108
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t127) + (t114 * h_i_dot_f_j + omega_j_in_joint_i_2 * t128))) + t114)
+        * t75 + (t129 + t129) * t77 * pitch * t76))) - (t30 * v_j[0] + t83 * v_j[1]));
+    jac_phi_q_v_A_i[15] = t133 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t139 - (t140 * omega_j_in_joint_i_2 -
+        s_j_in_joint_i_1 * t141) - (C_i[1] * v_i[0] - (h_i_dot_omega_i * t143 + g_i_dot_omega_i * t142 +
+        (h_i_dot_omega_i * t140 + g_i_dot_omega_i * t139)) - C_i[1] * v_j[0]);
+    jac_phi_q_v_A_i[16] = omega_j_in_joint_i_2 * t147 - t141 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t148 - t139 *
+        omega_j_in_joint_i_0) - (t142 * f_i_dot_omega_i + h_i_dot_omega_i * t149 + (t139 * f_i_dot_omega_i +
+        h_i_dot_omega_i * t147) + C_i[4] * v_i[0] - C_i[4] * v_j[0]);
+    jac_phi_q_v_A_i[17] = t133 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t150 - (omega_j_in_joint_i_2 * t151 -
+        t141 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t150 + h_i_dot_omega_i * t151);
+    jac_phi_q_v_A_i[18] = omega_j_in_joint_i_2 * t152 - t141 * h_j_in_joint_i_0 - (t148 * h_j_in_joint_i_2 -
+        omega_j_in_joint_i_0 * t150) - (f_i_dot_omega_i * t150 + h_i_dot_omega_i * t152);
+    jac_phi_q_v_A_i[19] = t140 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t148 - (omega_j_in_joint_i_1 * t147 +
+        t133 * s_j_in_joint_i_0) - (t134 * v_j[1] + t135 * v_j[2] + (t140 * f_i_dot_omega_i - g_i_dot_omega_i * t147
+        + (t143 * f_i_dot_omega_i - g_i_dot_omega_i * t149 + ((h_i_dot_f_j * (f_i_dot_omega_i * t153 +
+        g_i_dot_omega_i * t154 - h_i_dot_omega_i * t155 - (t148 * f_i_dot_f_j + omega_j_in_joint_i_0 * t153 + (t133
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t154) - (t141 * h_i_dot_f_j + omega_j_in_joint_i_2 * t155))) - t155 *
+        t73 - t141) * t75 - (t156 + t156) * t77 * pitch * t76)) - (v_i[1] * t134 + t135 * v_i[2])));
+    jac_phi_q_v_A_i[20] = omega_j_in_joint_i_1 * t165 + t160 * s_j_in_joint_i_2 - (t166 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t167) - (g_i_dot_omega_i * t168 - h_i_dot_omega_i * t169 + (g_i_dot_omega_i * t165 -
+        h_i_dot_omega_i * t166) + C_i[1] * v_i[1] - C_i[1] * v_j[1]);
     jac_phi_q_v_A_i[21] = omega_j_in_joint_i_2 * t173 + t167 * s_j_in_joint_i_0 - (t165 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t174) - (h_i_dot_omega_i * t175 - f_i_dot_omega_i * t168 + (h_i_dot_omega_i * t173 -
-        f_i_dot_omega_i * t165) + C_i[4] * v_i[1] - C_i[4] * v_j[1]);
-    const jg_real t176 = C_j[6] * t162 + C_j[7] * t163 + C_j[8] * t164;
-    const jg_real t177 = C_j[6] * t157 + C_j[7] * t158 + C_j[8] * t159;
-    jac_phi_q_v_A_i[22] = t160 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t176 - (t167 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t177) - (g_i_dot_omega_i * t176 - h_i_dot_omega_i * t177);
-    const jg_real t178 = C_j[6] * t170 + C_j[7] * t171 + C_j[8] * t172;
-    jac_phi_q_v_A_i[23] = t167 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t178 - (h_j_in_joint_i_2 * t174 + t176 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t178 - f_i_dot_omega_i * t176);
-    const jg_real t179 = C_j[0] * t170 + C_j[1] * t171 + C_j[2] * t172;
-    const jg_real t180 = C_j[0] * t157 + C_j[1] * t158 + C_j[2] * t159;
-    const jg_real t181 = C_j[0] * t162 + C_j[1] * t163 + C_j[2] * t164;
+        s_j_in_joint_i_2 * t174) - (h_i_dot_omega_i * t175 - t168 * f_i_dot_omega_i + (h_i_dot_omega_i * t173 - t165
+        * f_i_dot_omega_i) + C_i[4] * v_i[1] - C_i[4] * v_j[1]);
+    const jg_real t176 = t162 * C_j[6] + t163 * C_j[7] + t164 * C_j[8];
+    const jg_real t177 = t157 * C_j[6] + t158 * C_j[7] + t159 * C_j[8];
+    const jg_real t178 = t170 * C_j[6] + t171 * C_j[7] + t172 * C_j[8];
+    const jg_real t179 = t170 * C_j[0] + t171 * C_j[1] + t172 * C_j[2];
+    const jg_real t180 = t157 * C_j[0] + t158 * C_j[1] + t159 * C_j[2];
+    const jg_real t181 = t162 * C_j[0] + t163 * C_j[1] + t164 * C_j[2];
     const jg_real t182 = h_i_dot_f_j * t181;
-    jac_phi_q_v_A_i[24] = t166 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t174 - (omega_j_in_joint_i_1 * t173 +
-        t160 * s_j_in_joint_i_0) - (v_i[0] * t134 - v_i[2] * t161 + (f_i_dot_omega_i * t166 - g_i_dot_omega_i * t173
-        + (t169 * f_i_dot_omega_i - g_i_dot_omega_i * t175 + (t75 * (t181 * t73 + h_i_dot_f_j * (g_i_dot_omega_i *
-        t180 + f_i_dot_omega_i * t179 + h_i_dot_omega_i * t181 - (t167 * h_i_dot_f_j + omega_j_in_joint_i_2 * t181 +
-        (t160 * g_i_dot_f_j + omega_j_in_joint_i_1 * t180 + (t174 * f_i_dot_f_j + omega_j_in_joint_i_0 * t179)))) +
-        t167) + (t182 + t182) * t76 * pitch * t78))) - (v_j[0] * t134 - v_j[2] * t161));
     const jg_real t183 = C_i[4] * A_j[2];
     const jg_real t184 = C_i[4] * A_j[5];
     const jg_real t185 = C_i[4] * A_j[8];
@@ -630,35 +619,45 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t192 = omega_j[0] * t187 + omega_j[1] * t188 + omega_j[2] * t189;
     const jg_real t193 = r_ij_world_0 * t135 + r_ij_world_1 * t161;
     const jg_real t194 = C_i[4] * r_ij_world_2;
-    jac_phi_q_v_A_i[25] = omega_j_in_joint_i_1 * t190 + t186 * s_j_in_joint_i_2 - (t191 * omega_j_in_joint_i_2 +
-        s_j_in_joint_i_1 * t192) - (g_i_dot_omega_i * t193 - h_i_dot_omega_i * t194 + (g_i_dot_omega_i * t190 -
-        h_i_dot_omega_i * t191) + C_i[1] * v_i[2] - C_i[1] * v_j[2]);
     const jg_real t195 = t184 * h_i_in_j_2 + g_i_in_j_1 * t189 - (t185 * h_i_in_j_1 + g_i_in_j_2 * t188);
     const jg_real t196 = t185 * h_i_in_j_0 + g_i_in_j_2 * t187 - (t183 * h_i_in_j_2 + g_i_in_j_0 * t189);
     const jg_real t197 = t183 * h_i_in_j_1 + g_i_in_j_0 * t188 - (t184 * h_i_in_j_0 + g_i_in_j_1 * t187);
     const jg_real t198 = s_j[0] * t195 + s_j[1] * t196 + s_j[2] * t197;
     const jg_real t199 = omega_j[0] * t195 + omega_j[1] * t196 + omega_j[2] * t197;
     const jg_real t200 = C_i[1] * r_ij_world_2;
+    const jg_real t201 = t187 * C_j[6] + t188 * C_j[7] + t189 * C_j[8];
+    const jg_real t202 = t183 * C_j[6] + t184 * C_j[7] + t185 * C_j[8];
+    const jg_real t203 = t195 * C_j[6] + t196 * C_j[7] + t197 * C_j[8];
+    const jg_real t204 = t195 * C_j[0] + t196 * C_j[1] + t197 * C_j[2];
+    const jg_real t205 = t183 * C_j[0] + t184 * C_j[1] + t185 * C_j[2];
+    const jg_real t206 = t187 * C_j[0] + t188 * C_j[1] + t189 * C_j[2];
+    const jg_real t207 = h_i_dot_f_j * t206;
+    jac_phi_q_v_A_i[22] = t160 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t176 - (t167 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t177) - (g_i_dot_omega_i * t176 - h_i_dot_omega_i * t177);
+    jac_phi_q_v_A_i[23] = t167 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t178 - (t174 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t176) - (h_i_dot_omega_i * t178 - f_i_dot_omega_i * t176);
+    jac_phi_q_v_A_i[24] = t166 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t174 - (omega_j_in_joint_i_1 * t173 +
+        t160 * s_j_in_joint_i_0) - (v_i[0] * t134 - t161 * v_i[2] + (t166 * f_i_dot_omega_i - g_i_dot_omega_i * t173
+        + (t169 * f_i_dot_omega_i - g_i_dot_omega_i * t175 + ((t181 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t179 +
+        g_i_dot_omega_i * t180 + h_i_dot_omega_i * t181 - (t174 * f_i_dot_f_j + omega_j_in_joint_i_0 * t179 + (t160
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t180) + (t167 * h_i_dot_f_j + omega_j_in_joint_i_2 * t181))) + t167)
+        * t75 + (t182 + t182) * t77 * pitch * t76))) - (t134 * v_j[0] - t161 * v_j[2]));
+    jac_phi_q_v_A_i[25] = omega_j_in_joint_i_1 * t190 + t186 * s_j_in_joint_i_2 - (t191 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t192) - (g_i_dot_omega_i * t193 - h_i_dot_omega_i * t194 + (g_i_dot_omega_i * t190 -
+        h_i_dot_omega_i * t191) + C_i[1] * v_i[2] - C_i[1] * v_j[2]);
     jac_phi_q_v_A_i[26] = omega_j_in_joint_i_2 * t198 + t192 * s_j_in_joint_i_0 - (t190 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t199) - (h_i_dot_omega_i * t200 - f_i_dot_omega_i * t193 + (h_i_dot_omega_i * t198 -
-        f_i_dot_omega_i * t190) + C_i[4] * v_i[2] - C_i[4] * v_j[2]);
-    const jg_real t201 = C_j[6] * t187 + C_j[7] * t188 + C_j[8] * t189;
-    const jg_real t202 = C_j[6] * t183 + C_j[7] * t184 + C_j[8] * t185;
+        s_j_in_joint_i_2 * t199) - (h_i_dot_omega_i * t200 - t193 * f_i_dot_omega_i + (h_i_dot_omega_i * t198 - t190
+        * f_i_dot_omega_i) + C_i[4] * v_i[2] - C_i[4] * v_j[2]);
     jac_phi_q_v_A_i[27] = t186 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t201 - (t192 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t202) - (g_i_dot_omega_i * t201 - h_i_dot_omega_i * t202);
-    const jg_real t203 = C_j[6] * t195 + C_j[7] * t196 + C_j[8] * t197;
-    jac_phi_q_v_A_i[28] = t192 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t203 - (h_j_in_joint_i_2 * t199 + t201 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t203 - f_i_dot_omega_i * t201);
-    const jg_real t204 = C_j[0] * t195 + C_j[1] * t196 + C_j[2] * t197;
-    const jg_real t205 = C_j[0] * t183 + C_j[1] * t184 + C_j[2] * t185;
-    const jg_real t206 = C_j[0] * t187 + C_j[1] * t188 + C_j[2] * t189;
-    const jg_real t207 = h_i_dot_f_j * t206;
+    jac_phi_q_v_A_i[28] = t192 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t203 - (t199 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t201) - (h_i_dot_omega_i * t203 - f_i_dot_omega_i * t201);
     jac_phi_q_v_A_i[29] = t191 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t199 - (omega_j_in_joint_i_1 * t198 +
-        t186 * s_j_in_joint_i_0) - (v_i[0] * t135 + v_i[1] * t161 + (f_i_dot_omega_i * t191 - g_i_dot_omega_i * t198
-        + (t194 * f_i_dot_omega_i - g_i_dot_omega_i * t200 + (t75 * (t206 * t73 + h_i_dot_f_j * (g_i_dot_omega_i *
-        t205 + f_i_dot_omega_i * t204 + h_i_dot_omega_i * t206 - (t192 * h_i_dot_f_j + omega_j_in_joint_i_2 * t206 +
-        (t186 * g_i_dot_f_j + omega_j_in_joint_i_1 * t205 + (t199 * f_i_dot_f_j + omega_j_in_joint_i_0 * t204)))) +
-        t192) + (t207 + t207) * t76 * pitch * t78))) - (v_j[0] * t135 + v_j[1] * t161));
+        t186 * s_j_in_joint_i_0) - (v_i[0] * t135 + v_i[1] * t161 + (t191 * f_i_dot_omega_i - g_i_dot_omega_i * t198
+        + (t194 * f_i_dot_omega_i - g_i_dot_omega_i * t200 + ((t206 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t204 +
+        g_i_dot_omega_i * t205 + h_i_dot_omega_i * t206 - (t199 * f_i_dot_f_j + omega_j_in_joint_i_0 * t204 + (t186
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t205) + (t192 * h_i_dot_f_j + omega_j_in_joint_i_2 * t206))) + t192)
+        * t75 + (t207 + t207) * t77 * pitch * t76))) - (t135 * v_j[0] + t161 * v_j[1]));
     const jg_real t208 = C_i[5] * A_j[0];
     const jg_real t209 = C_i[5] * A_j[3];
     const jg_real t210 = C_i[5] * A_j[6];
@@ -673,35 +672,19 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t219 = omega_j[0] * t214 + omega_j[1] * t215 + omega_j[2] * t216;
     const jg_real t220 = r_ij_world_1 * t212 + r_ij_world_2 * t213;
     const jg_real t221 = C_i[5] * r_ij_world_0;
-    jac_phi_q_v_A_i[30] = t211 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t217 - (t218 * omega_j_in_joint_i_2 -
-        s_j_in_joint_i_1 * t219) - (C_i[2] * v_i[0] - (h_i_dot_omega_i * t221 + g_i_dot_omega_i * t220 +
-        (h_i_dot_omega_i * t218 + g_i_dot_omega_i * t217)) - C_i[2] * v_j[0]);
     const jg_real t222 = t209 * h_i_in_j_2 - g_i_in_j_1 * t216 - (t210 * h_i_in_j_1 - g_i_in_j_2 * t215);
     const jg_real t223 = t210 * h_i_in_j_0 - g_i_in_j_2 * t214 - (t208 * h_i_in_j_2 - g_i_in_j_0 * t216);
     const jg_real t224 = t208 * h_i_in_j_1 - g_i_in_j_0 * t215 - (t209 * h_i_in_j_0 - g_i_in_j_1 * t214);
     const jg_real t225 = s_j[0] * t222 + s_j[1] * t223 + s_j[2] * t224;
     const jg_real t226 = omega_j[0] * t222 + omega_j[1] * t223 + omega_j[2] * t224;
     const jg_real t227 = C_i[2] * r_ij_world_0;
-    jac_phi_q_v_A_i[31] = omega_j_in_joint_i_2 * t225 - t219 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t226 - t217 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t227 + f_i_dot_omega_i * t220 + (f_i_dot_omega_i * t217 +
-        h_i_dot_omega_i * t225) + C_i[5] * v_i[0] - C_i[5] * v_j[0]);
-    const jg_real t228 = C_j[6] * t214 + C_j[7] * t215 + C_j[8] * t216;
-    const jg_real t229 = C_j[6] * t208 + C_j[7] * t209 + C_j[8] * t210;
-    jac_phi_q_v_A_i[32] = t211 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t228 - (omega_j_in_joint_i_2 * t229 -
-        t219 * h_j_in_joint_i_1) + (h_i_dot_omega_i * t229 + g_i_dot_omega_i * t228);
-    const jg_real t230 = C_j[6] * t222 + C_j[7] * t223 + C_j[8] * t224;
-    jac_phi_q_v_A_i[33] = omega_j_in_joint_i_2 * t230 - t219 * h_j_in_joint_i_0 - (h_j_in_joint_i_2 * t226 - t228 *
-        omega_j_in_joint_i_0) - (f_i_dot_omega_i * t228 + h_i_dot_omega_i * t230);
-    const jg_real t231 = C_j[0] * t222 + C_j[1] * t223 + C_j[2] * t224;
-    const jg_real t232 = C_j[0] * t208 + C_j[1] * t209 + C_j[2] * t210;
-    const jg_real t233 = C_j[0] * t214 + C_j[1] * t215 + C_j[2] * t216;
+    const jg_real t228 = t214 * C_j[6] + t215 * C_j[7] + t216 * C_j[8];
+    const jg_real t229 = t208 * C_j[6] + t209 * C_j[7] + t210 * C_j[8];
+    const jg_real t230 = t222 * C_j[6] + t223 * C_j[7] + t224 * C_j[8];
+    const jg_real t231 = t222 * C_j[0] + t223 * C_j[1] + t224 * C_j[2];
+    const jg_real t232 = t208 * C_j[0] + t209 * C_j[1] + t210 * C_j[2];
+    const jg_real t233 = t214 * C_j[0] + t215 * C_j[1] + t216 * C_j[2];
     const jg_real t234 = h_i_dot_f_j * t233;
-    jac_phi_q_v_A_i[34] = t218 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t226 - (omega_j_in_joint_i_1 * t225 +
-        t211 * s_j_in_joint_i_0) - (v_j[1] * t212 + v_j[2] * t213 + (f_i_dot_omega_i * t218 - g_i_dot_omega_i * t225
-        + (t221 * f_i_dot_omega_i - g_i_dot_omega_i * t227 + (t75 * (h_i_dot_f_j * (g_i_dot_omega_i * t232 +
-        f_i_dot_omega_i * t231 - h_i_dot_omega_i * t233 - (t211 * g_i_dot_f_j + omega_j_in_joint_i_1 * t232 + (t226
-        * f_i_dot_f_j + omega_j_in_joint_i_0 * t231) - (t219 * h_i_dot_f_j + omega_j_in_joint_i_2 * t233))) - t233 *
-        t73 - t219) - (t234 + t234) * t76 * pitch * t78)) - (v_i[1] * t212 + v_i[2] * t213)));
     const jg_real t235 = C_i[5] * A_j[1];
     const jg_real t236 = C_i[5] * A_j[4];
     const jg_real t237 = C_i[5] * A_j[7];
@@ -715,35 +698,43 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t245 = omega_j[0] * t240 + omega_j[1] * t241 + omega_j[2] * t242;
     const jg_real t246 = r_ij_world_0 * t212 - r_ij_world_2 * t239;
     const jg_real t247 = C_i[5] * r_ij_world_1;
-    jac_phi_q_v_A_i[35] = omega_j_in_joint_i_1 * t243 + t238 * s_j_in_joint_i_2 - (t244 * omega_j_in_joint_i_2 +
-        s_j_in_joint_i_1 * t245) - (g_i_dot_omega_i * t246 - h_i_dot_omega_i * t247 + (g_i_dot_omega_i * t243 -
-        h_i_dot_omega_i * t244) + C_i[2] * v_i[1] - C_i[2] * v_j[1]);
     const jg_real t248 = t236 * h_i_in_j_2 + g_i_in_j_1 * t242 - (t237 * h_i_in_j_1 + g_i_in_j_2 * t241);
     const jg_real t249 = t237 * h_i_in_j_0 + g_i_in_j_2 * t240 - (t235 * h_i_in_j_2 + g_i_in_j_0 * t242);
     const jg_real t250 = t235 * h_i_in_j_1 + g_i_in_j_0 * t241 - (t236 * h_i_in_j_0 + g_i_in_j_1 * t240);
     const jg_real t251 = s_j[0] * t248 + s_j[1] * t249 + s_j[2] * t250;
     const jg_real t252 = omega_j[0] * t248 + omega_j[1] * t249 + omega_j[2] * t250;
     const jg_real t253 = C_i[2] * r_ij_world_1;
+    const jg_real t254 = t240 * C_j[6] + t241 * C_j[7] + t242 * C_j[8];
+    const jg_real t255 = t235 * C_j[6] + t236 * C_j[7] + t237 * C_j[8];
+    jac_phi_q_v_A_i[30] = t211 * s_j_in_joint_i_2 - omega_j_in_joint_i_1 * t217 - (t218 * omega_j_in_joint_i_2 -
+        s_j_in_joint_i_1 * t219) - (C_i[2] * v_i[0] - (h_i_dot_omega_i * t221 + g_i_dot_omega_i * t220 +
+        (h_i_dot_omega_i * t218 + g_i_dot_omega_i * t217)) - C_i[2] * v_j[0]);
+    jac_phi_q_v_A_i[31] = omega_j_in_joint_i_2 * t225 - t219 * s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t226 - t217 *
+        omega_j_in_joint_i_0) - (t220 * f_i_dot_omega_i + h_i_dot_omega_i * t227 + (t217 * f_i_dot_omega_i +
+        h_i_dot_omega_i * t225) + C_i[5] * v_i[0] - C_i[5] * v_j[0]);
+    jac_phi_q_v_A_i[32] = t211 * h_j_in_joint_i_2 - omega_j_in_joint_i_1 * t228 - (omega_j_in_joint_i_2 * t229 -
+        t219 * h_j_in_joint_i_1) + (g_i_dot_omega_i * t228 + h_i_dot_omega_i * t229);
+    jac_phi_q_v_A_i[33] = omega_j_in_joint_i_2 * t230 - t219 * h_j_in_joint_i_0 - (t226 * h_j_in_joint_i_2 -
+        omega_j_in_joint_i_0 * t228) - (f_i_dot_omega_i * t228 + h_i_dot_omega_i * t230);
+    jac_phi_q_v_A_i[34] = t218 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t226 - (omega_j_in_joint_i_1 * t225 +
+        t211 * s_j_in_joint_i_0) - (t212 * v_j[1] + t213 * v_j[2] + (t218 * f_i_dot_omega_i - g_i_dot_omega_i * t225
+        + (t221 * f_i_dot_omega_i - g_i_dot_omega_i * t227 + ((h_i_dot_f_j * (f_i_dot_omega_i * t231 +
+        g_i_dot_omega_i * t232 - h_i_dot_omega_i * t233 - (t226 * f_i_dot_f_j + omega_j_in_joint_i_0 * t231 + (t211
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t232) - (t219 * h_i_dot_f_j + omega_j_in_joint_i_2 * t233))) - t233 *
+        t73 - t219) * t75 - (t234 + t234) * t77 * pitch * t76)) - (v_i[1] * t212 + t213 * v_i[2])));
+    jac_phi_q_v_A_i[35] = omega_j_in_joint_i_1 * t243 + t238 * s_j_in_joint_i_2 - (t244 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t245) - (g_i_dot_omega_i * t246 - h_i_dot_omega_i * t247 + (g_i_dot_omega_i * t243 -
+        h_i_dot_omega_i * t244) + C_i[2] * v_i[1] - C_i[2] * v_j[1]);
     jac_phi_q_v_A_i[36] = omega_j_in_joint_i_2 * t251 + t245 * s_j_in_joint_i_0 - (t243 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t252) - (h_i_dot_omega_i * t253 - f_i_dot_omega_i * t246 + (h_i_dot_omega_i * t251 -
-        f_i_dot_omega_i * t243) + C_i[5] * v_i[1] - C_i[5] * v_j[1]);
-    const jg_real t254 = C_j[6] * t240 + C_j[7] * t241 + C_j[8] * t242;
-    const jg_real t255 = C_j[6] * t235 + C_j[7] * t236 + C_j[8] * t237;
+        s_j_in_joint_i_2 * t252) - (h_i_dot_omega_i * t253 - t246 * f_i_dot_omega_i + (h_i_dot_omega_i * t251 - t243
+        * f_i_dot_omega_i) + C_i[5] * v_i[1] - C_i[5] * v_j[1]);
     jac_phi_q_v_A_i[37] = t238 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t254 - (t245 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t255) - (g_i_dot_omega_i * t254 - h_i_dot_omega_i * t255);
-    const jg_real t256 = C_j[6] * t248 + C_j[7] * t249 + C_j[8] * t250;
-    jac_phi_q_v_A_i[38] = t245 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t256 - (h_j_in_joint_i_2 * t252 + t254 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t256 - f_i_dot_omega_i * t254);
-    const jg_real t257 = C_j[0] * t248 + C_j[1] * t249 + C_j[2] * t250;
-    const jg_real t258 = C_j[0] * t235 + C_j[1] * t236 + C_j[2] * t237;
-    const jg_real t259 = C_j[0] * t240 + C_j[1] * t241 + C_j[2] * t242;
+    const jg_real t256 = t248 * C_j[6] + t249 * C_j[7] + t250 * C_j[8];
+    const jg_real t257 = t248 * C_j[0] + t249 * C_j[1] + t250 * C_j[2];
+    const jg_real t258 = t235 * C_j[0] + t236 * C_j[1] + t237 * C_j[2];
+    const jg_real t259 = t240 * C_j[0] + t241 * C_j[1] + t242 * C_j[2];
     const jg_real t260 = h_i_dot_f_j * t259;
-    jac_phi_q_v_A_i[39] = t244 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t252 - (omega_j_in_joint_i_1 * t251 +
-        t238 * s_j_in_joint_i_0) - (v_i[0] * t212 - v_i[2] * t239 + (f_i_dot_omega_i * t244 - g_i_dot_omega_i * t251
-        + (t247 * f_i_dot_omega_i - g_i_dot_omega_i * t253 + (t75 * (t259 * t73 + h_i_dot_f_j * (g_i_dot_omega_i *
-        t258 + f_i_dot_omega_i * t257 + h_i_dot_omega_i * t259 - (t245 * h_i_dot_f_j + omega_j_in_joint_i_2 * t259 +
-        (t238 * g_i_dot_f_j + omega_j_in_joint_i_1 * t258 + (t252 * f_i_dot_f_j + omega_j_in_joint_i_0 * t257)))) +
-        t245) + (t260 + t260) * t76 * pitch * t78))) - (v_j[0] * t212 - v_j[2] * t239));
     const jg_real t261 = C_i[5] * A_j[2];
     const jg_real t262 = C_i[5] * A_j[5];
     const jg_real t263 = C_i[5] * A_j[8];
@@ -756,35 +747,43 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t270 = omega_j[0] * t265 + omega_j[1] * t266 + omega_j[2] * t267;
     const jg_real t271 = r_ij_world_0 * t213 + r_ij_world_1 * t239;
     const jg_real t272 = C_i[5] * r_ij_world_2;
-    jac_phi_q_v_A_i[40] = omega_j_in_joint_i_1 * t268 + t264 * s_j_in_joint_i_2 - (t269 * omega_j_in_joint_i_2 +
-        s_j_in_joint_i_1 * t270) - (g_i_dot_omega_i * t271 - h_i_dot_omega_i * t272 + (g_i_dot_omega_i * t268 -
-        h_i_dot_omega_i * t269) + C_i[2] * v_i[2] - C_i[2] * v_j[2]);
     const jg_real t273 = t262 * h_i_in_j_2 + g_i_in_j_1 * t267 - (t263 * h_i_in_j_1 + g_i_in_j_2 * t266);
     const jg_real t274 = t263 * h_i_in_j_0 + g_i_in_j_2 * t265 - (t261 * h_i_in_j_2 + g_i_in_j_0 * t267);
     const jg_real t275 = t261 * h_i_in_j_1 + g_i_in_j_0 * t266 - (t262 * h_i_in_j_0 + g_i_in_j_1 * t265);
     const jg_real t276 = s_j[0] * t273 + s_j[1] * t274 + s_j[2] * t275;
     const jg_real t277 = omega_j[0] * t273 + omega_j[1] * t274 + omega_j[2] * t275;
     const jg_real t278 = C_i[2] * r_ij_world_2;
+    const jg_real t279 = t265 * C_j[6] + t266 * C_j[7] + t267 * C_j[8];
+    const jg_real t280 = t261 * C_j[6] + t262 * C_j[7] + t263 * C_j[8];
+    const jg_real t281 = t273 * C_j[6] + t274 * C_j[7] + t275 * C_j[8];
+    const jg_real t282 = t273 * C_j[0] + t274 * C_j[1] + t275 * C_j[2];
+    const jg_real t283 = t261 * C_j[0] + t262 * C_j[1] + t263 * C_j[2];
+    const jg_real t284 = t265 * C_j[0] + t266 * C_j[1] + t267 * C_j[2];
+    const jg_real t285 = h_i_dot_f_j * t284;
+    jac_phi_q_v_A_i[38] = t245 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t256 - (t252 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t254) - (h_i_dot_omega_i * t256 - f_i_dot_omega_i * t254);
+    jac_phi_q_v_A_i[39] = t244 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t252 - (omega_j_in_joint_i_1 * t251 +
+        t238 * s_j_in_joint_i_0) - (v_i[0] * t212 - t239 * v_i[2] + (t244 * f_i_dot_omega_i - g_i_dot_omega_i * t251
+        + (t247 * f_i_dot_omega_i - g_i_dot_omega_i * t253 + ((t259 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t257 +
+        g_i_dot_omega_i * t258 + h_i_dot_omega_i * t259 - (t252 * f_i_dot_f_j + omega_j_in_joint_i_0 * t257 + (t238
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t258) + (t245 * h_i_dot_f_j + omega_j_in_joint_i_2 * t259))) + t245)
+        * t75 + (t260 + t260) * t77 * pitch * t76))) - (t212 * v_j[0] - t239 * v_j[2]));
+    jac_phi_q_v_A_i[40] = omega_j_in_joint_i_1 * t268 + t264 * s_j_in_joint_i_2 - (t269 * omega_j_in_joint_i_2 +
+        s_j_in_joint_i_1 * t270) - (g_i_dot_omega_i * t271 - h_i_dot_omega_i * t272 + (g_i_dot_omega_i * t268 -
+        h_i_dot_omega_i * t269) + C_i[2] * v_i[2] - C_i[2] * v_j[2]);
     jac_phi_q_v_A_i[41] = omega_j_in_joint_i_2 * t276 + t270 * s_j_in_joint_i_0 - (t268 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t277) - (h_i_dot_omega_i * t278 - f_i_dot_omega_i * t271 + (h_i_dot_omega_i * t276 -
-        f_i_dot_omega_i * t268) + C_i[5] * v_i[2] - C_i[5] * v_j[2]);
-    const jg_real t279 = C_j[6] * t265 + C_j[7] * t266 + C_j[8] * t267;
-    const jg_real t280 = C_j[6] * t261 + C_j[7] * t262 + C_j[8] * t263;
+        s_j_in_joint_i_2 * t277) - (h_i_dot_omega_i * t278 - t271 * f_i_dot_omega_i + (h_i_dot_omega_i * t276 - t268
+        * f_i_dot_omega_i) + C_i[5] * v_i[2] - C_i[5] * v_j[2]);
     jac_phi_q_v_A_i[42] = t264 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t279 - (t270 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t280) - (g_i_dot_omega_i * t279 - h_i_dot_omega_i * t280);
-    const jg_real t281 = C_j[6] * t273 + C_j[7] * t274 + C_j[8] * t275;
-    jac_phi_q_v_A_i[43] = t270 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t281 - (h_j_in_joint_i_2 * t277 + t279 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t281 - f_i_dot_omega_i * t279);
-    const jg_real t282 = C_j[0] * t273 + C_j[1] * t274 + C_j[2] * t275;
-    const jg_real t283 = C_j[0] * t261 + C_j[1] * t262 + C_j[2] * t263;
-    const jg_real t284 = C_j[0] * t265 + C_j[1] * t266 + C_j[2] * t267;
-    const jg_real t285 = h_i_dot_f_j * t284;
+    jac_phi_q_v_A_i[43] = t270 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t281 - (t277 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t279) - (h_i_dot_omega_i * t281 - f_i_dot_omega_i * t279);
     jac_phi_q_v_A_i[44] = t269 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t277 - (omega_j_in_joint_i_1 * t276 +
-        t264 * s_j_in_joint_i_0) - (v_i[0] * t213 + v_i[1] * t239 + (f_i_dot_omega_i * t269 - g_i_dot_omega_i * t276
-        + (t272 * f_i_dot_omega_i - g_i_dot_omega_i * t278 + (t75 * (t284 * t73 + h_i_dot_f_j * (g_i_dot_omega_i *
-        t283 + f_i_dot_omega_i * t282 + h_i_dot_omega_i * t284 - (t270 * h_i_dot_f_j + omega_j_in_joint_i_2 * t284 +
-        (t264 * g_i_dot_f_j + omega_j_in_joint_i_1 * t283 + (t277 * f_i_dot_f_j + omega_j_in_joint_i_0 * t282)))) +
-        t270) + (t285 + t285) * t76 * pitch * t78))) - (v_j[0] * t213 + v_j[1] * t239));
+        t264 * s_j_in_joint_i_0) - (v_i[0] * t213 + v_i[1] * t239 + (t269 * f_i_dot_omega_i - g_i_dot_omega_i * t276
+        + (t272 * f_i_dot_omega_i - g_i_dot_omega_i * t278 + ((t284 * t73 + h_i_dot_f_j * (f_i_dot_omega_i * t282 +
+        g_i_dot_omega_i * t283 + h_i_dot_omega_i * t284 - (t277 * f_i_dot_f_j + omega_j_in_joint_i_0 * t282 + (t264
+        * g_i_dot_f_j + omega_j_in_joint_i_1 * t283) + (t270 * h_i_dot_f_j + omega_j_in_joint_i_2 * t284))) + t270)
+        * t75 + (t285 + t285) * t77 * pitch * t76))) - (t213 * v_j[0] + t239 * v_j[1]));
     jac_phi_q_v_r_j[0] = -t8;
     jac_phi_q_v_r_j[1] = -t11;
     jac_phi_q_v_r_j[2] = -t12;
@@ -798,245 +797,232 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t287 = s_j[0] * h_i_world_0;
     const jg_real t288 = s_j[0] * g_i_world_0;
     const jg_real t289 = omega_j[0] * h_i_world_0;
-    jac_phi_q_v_A_j[0] = t287 * omega_j_in_joint_i_1 + t286 * s_j_in_joint_i_2 - (t288 * omega_j_in_joint_i_2 + t289
-        * s_j_in_joint_i_1) - (g_i_dot_omega_i * t287 - h_i_dot_omega_i * t288);
     const jg_real t290 = g_i_world_0 * h_i_in_j_2 - h_i_world_0 * g_i_in_j_2;
     const jg_real t291 = h_i_world_0 * g_i_in_j_1 - g_i_world_0 * h_i_in_j_1;
     const jg_real t292 = s_j[1] * t290 + s_j[2] * t291;
     const jg_real t293 = omega_j[1] * t290 + omega_j[2] * t291;
-    jac_phi_q_v_A_j[1] = t289 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t292 - (t287 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t293) + (f_i_dot_omega_i * t287 + h_i_dot_omega_i * t292);
-    const jg_real t294 = C_j[6] * h_i_world_0;
-    const jg_real t295 = C_j[6] * g_i_world_0;
-    jac_phi_q_v_A_j[2] = t286 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t294 - (t289 * h_j_in_joint_i_1 + t295 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t294 - h_i_dot_omega_i * t295);
-    const jg_real t296 = C_j[7] * t290 + C_j[8] * t291;
-    jac_phi_q_v_A_j[3] = t289 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t296 - (t294 * omega_j_in_joint_i_0 -
-        h_j_in_joint_i_2 * t293) + (f_i_dot_omega_i * t294 + h_i_dot_omega_i * t296);
-    const jg_real t297 = C_j[0] * h_i_world_0;
-    const jg_real t298 = C_j[1] * t290 + C_j[2] * t291;
-    const jg_real t299 = C_j[0] * g_i_world_0;
+    const jg_real t294 = h_i_world_0 * C_j[6];
+    const jg_real t295 = g_i_world_0 * C_j[6];
+    const jg_real t296 = t290 * C_j[7] + t291 * C_j[8];
+    const jg_real t297 = h_i_world_0 * C_j[0];
+    const jg_real t298 = t290 * C_j[1] + t291 * C_j[2];
+    const jg_real t299 = g_i_world_0 * C_j[0];
     const jg_real t300 = t297 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[4] = t288 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t293 - (t286 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t292) - (f_i_dot_omega_i * t288 + g_i_dot_omega_i * t292 + (t75 * (t297 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t299 - f_i_dot_omega_i * t298 + h_i_dot_omega_i * t297 - (t289 *
-        h_i_dot_f_j + t297 * omega_j_in_joint_i_2 + (t286 * g_i_dot_f_j + t299 * omega_j_in_joint_i_1 - (t293 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t298)))) + t289) + (t300 + t300) * t76 * pitch * t78));
     const jg_real t301 = omega_j[0] * g_i_world_1;
     const jg_real t302 = s_j[0] * h_i_world_1;
     const jg_real t303 = s_j[0] * g_i_world_1;
     const jg_real t304 = omega_j[0] * h_i_world_1;
-    jac_phi_q_v_A_j[5] = t302 * omega_j_in_joint_i_1 + t301 * s_j_in_joint_i_2 - (t303 * omega_j_in_joint_i_2 + t304
-        * s_j_in_joint_i_1) - (g_i_dot_omega_i * t302 - h_i_dot_omega_i * t303);
     const jg_real t305 = g_i_world_1 * h_i_in_j_2 - h_i_world_1 * g_i_in_j_2;
     const jg_real t306 = h_i_world_1 * g_i_in_j_1 - g_i_world_1 * h_i_in_j_1;
     const jg_real t307 = s_j[1] * t305 + s_j[2] * t306;
     const jg_real t308 = omega_j[1] * t305 + omega_j[2] * t306;
+    const jg_real t309 = h_i_world_1 * C_j[6];
+    const jg_real t310 = g_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[0] = omega_j_in_joint_i_1 * t287 + t286 * s_j_in_joint_i_2 - (t288 * omega_j_in_joint_i_2 + t289
+        * s_j_in_joint_i_1) - (g_i_dot_omega_i * t287 - h_i_dot_omega_i * t288);
+    jac_phi_q_v_A_j[1] = t289 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t292 - (t287 * omega_j_in_joint_i_0 -
+        s_j_in_joint_i_2 * t293) + (t287 * f_i_dot_omega_i + h_i_dot_omega_i * t292);
+    jac_phi_q_v_A_j[2] = t286 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t294 - (t289 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t295) - (g_i_dot_omega_i * t294 - h_i_dot_omega_i * t295);
+    jac_phi_q_v_A_j[3] = t289 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t296 - (t294 * omega_j_in_joint_i_0 - t293
+        * h_j_in_joint_i_2) + (f_i_dot_omega_i * t294 + h_i_dot_omega_i * t296);
+    jac_phi_q_v_A_j[4] = t288 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t293 - (t286 * s_j_in_joint_i_0 -
+        omega_j_in_joint_i_1 * t292) - (g_i_dot_omega_i * t292 + t288 * f_i_dot_omega_i + ((t297 * t73 + h_i_dot_f_j
+        * (g_i_dot_omega_i * t299 - f_i_dot_omega_i * t298 + h_i_dot_omega_i * t297 - (t286 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t299 - (t293 * f_i_dot_f_j + omega_j_in_joint_i_0 * t298) + (t289 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t297))) + t289) * t75 + (t300 + t300) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[5] = omega_j_in_joint_i_1 * t302 + t301 * s_j_in_joint_i_2 - (t303 * omega_j_in_joint_i_2 + t304
+        * s_j_in_joint_i_1) - (g_i_dot_omega_i * t302 - h_i_dot_omega_i * t303);
     jac_phi_q_v_A_j[6] = t304 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t307 - (t302 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t308) + (f_i_dot_omega_i * t302 + h_i_dot_omega_i * t307);
-    const jg_real t309 = C_j[6] * h_i_world_1;
-    const jg_real t310 = C_j[6] * g_i_world_1;
-    jac_phi_q_v_A_j[7] = t301 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t309 - (t304 * h_j_in_joint_i_1 + t310 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t309 - h_i_dot_omega_i * t310);
-    const jg_real t311 = C_j[7] * t305 + C_j[8] * t306;
-    jac_phi_q_v_A_j[8] = t304 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t311 - (t309 * omega_j_in_joint_i_0 -
-        h_j_in_joint_i_2 * t308) + (f_i_dot_omega_i * t309 + h_i_dot_omega_i * t311);
-    const jg_real t312 = C_j[0] * h_i_world_1;
-    const jg_real t313 = C_j[1] * t305 + C_j[2] * t306;
-    const jg_real t314 = C_j[0] * g_i_world_1;
+        s_j_in_joint_i_2 * t308) + (t302 * f_i_dot_omega_i + h_i_dot_omega_i * t307);
+    jac_phi_q_v_A_j[7] = t301 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t309 - (t304 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t310) - (g_i_dot_omega_i * t309 - h_i_dot_omega_i * t310);
+    const jg_real t311 = t305 * C_j[7] + t306 * C_j[8];
+    const jg_real t312 = h_i_world_1 * C_j[0];
+    const jg_real t313 = t305 * C_j[1] + t306 * C_j[2];
+    const jg_real t314 = g_i_world_1 * C_j[0];
     const jg_real t315 = t312 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[9] = t303 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t308 - (t301 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t307) - (f_i_dot_omega_i * t303 + g_i_dot_omega_i * t307 + (t75 * (t312 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t314 - f_i_dot_omega_i * t313 + h_i_dot_omega_i * t312 - (t304 *
-        h_i_dot_f_j + t312 * omega_j_in_joint_i_2 + (t301 * g_i_dot_f_j + t314 * omega_j_in_joint_i_1 - (t308 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t313)))) + t304) + (t315 + t315) * t76 * pitch * t78));
     const jg_real t316 = omega_j[0] * g_i_world_2;
     const jg_real t317 = s_j[0] * h_i_world_2;
     const jg_real t318 = s_j[0] * g_i_world_2;
     const jg_real t319 = omega_j[0] * h_i_world_2;
-    jac_phi_q_v_A_j[10] = t317 * omega_j_in_joint_i_1 + t316 * s_j_in_joint_i_2 - (t318 * omega_j_in_joint_i_2 +
-        t319 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t317 - h_i_dot_omega_i * t318);
     const jg_real t320 = g_i_world_2 * h_i_in_j_2 - h_i_world_2 * g_i_in_j_2;
     const jg_real t321 = h_i_world_2 * g_i_in_j_1 - g_i_world_2 * h_i_in_j_1;
     const jg_real t322 = s_j[1] * t320 + s_j[2] * t321;
     const jg_real t323 = omega_j[1] * t320 + omega_j[2] * t321;
-    jac_phi_q_v_A_j[11] = t319 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t322 - (t317 * omega_j_in_joint_i_0 -
-        s_j_in_joint_i_2 * t323) + (f_i_dot_omega_i * t317 + h_i_dot_omega_i * t322);
-    const jg_real t324 = C_j[6] * h_i_world_2;
+    const jg_real t324 = h_i_world_2 * C_j[6];
     const jg_real t325 = g_i_world_2 * C_j[6];
-    jac_phi_q_v_A_j[12] = t316 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t324 - (t319 * h_j_in_joint_i_1 + t325 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t324 - h_i_dot_omega_i * t325);
-    const jg_real t326 = C_j[7] * t320 + C_j[8] * t321;
-    jac_phi_q_v_A_j[13] = t319 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t326 - (t324 * omega_j_in_joint_i_0 -
-        h_j_in_joint_i_2 * t323) + (f_i_dot_omega_i * t324 + h_i_dot_omega_i * t326);
-    const jg_real t327 = C_j[0] * h_i_world_2;
-    const jg_real t328 = C_j[1] * t320 + C_j[2] * t321;
+    const jg_real t326 = t320 * C_j[7] + t321 * C_j[8];
+    const jg_real t327 = h_i_world_2 * C_j[0];
+    const jg_real t328 = t320 * C_j[1] + t321 * C_j[2];
     const jg_real t329 = g_i_world_2 * C_j[0];
     const jg_real t330 = t327 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[14] = t318 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t323 - (t316 * s_j_in_joint_i_0 -
-        omega_j_in_joint_i_1 * t322) - (f_i_dot_omega_i * t318 + g_i_dot_omega_i * t322 + (t75 * (t327 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t329 - f_i_dot_omega_i * t328 + h_i_dot_omega_i * t327 - (t319 *
-        h_i_dot_f_j + t327 * omega_j_in_joint_i_2 + (t316 * g_i_dot_f_j + t329 * omega_j_in_joint_i_1 - (t323 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t328)))) + t319) + (t330 + t330) * t76 * pitch * t78));
     const jg_real t331 = omega_j[1] * g_i_world_0;
     const jg_real t332 = s_j[1] * h_i_world_0;
     const jg_real t333 = s_j[1] * g_i_world_0;
     const jg_real t334 = omega_j[1] * h_i_world_0;
-    jac_phi_q_v_A_j[15] = t332 * omega_j_in_joint_i_1 + t331 * s_j_in_joint_i_2 - (t333 * omega_j_in_joint_i_2 +
+    jac_phi_q_v_A_j[8] = t304 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t311 - (t309 * omega_j_in_joint_i_0 - t308
+        * h_j_in_joint_i_2) + (f_i_dot_omega_i * t309 + h_i_dot_omega_i * t311);
+    jac_phi_q_v_A_j[9] = t303 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t308 - (t301 * s_j_in_joint_i_0 -
+        omega_j_in_joint_i_1 * t307) - (g_i_dot_omega_i * t307 + t303 * f_i_dot_omega_i + ((t312 * t73 + h_i_dot_f_j
+        * (g_i_dot_omega_i * t314 - f_i_dot_omega_i * t313 + h_i_dot_omega_i * t312 - (t301 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t314 - (t308 * f_i_dot_f_j + omega_j_in_joint_i_0 * t313) + (t304 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t312))) + t304) * t75 + (t315 + t315) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[10] = omega_j_in_joint_i_1 * t317 + t316 * s_j_in_joint_i_2 - (t318 * omega_j_in_joint_i_2 +
+        t319 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t317 - h_i_dot_omega_i * t318);
+    jac_phi_q_v_A_j[11] = t319 * s_j_in_joint_i_0 - omega_j_in_joint_i_2 * t322 - (t317 * omega_j_in_joint_i_0 -
+        s_j_in_joint_i_2 * t323) + (t317 * f_i_dot_omega_i + h_i_dot_omega_i * t322);
+    jac_phi_q_v_A_j[12] = t316 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t324 - (t319 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t325) - (g_i_dot_omega_i * t324 - h_i_dot_omega_i * t325);
+    jac_phi_q_v_A_j[13] = t319 * h_j_in_joint_i_0 - omega_j_in_joint_i_2 * t326 - (t324 * omega_j_in_joint_i_0 -
+        t323 * h_j_in_joint_i_2) + (f_i_dot_omega_i * t324 + h_i_dot_omega_i * t326);
+    jac_phi_q_v_A_j[14] = t318 * omega_j_in_joint_i_0 - s_j_in_joint_i_1 * t323 - (t316 * s_j_in_joint_i_0 -
+        omega_j_in_joint_i_1 * t322) - (g_i_dot_omega_i * t322 + t318 * f_i_dot_omega_i + ((t327 * t73 + h_i_dot_f_j
+        * (g_i_dot_omega_i * t329 - f_i_dot_omega_i * t328 + h_i_dot_omega_i * t327 - (t316 * g_i_dot_f_j +
+        omega_j_in_joint_i_1 * t329 - (t323 * f_i_dot_f_j + omega_j_in_joint_i_0 * t328) + (t319 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t327))) + t319) * t75 + (t330 + t330) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[15] = omega_j_in_joint_i_1 * t332 + t331 * s_j_in_joint_i_2 - (t333 * omega_j_in_joint_i_2 +
         t334 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t332 - h_i_dot_omega_i * t333);
     const jg_real t335 = g_i_world_0 * h_i_in_j_0 - h_i_world_0 * g_i_in_j_0;
     const jg_real t336 = s_j[0] * t290 - s_j[2] * t335;
     const jg_real t337 = omega_j[0] * t290 - omega_j[2] * t335;
-    jac_phi_q_v_A_j[16] = omega_j_in_joint_i_2 * t336 + t334 * s_j_in_joint_i_0 - (t332 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t337) - (h_i_dot_omega_i * t336 - f_i_dot_omega_i * t332);
-    const jg_real t338 = C_j[7] * h_i_world_0;
-    const jg_real t339 = C_j[7] * g_i_world_0;
-    jac_phi_q_v_A_j[17] = t331 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t338 - (t334 * h_j_in_joint_i_1 + t339 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t338 - h_i_dot_omega_i * t339);
-    const jg_real t340 = C_j[6] * t290 - C_j[8] * t335;
-    jac_phi_q_v_A_j[18] = t334 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t340 - (h_j_in_joint_i_2 * t337 + t338 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t340 - f_i_dot_omega_i * t338);
-    const jg_real t341 = C_j[1] * h_i_world_0;
-    const jg_real t342 = C_j[0] * t290 - C_j[2] * t335;
-    const jg_real t343 = C_j[1] * g_i_world_0;
+    const jg_real t338 = h_i_world_0 * C_j[7];
+    const jg_real t339 = g_i_world_0 * C_j[7];
+    const jg_real t340 = t290 * C_j[6] - t335 * C_j[8];
+    const jg_real t341 = h_i_world_0 * C_j[1];
+    const jg_real t342 = t290 * C_j[0] - t335 * C_j[2];
+    const jg_real t343 = g_i_world_0 * C_j[1];
     const jg_real t344 = t341 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[19] = t333 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t337 - (omega_j_in_joint_i_1 * t336 +
-        t331 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t333 - g_i_dot_omega_i * t336 + (t75 * (t341 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t343 + f_i_dot_omega_i * t342 + h_i_dot_omega_i * t341 - (t334 *
-        h_i_dot_f_j + t341 * omega_j_in_joint_i_2 + (t331 * g_i_dot_f_j + t343 * omega_j_in_joint_i_1 + (t337 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t342)))) + t334) + (t344 + t344) * t76 * pitch * t78));
     const jg_real t345 = omega_j[1] * g_i_world_1;
     const jg_real t346 = s_j[1] * h_i_world_1;
     const jg_real t347 = s_j[1] * g_i_world_1;
     const jg_real t348 = omega_j[1] * h_i_world_1;
-    jac_phi_q_v_A_j[20] = t346 * omega_j_in_joint_i_1 + t345 * s_j_in_joint_i_2 - (t347 * omega_j_in_joint_i_2 +
-        t348 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t346 - h_i_dot_omega_i * t347);
     const jg_real t349 = g_i_world_1 * h_i_in_j_0 - h_i_world_1 * g_i_in_j_0;
     const jg_real t350 = s_j[0] * t305 - s_j[2] * t349;
     const jg_real t351 = omega_j[0] * t305 - omega_j[2] * t349;
+    const jg_real t352 = h_i_world_1 * C_j[7];
+    const jg_real t353 = g_i_world_1 * C_j[7];
+    const jg_real t354 = t305 * C_j[6] - t349 * C_j[8];
+    jac_phi_q_v_A_j[16] = omega_j_in_joint_i_2 * t336 + t334 * s_j_in_joint_i_0 - (t332 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t337) - (h_i_dot_omega_i * t336 - t332 * f_i_dot_omega_i);
+    jac_phi_q_v_A_j[17] = t331 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t338 - (t334 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t339) - (g_i_dot_omega_i * t338 - h_i_dot_omega_i * t339);
+    jac_phi_q_v_A_j[18] = t334 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t340 - (t337 * h_j_in_joint_i_2 + t338 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t340 - f_i_dot_omega_i * t338);
+    jac_phi_q_v_A_j[19] = t333 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t337 - (omega_j_in_joint_i_1 * t336 +
+        t331 * s_j_in_joint_i_0) - (t333 * f_i_dot_omega_i - g_i_dot_omega_i * t336 + ((t341 * t73 + h_i_dot_f_j *
+        (f_i_dot_omega_i * t342 + g_i_dot_omega_i * t343 + h_i_dot_omega_i * t341 - (t337 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t342 + (t331 * g_i_dot_f_j + omega_j_in_joint_i_1 * t343) + (t334 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t341))) + t334) * t75 + (t344 + t344) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[20] = omega_j_in_joint_i_1 * t346 + t345 * s_j_in_joint_i_2 - (t347 * omega_j_in_joint_i_2 +
+        t348 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t346 - h_i_dot_omega_i * t347);
     jac_phi_q_v_A_j[21] = omega_j_in_joint_i_2 * t350 + t348 * s_j_in_joint_i_0 - (t346 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t351) - (h_i_dot_omega_i * t350 - f_i_dot_omega_i * t346);
-    const jg_real t352 = C_j[7] * h_i_world_1;
-    const jg_real t353 = C_j[7] * g_i_world_1;
-    jac_phi_q_v_A_j[22] = t345 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t352 - (t348 * h_j_in_joint_i_1 + t353 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t352 - h_i_dot_omega_i * t353);
-    const jg_real t354 = C_j[6] * t305 - C_j[8] * t349;
-    jac_phi_q_v_A_j[23] = t348 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t354 - (h_j_in_joint_i_2 * t351 + t352 *
+        s_j_in_joint_i_2 * t351) - (h_i_dot_omega_i * t350 - t346 * f_i_dot_omega_i);
+    jac_phi_q_v_A_j[22] = t345 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t352 - (t348 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t353) - (g_i_dot_omega_i * t352 - h_i_dot_omega_i * t353);
+    jac_phi_q_v_A_j[23] = t348 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t354 - (t351 * h_j_in_joint_i_2 + t352 *
         omega_j_in_joint_i_0) - (h_i_dot_omega_i * t354 - f_i_dot_omega_i * t352);
-    const jg_real t355 = C_j[1] * h_i_world_1;
-    const jg_real t356 = C_j[0] * t305 - C_j[2] * t349;
-    const jg_real t357 = C_j[1] * g_i_world_1;
+    const jg_real t355 = h_i_world_1 * C_j[1];
+    const jg_real t356 = t305 * C_j[0] - t349 * C_j[2];
+    const jg_real t357 = g_i_world_1 * C_j[1];
     const jg_real t358 = t355 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[24] = t347 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t351 - (omega_j_in_joint_i_1 * t350 +
-        t345 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t347 - g_i_dot_omega_i * t350 + (t75 * (t355 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t357 + f_i_dot_omega_i * t356 + h_i_dot_omega_i * t355 - (t348 *
-        h_i_dot_f_j + t355 * omega_j_in_joint_i_2 + (t345 * g_i_dot_f_j + t357 * omega_j_in_joint_i_1 + (t351 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t356)))) + t348) + (t358 + t358) * t76 * pitch * t78));
     const jg_real t359 = omega_j[1] * g_i_world_2;
     const jg_real t360 = s_j[1] * h_i_world_2;
     const jg_real t361 = s_j[1] * g_i_world_2;
     const jg_real t362 = omega_j[1] * h_i_world_2;
-    jac_phi_q_v_A_j[25] = t360 * omega_j_in_joint_i_1 + t359 * s_j_in_joint_i_2 - (t361 * omega_j_in_joint_i_2 +
-        t362 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t360 - h_i_dot_omega_i * t361);
     const jg_real t363 = g_i_world_2 * h_i_in_j_0 - h_i_world_2 * g_i_in_j_0;
     const jg_real t364 = s_j[0] * t320 - s_j[2] * t363;
     const jg_real t365 = omega_j[0] * t320 - omega_j[2] * t363;
-    jac_phi_q_v_A_j[26] = omega_j_in_joint_i_2 * t364 + t362 * s_j_in_joint_i_0 - (t360 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t365) - (h_i_dot_omega_i * t364 - f_i_dot_omega_i * t360);
-    const jg_real t366 = C_j[7] * h_i_world_2;
+    const jg_real t366 = h_i_world_2 * C_j[7];
     const jg_real t367 = g_i_world_2 * C_j[7];
-    jac_phi_q_v_A_j[27] = t359 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t366 - (t362 * h_j_in_joint_i_1 + t367 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t366 - h_i_dot_omega_i * t367);
-    const jg_real t368 = C_j[6] * t320 - C_j[8] * t363;
-    jac_phi_q_v_A_j[28] = t362 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t368 - (h_j_in_joint_i_2 * t365 + t366 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t368 - f_i_dot_omega_i * t366);
-    const jg_real t369 = C_j[1] * h_i_world_2;
-    const jg_real t370 = C_j[0] * t320 - C_j[2] * t363;
+    const jg_real t368 = t320 * C_j[6] - t363 * C_j[8];
+    const jg_real t369 = h_i_world_2 * C_j[1];
+    const jg_real t370 = t320 * C_j[0] - t363 * C_j[2];
     const jg_real t371 = g_i_world_2 * C_j[1];
     const jg_real t372 = t369 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[29] = t361 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t365 - (omega_j_in_joint_i_1 * t364 +
-        t359 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t361 - g_i_dot_omega_i * t364 + (t75 * (t369 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t371 + f_i_dot_omega_i * t370 + h_i_dot_omega_i * t369 - (t362 *
-        h_i_dot_f_j + t369 * omega_j_in_joint_i_2 + (t359 * g_i_dot_f_j + t371 * omega_j_in_joint_i_1 + (t365 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t370)))) + t362) + (t372 + t372) * t76 * pitch * t78));
     const jg_real t373 = omega_j[2] * g_i_world_0;
     const jg_real t374 = s_j[2] * h_i_world_0;
     const jg_real t375 = s_j[2] * g_i_world_0;
     const jg_real t376 = omega_j[2] * h_i_world_0;
-    jac_phi_q_v_A_j[30] = t374 * omega_j_in_joint_i_1 + t373 * s_j_in_joint_i_2 - (t375 * omega_j_in_joint_i_2 +
-        t376 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t374 - h_i_dot_omega_i * t375);
     const jg_real t377 = s_j[0] * t291 + s_j[1] * t335;
     const jg_real t378 = omega_j[0] * t291 + omega_j[1] * t335;
+    jac_phi_q_v_A_j[24] = t347 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t351 - (omega_j_in_joint_i_1 * t350 +
+        t345 * s_j_in_joint_i_0) - (t347 * f_i_dot_omega_i - g_i_dot_omega_i * t350 + ((t355 * t73 + h_i_dot_f_j *
+        (f_i_dot_omega_i * t356 + g_i_dot_omega_i * t357 + h_i_dot_omega_i * t355 - (t351 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t356 + (t345 * g_i_dot_f_j + omega_j_in_joint_i_1 * t357) + (t348 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t355))) + t348) * t75 + (t358 + t358) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[25] = omega_j_in_joint_i_1 * t360 + t359 * s_j_in_joint_i_2 - (t361 * omega_j_in_joint_i_2 +
+        t362 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t360 - h_i_dot_omega_i * t361);
+    jac_phi_q_v_A_j[26] = omega_j_in_joint_i_2 * t364 + t362 * s_j_in_joint_i_0 - (t360 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t365) - (h_i_dot_omega_i * t364 - t360 * f_i_dot_omega_i);
+    jac_phi_q_v_A_j[27] = t359 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t366 - (t362 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t367) - (g_i_dot_omega_i * t366 - h_i_dot_omega_i * t367);
+    jac_phi_q_v_A_j[28] = t362 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t368 - (t365 * h_j_in_joint_i_2 + t366 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t368 - f_i_dot_omega_i * t366);
+    jac_phi_q_v_A_j[29] = t361 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t365 - (omega_j_in_joint_i_1 * t364 +
+        t359 * s_j_in_joint_i_0) - (t361 * f_i_dot_omega_i - g_i_dot_omega_i * t364 + ((t369 * t73 + h_i_dot_f_j *
+        (f_i_dot_omega_i * t370 + g_i_dot_omega_i * t371 + h_i_dot_omega_i * t369 - (t365 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t370 + (t359 * g_i_dot_f_j + omega_j_in_joint_i_1 * t371) + (t362 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t369))) + t362) * t75 + (t372 + t372) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[30] = omega_j_in_joint_i_1 * t374 + t373 * s_j_in_joint_i_2 - (t375 * omega_j_in_joint_i_2 +
+        t376 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t374 - h_i_dot_omega_i * t375);
     jac_phi_q_v_A_j[31] = omega_j_in_joint_i_2 * t377 + t376 * s_j_in_joint_i_0 - (t374 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t378) - (h_i_dot_omega_i * t377 - f_i_dot_omega_i * t374);
-    const jg_real t379 = C_j[8] * h_i_world_0;
-    const jg_real t380 = C_j[8] * g_i_world_0;
-    jac_phi_q_v_A_j[32] = t373 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t379 - (t376 * h_j_in_joint_i_1 + t380 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t379 - h_i_dot_omega_i * t380);
-    const jg_real t381 = C_j[6] * t291 + C_j[7] * t335;
-    jac_phi_q_v_A_j[33] = t376 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t381 - (h_j_in_joint_i_2 * t378 + t379 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t381 - f_i_dot_omega_i * t379);
-    const jg_real t382 = C_j[2] * h_i_world_0;
-    const jg_real t383 = C_j[0] * t291 + C_j[1] * t335;
-    const jg_real t384 = C_j[2] * g_i_world_0;
+        s_j_in_joint_i_2 * t378) - (h_i_dot_omega_i * t377 - t374 * f_i_dot_omega_i);
+    const jg_real t379 = h_i_world_0 * C_j[8];
+    const jg_real t380 = g_i_world_0 * C_j[8];
+    const jg_real t381 = t291 * C_j[6] + t335 * C_j[7];
+    const jg_real t382 = h_i_world_0 * C_j[2];
+    const jg_real t383 = t291 * C_j[0] + t335 * C_j[1];
+    const jg_real t384 = g_i_world_0 * C_j[2];
     const jg_real t385 = t382 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[34] = t375 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t378 - (omega_j_in_joint_i_1 * t377 +
-        t373 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t375 - g_i_dot_omega_i * t377 + (t75 * (t382 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t384 + f_i_dot_omega_i * t383 + h_i_dot_omega_i * t382 - (t376 *
-        h_i_dot_f_j + t382 * omega_j_in_joint_i_2 + (t373 * g_i_dot_f_j + t384 * omega_j_in_joint_i_1 + (t378 *
-        f_i_dot_f_j + t383 * omega_j_in_joint_i_0)))) + t376) + (t385 + t385) * t76 * pitch * t78));
     const jg_real t386 = omega_j[2] * g_i_world_1;
     const jg_real t387 = s_j[2] * h_i_world_1;
     const jg_real t388 = s_j[2] * g_i_world_1;
     const jg_real t389 = omega_j[2] * h_i_world_1;
-    jac_phi_q_v_A_j[35] = t387 * omega_j_in_joint_i_1 + t386 * s_j_in_joint_i_2 - (t388 * omega_j_in_joint_i_2 +
-        t389 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t387 - h_i_dot_omega_i * t388);
     const jg_real t390 = s_j[0] * t306 + s_j[1] * t349;
     const jg_real t391 = omega_j[0] * t306 + omega_j[1] * t349;
-    jac_phi_q_v_A_j[36] = omega_j_in_joint_i_2 * t390 + t389 * s_j_in_joint_i_0 - (t387 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t391) - (h_i_dot_omega_i * t390 - f_i_dot_omega_i * t387);
-    const jg_real t392 = C_j[8] * h_i_world_1;
-    const jg_real t393 = C_j[8] * g_i_world_1;
-    jac_phi_q_v_A_j[37] = t386 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t392 - (t389 * h_j_in_joint_i_1 + t393 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t392 - h_i_dot_omega_i * t393);
-    const jg_real t394 = C_j[6] * t306 + C_j[7] * t349;
-    jac_phi_q_v_A_j[38] = t389 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t394 - (h_j_in_joint_i_2 * t391 + t392 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t394 - f_i_dot_omega_i * t392);
-    const jg_real t395 = C_j[2] * h_i_world_1;
-    const jg_real t396 = C_j[0] * t306 + C_j[1] * t349;
-    const jg_real t397 = C_j[2] * g_i_world_1;
+    const jg_real t392 = h_i_world_1 * C_j[8];
+    const jg_real t393 = g_i_world_1 * C_j[8];
+    const jg_real t394 = t306 * C_j[6] + t349 * C_j[7];
+    const jg_real t395 = h_i_world_1 * C_j[2];
+    const jg_real t396 = t306 * C_j[0] + t349 * C_j[1];
+    const jg_real t397 = g_i_world_1 * C_j[2];
     const jg_real t398 = t395 * h_i_dot_f_j;
+    jac_phi_q_v_A_j[32] = t373 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t379 - (t376 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t380) - (g_i_dot_omega_i * t379 - h_i_dot_omega_i * t380);
+    jac_phi_q_v_A_j[33] = t376 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t381 - (t378 * h_j_in_joint_i_2 + t379 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t381 - f_i_dot_omega_i * t379);
+    jac_phi_q_v_A_j[34] = t375 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t378 - (omega_j_in_joint_i_1 * t377 +
+        t373 * s_j_in_joint_i_0) - (t375 * f_i_dot_omega_i - g_i_dot_omega_i * t377 + ((t382 * t73 + h_i_dot_f_j *
+        (f_i_dot_omega_i * t383 + g_i_dot_omega_i * t384 + h_i_dot_omega_i * t382 - (t378 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t383 + (t373 * g_i_dot_f_j + omega_j_in_joint_i_1 * t384) + (t376 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t382))) + t376) * t75 + (t385 + t385) * t77 * pitch * t76));
+    jac_phi_q_v_A_j[35] = omega_j_in_joint_i_1 * t387 + t386 * s_j_in_joint_i_2 - (t388 * omega_j_in_joint_i_2 +
+        t389 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t387 - h_i_dot_omega_i * t388);
+    jac_phi_q_v_A_j[36] = omega_j_in_joint_i_2 * t390 + t389 * s_j_in_joint_i_0 - (t387 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t391) - (h_i_dot_omega_i * t390 - t387 * f_i_dot_omega_i);
+    jac_phi_q_v_A_j[37] = t386 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t392 - (t389 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t393) - (g_i_dot_omega_i * t392 - h_i_dot_omega_i * t393);
+    jac_phi_q_v_A_j[38] = t389 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t394 - (t391 * h_j_in_joint_i_2 + t392 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t394 - f_i_dot_omega_i * t392);
     jac_phi_q_v_A_j[39] = t388 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t391 - (omega_j_in_joint_i_1 * t390 +
-        t386 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t388 - g_i_dot_omega_i * t390 + (t75 * (t395 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t397 + f_i_dot_omega_i * t396 + h_i_dot_omega_i * t395 - (t389 *
-        h_i_dot_f_j + t395 * omega_j_in_joint_i_2 + (t386 * g_i_dot_f_j + t397 * omega_j_in_joint_i_1 + (t391 *
-        f_i_dot_f_j + t396 * omega_j_in_joint_i_0)))) + t389) + (t398 + t398) * t76 * pitch * t78));
+        t386 * s_j_in_joint_i_0) - (t388 * f_i_dot_omega_i - g_i_dot_omega_i * t390 + ((t395 * t73 + h_i_dot_f_j *
+        (f_i_dot_omega_i * t396 + g_i_dot_omega_i * t397 + h_i_dot_omega_i * t395 - (t391 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t396 + (t386 * g_i_dot_f_j + omega_j_in_joint_i_1 * t397) + (t389 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t395))) + t389) * t75 + (t398 + t398) * t77 * pitch * t76));
     const jg_real t399 = omega_j[2] * g_i_world_2;
     const jg_real t400 = s_j[2] * h_i_world_2;
     const jg_real t401 = s_j[2] * g_i_world_2;
     const jg_real t402 = omega_j[2] * h_i_world_2;
-    jac_phi_q_v_A_j[40] = t400 * omega_j_in_joint_i_1 + t399 * s_j_in_joint_i_2 - (t401 * omega_j_in_joint_i_2 +
-        t402 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t400 - h_i_dot_omega_i * t401);
     const jg_real t403 = s_j[0] * t321 + s_j[1] * t363;
     const jg_real t404 = omega_j[0] * t321 + omega_j[1] * t363;
-    jac_phi_q_v_A_j[41] = omega_j_in_joint_i_2 * t403 + t402 * s_j_in_joint_i_0 - (t400 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t404) - (h_i_dot_omega_i * t403 - f_i_dot_omega_i * t400);
-    const jg_real t405 = C_j[8] * h_i_world_2;
+    const jg_real t405 = h_i_world_2 * C_j[8];
     const jg_real t406 = g_i_world_2 * C_j[8];
-    jac_phi_q_v_A_j[42] = t399 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t405 - (t402 * h_j_in_joint_i_1 + t406 *
-        omega_j_in_joint_i_2) - (g_i_dot_omega_i * t405 - h_i_dot_omega_i * t406);
-    const jg_real t407 = C_j[6] * t321 + C_j[7] * t363;
-    jac_phi_q_v_A_j[43] = t402 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t407 - (h_j_in_joint_i_2 * t404 + t405 *
-        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t407 - f_i_dot_omega_i * t405);
-    const jg_real t408 = C_j[2] * h_i_world_2;
-    const jg_real t409 = C_j[0] * t321 + C_j[1] * t363;
+    const jg_real t407 = t321 * C_j[6] + t363 * C_j[7];
+    const jg_real t408 = h_i_world_2 * C_j[2];
+    const jg_real t409 = t321 * C_j[0] + t363 * C_j[1];
     const jg_real t410 = g_i_world_2 * C_j[2];
     const jg_real t411 = t408 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[44] = t401 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t404 - (omega_j_in_joint_i_1 * t403 +
-        t399 * s_j_in_joint_i_0) - (f_i_dot_omega_i * t401 - g_i_dot_omega_i * t403 + (t75 * (t408 * t73 +
-        h_i_dot_f_j * (g_i_dot_omega_i * t410 + f_i_dot_omega_i * t409 + h_i_dot_omega_i * t408 - (t402 *
-        h_i_dot_f_j + t408 * omega_j_in_joint_i_2 + (t399 * g_i_dot_f_j + t410 * omega_j_in_joint_i_1 + (t404 *
-        f_i_dot_f_j + t409 * omega_j_in_joint_i_0)))) + t402) + (t411 + t411) * t76 * pitch * t78));
     const jg_real t412 = A_i[1] * g_i_world_2 - A_i[2] * g_i_world_1;
     const jg_real t413 = A_i[2] * g_i_world_0 - A_i[0] * g_i_world_2;
     const jg_real t414 = A_i[0] * g_i_world_1 - A_i[1] * g_i_world_0;
@@ -1047,9 +1033,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t419 = omega_j[0] * t415 + omega_j[1] * t416 + omega_j[2] * t417;
     const jg_real t420 = r_ij_world_0 * t412 + r_ij_world_1 * t413 + r_ij_world_2 * t414;
     const jg_real t421 = A_i[1] * v_i[1] + A_i[0] * v_i[0] + A_i[2] * v_i[2];
-    const jg_real t422 = A_i[1] * v_j[1] + A_i[0] * v_j[0] + A_i[2] * v_j[2];
-    jac_phi_q_v_geometry[0] = omega_j_in_joint_i_1 * t418 - s_j_in_joint_i_1 * t419 - (g_i_dot_omega_i * t420 +
-        g_i_dot_omega_i * t418 + t421 - t422);
+    const jg_real t422 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real t423 = g_i_in_j_1 * t417 - g_i_in_j_2 * t416;
     const jg_real t424 = g_i_in_j_2 * t415 - g_i_in_j_0 * t417;
     const jg_real t425 = g_i_in_j_0 * t416 - g_i_in_j_1 * t415;
@@ -1062,27 +1046,35 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t430 = omega_i[0] * r_ij_in_joint_i_2;
     const jg_real t431 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
     const jg_real t432 = h_i_dot_omega_i * t431;
+    const jg_real t433 = t415 * C_j[6] + t416 * C_j[7] + t417 * C_j[8];
+    jac_phi_q_v_A_j[40] = omega_j_in_joint_i_1 * t400 + t399 * s_j_in_joint_i_2 - (t401 * omega_j_in_joint_i_2 +
+        t402 * s_j_in_joint_i_1) - (g_i_dot_omega_i * t400 - h_i_dot_omega_i * t401);
+    jac_phi_q_v_A_j[41] = omega_j_in_joint_i_2 * t403 + t402 * s_j_in_joint_i_0 - (t400 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t404) - (h_i_dot_omega_i * t403 - t400 * f_i_dot_omega_i);
+    jac_phi_q_v_A_j[42] = t399 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t405 - (t402 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t406) - (g_i_dot_omega_i * t405 - h_i_dot_omega_i * t406);
+    jac_phi_q_v_A_j[43] = t402 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t407 - (t404 * h_j_in_joint_i_2 + t405 *
+        omega_j_in_joint_i_0) - (h_i_dot_omega_i * t407 - f_i_dot_omega_i * t405);
+    jac_phi_q_v_A_j[44] = t401 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t404 - (omega_j_in_joint_i_1 * t403 +
+        t399 * s_j_in_joint_i_0) - (t401 * f_i_dot_omega_i - g_i_dot_omega_i * t403 + ((t408 * t73 + h_i_dot_f_j *
+        (f_i_dot_omega_i * t409 + g_i_dot_omega_i * t410 + h_i_dot_omega_i * t408 - (t404 * f_i_dot_f_j +
+        omega_j_in_joint_i_0 * t409 + (t399 * g_i_dot_f_j + omega_j_in_joint_i_1 * t410) + (t402 * h_i_dot_f_j +
+        omega_j_in_joint_i_2 * t408))) + t402) * t75 + (t411 + t411) * t77 * pitch * t76));
+    jac_phi_q_v_geometry[0] = omega_j_in_joint_i_1 * t418 - s_j_in_joint_i_1 * t419 - (g_i_dot_omega_i * t420 +
+        g_i_dot_omega_i * t418 + t421 - t422);
     jac_phi_q_v_geometry[1] = omega_j_in_joint_i_2 * t426 + t419 * s_j_in_joint_i_0 - (t418 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t427) - (t432 - (t430 + f_i_dot_omega_i * t420) + (h_i_dot_omega_i * t426 - (t428 +
-        f_i_dot_omega_i * t418)));
-    const jg_real t433 = C_j[6] * t415 + C_j[7] * t416 + C_j[8] * t417;
+        s_j_in_joint_i_2 * t427) - (t432 - (t430 + t420 * f_i_dot_omega_i) + (h_i_dot_omega_i * t426 - (t428 + t418
+        * f_i_dot_omega_i)));
     jac_phi_q_v_geometry[2] = omega_j_in_joint_i_1 * t433 - t419 * h_j_in_joint_i_1 - g_i_dot_omega_i * t433;
-    const jg_real t434 = C_j[6] * t423 + C_j[7] * t424 + C_j[8] * t425;
+    const jg_real t434 = t423 * C_j[6] + t424 * C_j[7] + t425 * C_j[8];
     const jg_real t435 = omega_i[0] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[3] = t419 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t434 - (h_j_in_joint_i_2 * t427 +
-        t433 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t434 - (t435 + f_i_dot_omega_i * t433));
-    const jg_real t436 = C_j[0] * t415 + C_j[1] * t416 + C_j[2] * t417;
-    const jg_real t437 = C_j[0] * t423 + C_j[1] * t424 + C_j[2] * t425;
+    const jg_real t436 = t415 * C_j[0] + t416 * C_j[1] + t417 * C_j[2];
+    const jg_real t437 = t423 * C_j[0] + t424 * C_j[1] + t425 * C_j[2];
     const jg_real t438 = h_i_dot_f_j * t436;
-    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + r_ij_world_1 * g_i_world_1 + r_ij_world_2 *
-        g_i_world_2;
+    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
+        r_ij_world_2;
     const jg_real t440 = omega_i[0] * r_ij_in_joint_i_1;
     const jg_real t441 = omega_i[0] * s_j_in_joint_i_1;
-    jac_phi_q_v_geometry[4] = s_j_in_joint_i_1 * t427 - omega_j_in_joint_i_1 * t426 - (v_i[0] * t412 + v_i[1] * t413
-        + v_i[2] * t414 + (t441 - g_i_dot_omega_i * t426 + (t440 - g_i_dot_omega_i * t431 + (t75 * (t436 * t73 +
-        h_i_dot_f_j * (omega_i[0] * f_i_dot_f_j + f_i_dot_omega_i * t437 + h_i_dot_omega_i * t436 - (t419 *
-        h_i_dot_f_j + omega_j_in_joint_i_2 * t436 + (t427 * f_i_dot_f_j + omega_j_in_joint_i_0 * t437))) + t419) +
-        (t438 + t438) * t76 * pitch * t78))) - (v_j[0] * t412 + v_j[1] * t413 + v_j[2] * t414));
     const jg_real t442 = A_i[4] * g_i_world_2 - A_i[5] * g_i_world_1;
     const jg_real t443 = A_i[5] * g_i_world_0 - A_i[3] * g_i_world_2;
     const jg_real t444 = A_i[3] * g_i_world_1 - A_i[4] * g_i_world_0;
@@ -1093,9 +1085,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t449 = omega_j[0] * t445 + omega_j[1] * t446 + omega_j[2] * t447;
     const jg_real t450 = r_ij_world_0 * t442 + r_ij_world_1 * t443 + r_ij_world_2 * t444;
     const jg_real t451 = A_i[4] * v_i[1] + A_i[3] * v_i[0] + A_i[5] * v_i[2];
-    const jg_real t452 = A_i[4] * v_j[1] + A_i[3] * v_j[0] + A_i[5] * v_j[2];
-    jac_phi_q_v_geometry[5] = omega_j_in_joint_i_1 * t448 - s_j_in_joint_i_1 * t449 - (g_i_dot_omega_i * t450 +
-        g_i_dot_omega_i * t448 + t451 - t452);
+    const jg_real t452 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
     const jg_real t453 = g_i_in_j_1 * t447 - g_i_in_j_2 * t446;
     const jg_real t454 = g_i_in_j_2 * t445 - g_i_in_j_0 * t447;
     const jg_real t455 = g_i_in_j_0 * t446 - g_i_in_j_1 * t445;
@@ -1105,25 +1095,14 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t459 = omega_i[1] * r_ij_in_joint_i_2;
     const jg_real t460 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
     const jg_real t461 = h_i_dot_omega_i * t460;
-    jac_phi_q_v_geometry[6] = omega_j_in_joint_i_2 * t456 + t449 * s_j_in_joint_i_0 - (t448 * omega_j_in_joint_i_0 +
-        s_j_in_joint_i_2 * t457) - (t461 - (t459 + f_i_dot_omega_i * t450) + (h_i_dot_omega_i * t456 - (t458 +
-        f_i_dot_omega_i * t448)));
-    const jg_real t462 = C_j[6] * t445 + C_j[7] * t446 + C_j[8] * t447;
-    jac_phi_q_v_geometry[7] = omega_j_in_joint_i_1 * t462 - t449 * h_j_in_joint_i_1 - g_i_dot_omega_i * t462;
-    const jg_real t463 = C_j[6] * t453 + C_j[7] * t454 + C_j[8] * t455;
+    const jg_real t462 = t445 * C_j[6] + t446 * C_j[7] + t447 * C_j[8];
+    const jg_real t463 = t453 * C_j[6] + t454 * C_j[7] + t455 * C_j[8];
     const jg_real t464 = omega_i[1] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[8] = t449 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t463 - (h_j_in_joint_i_2 * t457 +
-        t462 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t463 - (t464 + f_i_dot_omega_i * t462));
-    const jg_real t465 = C_j[0] * t445 + C_j[1] * t446 + C_j[2] * t447;
-    const jg_real t466 = C_j[0] * t453 + C_j[1] * t454 + C_j[2] * t455;
+    const jg_real t465 = t445 * C_j[0] + t446 * C_j[1] + t447 * C_j[2];
+    const jg_real t466 = t453 * C_j[0] + t454 * C_j[1] + t455 * C_j[2];
     const jg_real t467 = h_i_dot_f_j * t465;
     const jg_real t468 = omega_i[1] * r_ij_in_joint_i_1;
     const jg_real t469 = omega_i[1] * s_j_in_joint_i_1;
-    jac_phi_q_v_geometry[9] = s_j_in_joint_i_1 * t457 - omega_j_in_joint_i_1 * t456 - (v_i[0] * t442 + v_i[1] * t443
-        + v_i[2] * t444 + (t469 - g_i_dot_omega_i * t456 + (t468 - g_i_dot_omega_i * t460 + (t75 * (t465 * t73 +
-        h_i_dot_f_j * (omega_i[1] * f_i_dot_f_j + f_i_dot_omega_i * t466 + h_i_dot_omega_i * t465 - (t449 *
-        h_i_dot_f_j + omega_j_in_joint_i_2 * t465 + (t457 * f_i_dot_f_j + omega_j_in_joint_i_0 * t466))) + t449) +
-        (t467 + t467) * t76 * pitch * t78))) - (v_j[0] * t442 + v_j[1] * t443 + v_j[2] * t444));
     const jg_real t470 = A_i[7] * g_i_world_2 - A_i[8] * g_i_world_1;
     const jg_real t471 = A_i[8] * g_i_world_0 - A_i[6] * g_i_world_2;
     const jg_real t472 = A_i[6] * g_i_world_1 - A_i[7] * g_i_world_0;
@@ -1134,7 +1113,27 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t477 = omega_j[0] * t473 + omega_j[1] * t474 + omega_j[2] * t475;
     const jg_real t478 = r_ij_world_0 * t470 + r_ij_world_1 * t471 + r_ij_world_2 * t472;
     const jg_real t479 = A_i[7] * v_i[1] + A_i[6] * v_i[0] + A_i[8] * v_i[2];
-    const jg_real t480 = A_i[7] * v_j[1] + A_i[6] * v_j[0] + A_i[8] * v_j[2];
+    const jg_real t480 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
+    jac_phi_q_v_geometry[3] = t419 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t434 - (t427 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t433) - (h_i_dot_omega_i * t434 - (t435 + f_i_dot_omega_i * t433));
+    jac_phi_q_v_geometry[4] = s_j_in_joint_i_1 * t427 - omega_j_in_joint_i_1 * t426 - (v_i[0] * t412 + v_i[1] * t413
+        + t414 * v_i[2] + (t441 - g_i_dot_omega_i * t426 + (t440 - g_i_dot_omega_i * t431 + ((t436 * t73 +
+        h_i_dot_f_j * (omega_i[0] * f_i_dot_f_j + f_i_dot_omega_i * t437 + h_i_dot_omega_i * t436 - (t427 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t437 + (t419 * h_i_dot_f_j + omega_j_in_joint_i_2 * t436))) + t419) *
+        t75 + (t438 + t438) * t77 * pitch * t76))) - (t412 * v_j[0] + t413 * v_j[1] + t414 * v_j[2]));
+    jac_phi_q_v_geometry[5] = omega_j_in_joint_i_1 * t448 - s_j_in_joint_i_1 * t449 - (g_i_dot_omega_i * t450 +
+        g_i_dot_omega_i * t448 + t451 - t452);
+    jac_phi_q_v_geometry[6] = omega_j_in_joint_i_2 * t456 + t449 * s_j_in_joint_i_0 - (t448 * omega_j_in_joint_i_0 +
+        s_j_in_joint_i_2 * t457) - (t461 - (t459 + t450 * f_i_dot_omega_i) + (h_i_dot_omega_i * t456 - (t458 + t448
+        * f_i_dot_omega_i)));
+    jac_phi_q_v_geometry[7] = omega_j_in_joint_i_1 * t462 - t449 * h_j_in_joint_i_1 - g_i_dot_omega_i * t462;
+    jac_phi_q_v_geometry[8] = t449 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t463 - (t457 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t462) - (h_i_dot_omega_i * t463 - (t464 + f_i_dot_omega_i * t462));
+    jac_phi_q_v_geometry[9] = s_j_in_joint_i_1 * t457 - omega_j_in_joint_i_1 * t456 - (v_i[0] * t442 + v_i[1] * t443
+        + t444 * v_i[2] + (t469 - g_i_dot_omega_i * t456 + (t468 - g_i_dot_omega_i * t460 + ((t465 * t73 +
+        h_i_dot_f_j * (omega_i[1] * f_i_dot_f_j + f_i_dot_omega_i * t466 + h_i_dot_omega_i * t465 - (t457 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t466 + (t449 * h_i_dot_f_j + omega_j_in_joint_i_2 * t465))) + t449) *
+        t75 + (t467 + t467) * t77 * pitch * t76))) - (t442 * v_j[0] + t443 * v_j[1] + t444 * v_j[2]));
     jac_phi_q_v_geometry[10] = omega_j_in_joint_i_1 * t476 - s_j_in_joint_i_1 * t477 - (g_i_dot_omega_i * t478 +
         g_i_dot_omega_i * t476 + t479 - t480);
     const jg_real t481 = g_i_in_j_1 * t475 - g_i_in_j_2 * t474;
@@ -1146,28 +1145,17 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t487 = omega_i[2] * r_ij_in_joint_i_2;
     const jg_real t488 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
     const jg_real t489 = h_i_dot_omega_i * t488;
-    jac_phi_q_v_geometry[11] = omega_j_in_joint_i_2 * t484 + t477 * s_j_in_joint_i_0 - (t476 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t485) - (t489 - (t487 + f_i_dot_omega_i * t478) + (h_i_dot_omega_i * t484 - (t486 +
-        f_i_dot_omega_i * t476)));
-    const jg_real t490 = C_j[6] * t473 + C_j[7] * t474 + C_j[8] * t475;
-    jac_phi_q_v_geometry[12] = omega_j_in_joint_i_1 * t490 - t477 * h_j_in_joint_i_1 - g_i_dot_omega_i * t490;
-    const jg_real t491 = C_j[6] * t481 + C_j[7] * t482 + C_j[8] * t483;
+    const jg_real t490 = t473 * C_j[6] + t474 * C_j[7] + t475 * C_j[8];
+    const jg_real t491 = t481 * C_j[6] + t482 * C_j[7] + t483 * C_j[8];
     const jg_real t492 = omega_i[2] * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[13] = t477 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t491 - (h_j_in_joint_i_2 * t485 +
-        t490 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t491 - (t492 + f_i_dot_omega_i * t490));
-    const jg_real t493 = C_j[0] * t473 + C_j[1] * t474 + C_j[2] * t475;
-    const jg_real t494 = C_j[0] * t481 + C_j[1] * t482 + C_j[2] * t483;
+    const jg_real t493 = t473 * C_j[0] + t474 * C_j[1] + t475 * C_j[2];
+    const jg_real t494 = t481 * C_j[0] + t482 * C_j[1] + t483 * C_j[2];
     const jg_real t495 = h_i_dot_f_j * t493;
     const jg_real t496 = omega_i[2] * r_ij_in_joint_i_1;
     const jg_real t497 = omega_i[2] * s_j_in_joint_i_1;
-    jac_phi_q_v_geometry[14] = s_j_in_joint_i_1 * t485 - omega_j_in_joint_i_1 * t484 - (v_i[0] * t470 + v_i[1] *
-        t471 + v_i[2] * t472 + (t497 - g_i_dot_omega_i * t484 + (t496 - g_i_dot_omega_i * t488 + (t75 * (t493 * t73
-        + h_i_dot_f_j * (omega_i[2] * f_i_dot_f_j + f_i_dot_omega_i * t494 + h_i_dot_omega_i * t493 - (t477 *
-        h_i_dot_f_j + omega_j_in_joint_i_2 * t493 + (t485 * f_i_dot_f_j + omega_j_in_joint_i_0 * t494))) + t477) +
-        (t495 + t495) * t76 * pitch * t78))) - (v_j[0] * t470 + v_j[1] * t471 + v_j[2] * t472));
     const jg_real t498 = A_i[1] * A_j[1] + A_j[0] * A_i[0] + A_i[2] * A_j[2];
     const jg_real t499 = A_i[1] * A_j[4] + A_i[0] * A_j[3] + A_i[2] * A_j[5];
-    const jg_real t500 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    const jg_real t500 = A_i[1] * A_j[7] + A_i[0] * A_j[6] + A_i[2] * A_j[8];
     const jg_real t501 = omega_j[0] * t498 + omega_j[1] * t499 + omega_j[2] * t500;
     const jg_real t502 = A_i[2] * f_i_world_1 - A_i[1] * f_i_world_2;
     const jg_real t503 = A_i[0] * f_i_world_2 - A_i[2] * f_i_world_0;
@@ -1179,42 +1167,46 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t509 = s_j[0] * t498 + s_j[1] * t499 + s_j[2] * t500;
     const jg_real t510 = omega_j[0] * t505 + omega_j[1] * t506 + omega_j[2] * t507;
     const jg_real t511 = r_ij_world_0 * t502 + r_ij_world_1 * t503 + r_ij_world_2 * t504;
-    jac_phi_q_v_geometry[15] = omega_j_in_joint_i_1 * t508 + t501 * s_j_in_joint_i_2 - (t509 * omega_j_in_joint_i_2
-        + s_j_in_joint_i_1 * t510) - (g_i_dot_omega_i * t511 + t430 - t432 + (t428 + g_i_dot_omega_i * t508 -
-        h_i_dot_omega_i * t509));
     const jg_real t512 = t499 * h_i_in_j_2 + g_i_in_j_1 * t507 - (t500 * h_i_in_j_1 + g_i_in_j_2 * t506);
     const jg_real t513 = t500 * h_i_in_j_0 + g_i_in_j_2 * t505 - (t498 * h_i_in_j_2 + g_i_in_j_0 * t507);
     const jg_real t514 = t498 * h_i_in_j_1 + g_i_in_j_0 * t506 - (t499 * h_i_in_j_0 + g_i_in_j_1 * t505);
     const jg_real t515 = s_j[0] * t512 + s_j[1] * t513 + s_j[2] * t514;
     const jg_real t516 = omega_j[0] * t512 + omega_j[1] * t513 + omega_j[2] * t514;
+    const jg_real t517 = t505 * C_j[6] + t506 * C_j[7] + t507 * C_j[8];
+    const jg_real t518 = t498 * C_j[6] + t499 * C_j[7] + t500 * C_j[8];
+    const jg_real t519 = t512 * C_j[6] + t513 * C_j[7] + t514 * C_j[8];
+    jac_phi_q_v_geometry[11] = omega_j_in_joint_i_2 * t484 + t477 * s_j_in_joint_i_0 - (t476 * omega_j_in_joint_i_0
+        + s_j_in_joint_i_2 * t485) - (t489 - (t487 + t478 * f_i_dot_omega_i) + (h_i_dot_omega_i * t484 - (t486 +
+        t476 * f_i_dot_omega_i)));
+    jac_phi_q_v_geometry[12] = omega_j_in_joint_i_1 * t490 - t477 * h_j_in_joint_i_1 - g_i_dot_omega_i * t490;
+    jac_phi_q_v_geometry[13] = t477 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t491 - (t485 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t490) - (h_i_dot_omega_i * t491 - (t492 + f_i_dot_omega_i * t490));
+    jac_phi_q_v_geometry[14] = s_j_in_joint_i_1 * t485 - omega_j_in_joint_i_1 * t484 - (v_i[0] * t470 + v_i[1] *
+        t471 + t472 * v_i[2] + (t497 - g_i_dot_omega_i * t484 + (t496 - g_i_dot_omega_i * t488 + ((t493 * t73 +
+        h_i_dot_f_j * (omega_i[2] * f_i_dot_f_j + f_i_dot_omega_i * t494 + h_i_dot_omega_i * t493 - (t485 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t494 + (t477 * h_i_dot_f_j + omega_j_in_joint_i_2 * t493))) + t477) *
+        t75 + (t495 + t495) * t77 * pitch * t76))) - (t470 * v_j[0] + t471 * v_j[1] + t472 * v_j[2]));
+    jac_phi_q_v_geometry[15] = omega_j_in_joint_i_1 * t508 + t501 * s_j_in_joint_i_2 - (t509 * omega_j_in_joint_i_2
+        + s_j_in_joint_i_1 * t510) - (g_i_dot_omega_i * t511 + t430 - t432 + (t428 + g_i_dot_omega_i * t508 -
+        h_i_dot_omega_i * t509));
     jac_phi_q_v_geometry[16] = omega_j_in_joint_i_2 * t515 + t510 * s_j_in_joint_i_0 - (t508 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t516) - (h_i_dot_omega_i * t515 - f_i_dot_omega_i * t508 - f_i_dot_omega_i * t511 +
+        + s_j_in_joint_i_2 * t516) - (h_i_dot_omega_i * t515 - t508 * f_i_dot_omega_i - t511 * f_i_dot_omega_i +
         t421 - t422);
-    const jg_real t517 = C_j[6] * t505 + C_j[7] * t506 + C_j[8] * t507;
-    const jg_real t518 = C_j[6] * t498 + C_j[7] * t499 + C_j[8] * t500;
     jac_phi_q_v_geometry[17] = t501 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t517 - (t510 * h_j_in_joint_i_1 +
         omega_j_in_joint_i_2 * t518) - (t435 + g_i_dot_omega_i * t517 - h_i_dot_omega_i * t518);
-    const jg_real t519 = C_j[6] * t512 + C_j[7] * t513 + C_j[8] * t514;
-    jac_phi_q_v_geometry[18] = t510 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t519 - (h_j_in_joint_i_2 * t516 +
-        t517 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t519 - f_i_dot_omega_i * t517);
-    const jg_real t520 = C_j[0] * t512 + C_j[1] * t513 + C_j[2] * t514;
-    const jg_real t521 = C_j[0] * t498 + C_j[1] * t499 + C_j[2] * t500;
-    const jg_real t522 = C_j[0] * t505 + C_j[1] * t506 + C_j[2] * t507;
+    jac_phi_q_v_geometry[18] = t510 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t519 - (t516 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t517) - (h_i_dot_omega_i * t519 - f_i_dot_omega_i * t517);
+    const jg_real t520 = t512 * C_j[0] + t513 * C_j[1] + t514 * C_j[2];
+    const jg_real t521 = t498 * C_j[0] + t499 * C_j[1] + t500 * C_j[2];
+    const jg_real t522 = t505 * C_j[0] + t506 * C_j[1] + t507 * C_j[2];
     const jg_real t523 = h_i_dot_f_j * t522;
-    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + r_ij_world_1 * f_i_world_1 + r_ij_world_2 *
-        f_i_world_2;
+    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     const jg_real t525 = omega_i[0] * r_ij_in_joint_i_0;
     const jg_real t526 = omega_i[0] * s_j_in_joint_i_0;
-    jac_phi_q_v_geometry[19] = t509 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t516 - (omega_j_in_joint_i_1 * t515
-        + t501 * s_j_in_joint_i_0) - (v_i[0] * t502 + v_i[1] * t503 + v_i[2] * t504 + (f_i_dot_omega_i * t509 -
-        (t526 + g_i_dot_omega_i * t515) + (f_i_dot_omega_i * t431 - t525 + (t75 * (t522 * t73 + h_i_dot_f_j *
-        (omega_i[0] * g_i_dot_f_j + g_i_dot_omega_i * t521 + f_i_dot_omega_i * t520 + h_i_dot_omega_i * t522 - (t510
-        * h_i_dot_f_j + omega_j_in_joint_i_2 * t522 + (t501 * g_i_dot_f_j + omega_j_in_joint_i_1 * t521 + (t516 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t520)))) + t510) + (t523 + t523) * t76 * pitch * t78))) - (v_j[0] *
-        t502 + v_j[1] * t503 + v_j[2] * t504));
     const jg_real t527 = A_i[4] * A_j[1] + A_j[0] * A_i[3] + A_i[5] * A_j[2];
     const jg_real t528 = A_i[4] * A_j[4] + A_i[3] * A_j[3] + A_i[5] * A_j[5];
-    const jg_real t529 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
+    const jg_real t529 = A_i[4] * A_j[7] + A_i[3] * A_j[6] + A_i[5] * A_j[8];
     const jg_real t530 = omega_j[0] * t527 + omega_j[1] * t528 + omega_j[2] * t529;
     const jg_real t531 = A_i[5] * f_i_world_1 - A_i[4] * f_i_world_2;
     const jg_real t532 = A_i[3] * f_i_world_2 - A_i[5] * f_i_world_0;
@@ -1226,40 +1218,23 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t538 = s_j[0] * t527 + s_j[1] * t528 + s_j[2] * t529;
     const jg_real t539 = omega_j[0] * t534 + omega_j[1] * t535 + omega_j[2] * t536;
     const jg_real t540 = r_ij_world_0 * t531 + r_ij_world_1 * t532 + r_ij_world_2 * t533;
-    jac_phi_q_v_geometry[20] = omega_j_in_joint_i_1 * t537 + t530 * s_j_in_joint_i_2 - (t538 * omega_j_in_joint_i_2
-        + s_j_in_joint_i_1 * t539) - (g_i_dot_omega_i * t540 + t459 - t461 + (t458 + g_i_dot_omega_i * t537 -
-        h_i_dot_omega_i * t538));
     const jg_real t541 = t528 * h_i_in_j_2 + g_i_in_j_1 * t536 - (t529 * h_i_in_j_1 + g_i_in_j_2 * t535);
     const jg_real t542 = t529 * h_i_in_j_0 + g_i_in_j_2 * t534 - (t527 * h_i_in_j_2 + g_i_in_j_0 * t536);
     const jg_real t543 = t527 * h_i_in_j_1 + g_i_in_j_0 * t535 - (t528 * h_i_in_j_0 + g_i_in_j_1 * t534);
     const jg_real t544 = s_j[0] * t541 + s_j[1] * t542 + s_j[2] * t543;
     const jg_real t545 = omega_j[0] * t541 + omega_j[1] * t542 + omega_j[2] * t543;
-    jac_phi_q_v_geometry[21] = omega_j_in_joint_i_2 * t544 + t539 * s_j_in_joint_i_0 - (t537 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t545) - (h_i_dot_omega_i * t544 - f_i_dot_omega_i * t537 - f_i_dot_omega_i * t540 +
-        t451 - t452);
-    const jg_real t546 = C_j[6] * t534 + C_j[7] * t535 + C_j[8] * t536;
-    const jg_real t547 = C_j[6] * t527 + C_j[7] * t528 + C_j[8] * t529;
-    jac_phi_q_v_geometry[22] = t530 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t546 - (t539 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t547) - (t464 + g_i_dot_omega_i * t546 - h_i_dot_omega_i * t547);
-    const jg_real t548 = C_j[6] * t541 + C_j[7] * t542 + C_j[8] * t543;
-    jac_phi_q_v_geometry[23] = t539 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t548 - (h_j_in_joint_i_2 * t545 +
-        t546 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t548 - f_i_dot_omega_i * t546);
-    const jg_real t549 = C_j[0] * t541 + C_j[1] * t542 + C_j[2] * t543;
-    const jg_real t550 = C_j[0] * t527 + C_j[1] * t528 + C_j[2] * t529;
-    const jg_real t551 = C_j[0] * t534 + C_j[1] * t535 + C_j[2] * t536;
+    const jg_real t546 = t534 * C_j[6] + t535 * C_j[7] + t536 * C_j[8];
+    const jg_real t547 = t527 * C_j[6] + t528 * C_j[7] + t529 * C_j[8];
+    const jg_real t548 = t541 * C_j[6] + t542 * C_j[7] + t543 * C_j[8];
+    const jg_real t549 = t541 * C_j[0] + t542 * C_j[1] + t543 * C_j[2];
+    const jg_real t550 = t527 * C_j[0] + t528 * C_j[1] + t529 * C_j[2];
+    const jg_real t551 = t534 * C_j[0] + t535 * C_j[1] + t536 * C_j[2];
     const jg_real t552 = h_i_dot_f_j * t551;
     const jg_real t553 = omega_i[1] * r_ij_in_joint_i_0;
     const jg_real t554 = omega_i[1] * s_j_in_joint_i_0;
-    jac_phi_q_v_geometry[24] = t538 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t545 - (omega_j_in_joint_i_1 * t544
-        + t530 * s_j_in_joint_i_0) - (v_i[0] * t531 + v_i[1] * t532 + v_i[2] * t533 + (f_i_dot_omega_i * t538 -
-        (t554 + g_i_dot_omega_i * t544) + (f_i_dot_omega_i * t460 - t553 + (t75 * (t551 * t73 + h_i_dot_f_j *
-        (omega_i[1] * g_i_dot_f_j + g_i_dot_omega_i * t550 + f_i_dot_omega_i * t549 + h_i_dot_omega_i * t551 - (t539
-        * h_i_dot_f_j + omega_j_in_joint_i_2 * t551 + (t530 * g_i_dot_f_j + omega_j_in_joint_i_1 * t550 + (t545 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t549)))) + t539) + (t552 + t552) * t76 * pitch * t78))) - (v_j[0] *
-        t531 + v_j[1] * t532 + v_j[2] * t533));
     const jg_real t555 = A_i[7] * A_j[1] + A_j[0] * A_i[6] + A_i[8] * A_j[2];
     const jg_real t556 = A_i[7] * A_j[4] + A_i[6] * A_j[3] + A_i[8] * A_j[5];
-    const jg_real t557 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
+    const jg_real t557 = A_i[7] * A_j[7] + A_i[6] * A_j[6] + A_i[8] * A_j[8];
     const jg_real t558 = omega_j[0] * t555 + omega_j[1] * t556 + omega_j[2] * t557;
     const jg_real t559 = A_i[8] * f_i_world_1 - A_i[7] * f_i_world_2;
     const jg_real t560 = A_i[6] * f_i_world_2 - A_i[8] * f_i_world_0;
@@ -1271,37 +1246,61 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     const jg_real t566 = s_j[0] * t555 + s_j[1] * t556 + s_j[2] * t557;
     const jg_real t567 = omega_j[0] * t562 + omega_j[1] * t563 + omega_j[2] * t564;
     const jg_real t568 = r_ij_world_0 * t559 + r_ij_world_1 * t560 + r_ij_world_2 * t561;
-    jac_phi_q_v_geometry[25] = omega_j_in_joint_i_1 * t565 + t558 * s_j_in_joint_i_2 - (t566 * omega_j_in_joint_i_2
-        + s_j_in_joint_i_1 * t567) - (g_i_dot_omega_i * t568 + t487 - t489 + (t486 + g_i_dot_omega_i * t565 -
-        h_i_dot_omega_i * t566));
     const jg_real t569 = t556 * h_i_in_j_2 + g_i_in_j_1 * t564 - (t557 * h_i_in_j_1 + g_i_in_j_2 * t563);
     const jg_real t570 = t557 * h_i_in_j_0 + g_i_in_j_2 * t562 - (t555 * h_i_in_j_2 + g_i_in_j_0 * t564);
     const jg_real t571 = t555 * h_i_in_j_1 + g_i_in_j_0 * t563 - (t556 * h_i_in_j_0 + g_i_in_j_1 * t562);
     const jg_real t572 = s_j[0] * t569 + s_j[1] * t570 + s_j[2] * t571;
     const jg_real t573 = omega_j[0] * t569 + omega_j[1] * t570 + omega_j[2] * t571;
+    jac_phi_q_v_geometry[19] = t509 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t516 - (omega_j_in_joint_i_1 * t515
+        + t501 * s_j_in_joint_i_0) - (v_i[0] * t502 + v_i[1] * t503 + t504 * v_i[2] + (t509 * f_i_dot_omega_i -
+        (t526 + g_i_dot_omega_i * t515) + (t431 * f_i_dot_omega_i - t525 + ((t522 * t73 + h_i_dot_f_j * (omega_i[0]
+        * g_i_dot_f_j + g_i_dot_omega_i * t521 + f_i_dot_omega_i * t520 + h_i_dot_omega_i * t522 - (t516 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t520 + (t501 * g_i_dot_f_j + omega_j_in_joint_i_1 * t521) + (t510 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t522))) + t510) * t75 + (t523 + t523) * t77 * pitch * t76))) - (t502 *
+        v_j[0] + t503 * v_j[1] + t504 * v_j[2]));
+    jac_phi_q_v_geometry[20] = omega_j_in_joint_i_1 * t537 + t530 * s_j_in_joint_i_2 - (t538 * omega_j_in_joint_i_2
+        + s_j_in_joint_i_1 * t539) - (g_i_dot_omega_i * t540 + t459 - t461 + (t458 + g_i_dot_omega_i * t537 -
+        h_i_dot_omega_i * t538));
+    jac_phi_q_v_geometry[21] = omega_j_in_joint_i_2 * t544 + t539 * s_j_in_joint_i_0 - (t537 * omega_j_in_joint_i_0
+        + s_j_in_joint_i_2 * t545) - (h_i_dot_omega_i * t544 - t537 * f_i_dot_omega_i - t540 * f_i_dot_omega_i +
+        t451 - t452);
+    jac_phi_q_v_geometry[22] = t530 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t546 - (t539 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t547) - (t464 + g_i_dot_omega_i * t546 - h_i_dot_omega_i * t547);
+    jac_phi_q_v_geometry[23] = t539 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t548 - (t545 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t546) - (h_i_dot_omega_i * t548 - f_i_dot_omega_i * t546);
+    jac_phi_q_v_geometry[24] = t538 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t545 - (omega_j_in_joint_i_1 * t544
+        + t530 * s_j_in_joint_i_0) - (v_i[0] * t531 + v_i[1] * t532 + t533 * v_i[2] + (t538 * f_i_dot_omega_i -
+        (t554 + g_i_dot_omega_i * t544) + (t460 * f_i_dot_omega_i - t553 + ((t551 * t73 + h_i_dot_f_j * (omega_i[1]
+        * g_i_dot_f_j + g_i_dot_omega_i * t550 + f_i_dot_omega_i * t549 + h_i_dot_omega_i * t551 - (t545 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t549 + (t530 * g_i_dot_f_j + omega_j_in_joint_i_1 * t550) + (t539 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t551))) + t539) * t75 + (t552 + t552) * t77 * pitch * t76))) - (t531 *
+        v_j[0] + t532 * v_j[1] + t533 * v_j[2]));
+    jac_phi_q_v_geometry[25] = omega_j_in_joint_i_1 * t565 + t558 * s_j_in_joint_i_2 - (t566 * omega_j_in_joint_i_2
+        + s_j_in_joint_i_1 * t567) - (g_i_dot_omega_i * t568 + t487 - t489 + (t486 + g_i_dot_omega_i * t565 -
+        h_i_dot_omega_i * t566));
     jac_phi_q_v_geometry[26] = omega_j_in_joint_i_2 * t572 + t567 * s_j_in_joint_i_0 - (t565 * omega_j_in_joint_i_0
-        + s_j_in_joint_i_2 * t573) - (h_i_dot_omega_i * t572 - f_i_dot_omega_i * t565 - f_i_dot_omega_i * t568 +
+        + s_j_in_joint_i_2 * t573) - (h_i_dot_omega_i * t572 - t565 * f_i_dot_omega_i - t568 * f_i_dot_omega_i +
         t479 - t480);
-    const jg_real t574 = C_j[6] * t562 + C_j[7] * t563 + C_j[8] * t564;
-    const jg_real t575 = C_j[6] * t555 + C_j[7] * t556 + C_j[8] * t557;
-    jac_phi_q_v_geometry[27] = t558 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t574 - (t567 * h_j_in_joint_i_1 +
-        omega_j_in_joint_i_2 * t575) - (t492 + g_i_dot_omega_i * t574 - h_i_dot_omega_i * t575);
-    const jg_real t576 = C_j[6] * t569 + C_j[7] * t570 + C_j[8] * t571;
-    jac_phi_q_v_geometry[28] = t567 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t576 - (h_j_in_joint_i_2 * t573 +
-        t574 * omega_j_in_joint_i_0) - (h_i_dot_omega_i * t576 - f_i_dot_omega_i * t574);
-    const jg_real t577 = C_j[0] * t569 + C_j[1] * t570 + C_j[2] * t571;
-    const jg_real t578 = C_j[0] * t555 + C_j[1] * t556 + C_j[2] * t557;
-    const jg_real t579 = C_j[0] * t562 + C_j[1] * t563 + C_j[2] * t564;
+    const jg_real t574 = t562 * C_j[6] + t563 * C_j[7] + t564 * C_j[8];
+    const jg_real t575 = t555 * C_j[6] + t556 * C_j[7] + t557 * C_j[8];
+    const jg_real t576 = t569 * C_j[6] + t570 * C_j[7] + t571 * C_j[8];
+    const jg_real t577 = t569 * C_j[0] + t570 * C_j[1] + t571 * C_j[2];
+    const jg_real t578 = t555 * C_j[0] + t556 * C_j[1] + t557 * C_j[2];
+    const jg_real t579 = t562 * C_j[0] + t563 * C_j[1] + t564 * C_j[2];
     const jg_real t580 = h_i_dot_f_j * t579;
     const jg_real t581 = omega_i[2] * r_ij_in_joint_i_0;
     const jg_real t582 = omega_i[2] * s_j_in_joint_i_0;
+    jac_phi_q_v_geometry[27] = t558 * h_j_in_joint_i_2 + omega_j_in_joint_i_1 * t574 - (t567 * h_j_in_joint_i_1 +
+        omega_j_in_joint_i_2 * t575) - (t492 + g_i_dot_omega_i * t574 - h_i_dot_omega_i * t575);
+    jac_phi_q_v_geometry[28] = t567 * h_j_in_joint_i_0 + omega_j_in_joint_i_2 * t576 - (t573 * h_j_in_joint_i_2 +
+        omega_j_in_joint_i_0 * t574) - (h_i_dot_omega_i * t576 - f_i_dot_omega_i * t574);
     jac_phi_q_v_geometry[29] = t566 * omega_j_in_joint_i_0 + s_j_in_joint_i_1 * t573 - (omega_j_in_joint_i_1 * t572
-        + t558 * s_j_in_joint_i_0) - (v_i[0] * t559 + v_i[1] * t560 + v_i[2] * t561 + (f_i_dot_omega_i * t566 -
-        (t582 + g_i_dot_omega_i * t572) + (f_i_dot_omega_i * t488 - t581 + (t75 * (t579 * t73 + h_i_dot_f_j *
-        (omega_i[2] * g_i_dot_f_j + g_i_dot_omega_i * t578 + f_i_dot_omega_i * t577 + h_i_dot_omega_i * t579 - (t567
-        * h_i_dot_f_j + omega_j_in_joint_i_2 * t579 + (t558 * g_i_dot_f_j + omega_j_in_joint_i_1 * t578 + (t573 *
-        f_i_dot_f_j + omega_j_in_joint_i_0 * t577)))) + t567) + (t580 + t580) * t76 * pitch * t78))) - (v_j[0] *
-        t559 + v_j[1] * t560 + v_j[2] * t561));
+        + t558 * s_j_in_joint_i_0) - (v_i[0] * t559 + v_i[1] * t560 + t561 * v_i[2] + (t566 * f_i_dot_omega_i -
+        (t582 + g_i_dot_omega_i * t572) + (t488 * f_i_dot_omega_i - t581 + ((t579 * t73 + h_i_dot_f_j * (omega_i[2]
+        * g_i_dot_f_j + g_i_dot_omega_i * t578 + f_i_dot_omega_i * t577 + h_i_dot_omega_i * t579 - (t573 *
+        f_i_dot_f_j + omega_j_in_joint_i_0 * t577 + (t558 * g_i_dot_f_j + omega_j_in_joint_i_1 * t578) + (t567 *
+        h_i_dot_f_j + omega_j_in_joint_i_2 * t579))) + t567) * t75 + (t580 + t580) * t77 * pitch * t76))) - (t559 *
+        v_j[0] + t560 * v_j[1] + t561 * v_j[2]));
     jac_phi_q_v_geometry[30] = t440 + t441;
     jac_phi_q_v_geometry[31] = -(t525 + t526);
     jac_phi_q_v_geometry[32] = omega_i[0] * h_j_in_joint_i_1;
@@ -1315,51 +1314,51 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_geometry[40] = t496 + t497;
     jac_phi_q_v_geometry[41] = -(t581 + t582);
     jac_phi_q_v_geometry[42] = omega_i[2] * h_j_in_joint_i_1;
-    jac_phi_q_v_geometry[43] = -(omega_i[2] * h_j_in_joint_i_0);
-    jac_phi_q_v_geometry[44] = -((omega_i[2] * h_i_dot_f_j * h_i_dot_f_j - omega_i[2]) * t75);
     const jg_real t583 = h_i_in_j_0 * omega_j_in_joint_i_1 - g_i_in_j_0 * omega_j_in_joint_i_2 - (g_i_dot_omega_i *
         h_i_in_j_0 - h_i_dot_omega_i * g_i_in_j_0);
-    jac_phi_q_v_geometry[45] = t583;
-    jac_phi_q_v_geometry[57] = t583;
     const jg_real t584 = f_i_in_j_0 * omega_j_in_joint_i_2 - h_i_in_j_0 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
-        f_i_in_j_0 - f_i_dot_omega_i * h_i_in_j_0);
-    jac_phi_q_v_geometry[46] = t584;
-    jac_phi_q_v_geometry[58] = t584;
-    jac_phi_q_v_geometry[47] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 -
-        (f_i_dot_omega_i * g_i_in_j_0 - g_i_dot_omega_i * f_i_in_j_0);
+        f_i_in_j_0 - h_i_in_j_0 * f_i_dot_omega_i);
     const jg_real t585 = h_i_in_j_1 * omega_j_in_joint_i_1 - g_i_in_j_1 * omega_j_in_joint_i_2 - (g_i_dot_omega_i *
         h_i_in_j_1 - h_i_dot_omega_i * g_i_in_j_1);
+    jac_phi_q_v_geometry[43] = -(omega_i[2] * h_j_in_joint_i_0);
+    jac_phi_q_v_geometry[44] = -((omega_i[2] * h_i_dot_f_j * h_i_dot_f_j - omega_i[2]) * t75);
+    jac_phi_q_v_geometry[45] = t583;
+    jac_phi_q_v_geometry[57] = t583;
+    jac_phi_q_v_geometry[46] = t584;
+    jac_phi_q_v_geometry[58] = t584;
+    jac_phi_q_v_geometry[47] = g_i_in_j_0 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_0 - (g_i_in_j_0 *
+        f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_0);
     jac_phi_q_v_geometry[48] = t585;
     jac_phi_q_v_geometry[59] = t585;
     const jg_real t586 = f_i_in_j_1 * omega_j_in_joint_i_2 - h_i_in_j_1 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
-        f_i_in_j_1 - f_i_dot_omega_i * h_i_in_j_1);
-    jac_phi_q_v_geometry[49] = t586;
-    jac_phi_q_v_geometry[60] = t586;
-    jac_phi_q_v_geometry[50] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 -
-        (f_i_dot_omega_i * g_i_in_j_1 - g_i_dot_omega_i * f_i_in_j_1);
+        f_i_in_j_1 - h_i_in_j_1 * f_i_dot_omega_i);
     const jg_real t587 = h_i_in_j_2 * omega_j_in_joint_i_1 - g_i_in_j_2 * omega_j_in_joint_i_2 - (g_i_dot_omega_i *
         h_i_in_j_2 - h_i_dot_omega_i * g_i_in_j_2);
+    const jg_real t588 = omega_j_in_joint_i_2 * f_i_in_j_2 - h_i_in_j_2 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
+        f_i_in_j_2 - h_i_in_j_2 * f_i_dot_omega_i);
+    jac_phi_q_v_geometry[49] = t586;
+    jac_phi_q_v_geometry[60] = t586;
+    jac_phi_q_v_geometry[50] = g_i_in_j_1 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_1 - (g_i_in_j_1 *
+        f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_1);
     jac_phi_q_v_geometry[51] = t587;
     jac_phi_q_v_geometry[61] = t587;
-    const jg_real t588 = f_i_in_j_2 * omega_j_in_joint_i_2 - h_i_in_j_2 * omega_j_in_joint_i_0 - (h_i_dot_omega_i *
-        f_i_in_j_2 - f_i_dot_omega_i * h_i_in_j_2);
     jac_phi_q_v_geometry[52] = t588;
     jac_phi_q_v_geometry[62] = t588;
-    jac_phi_q_v_geometry[53] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 -
-        (f_i_dot_omega_i * g_i_in_j_2 - g_i_dot_omega_i * f_i_in_j_2);
+    jac_phi_q_v_geometry[53] = g_i_in_j_2 * omega_j_in_joint_i_0 - omega_j_in_joint_i_1 * f_i_in_j_2 - (g_i_in_j_2 *
+        f_i_dot_omega_i - g_i_dot_omega_i * f_i_in_j_2);
     const jg_real t589 = h_i_in_j_0 * h_i_dot_f_j;
-    jac_phi_q_v_geometry[54] = -((h_i_in_j_0 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * g_i_in_j_0 + f_i_dot_omega_i *
-        f_i_in_j_0 + h_i_dot_omega_i * h_i_in_j_0 - (g_i_in_j_0 * omega_j_in_joint_i_1 + f_i_in_j_0 *
-        omega_j_in_joint_i_0 + h_i_in_j_0 * omega_j_in_joint_i_2))) * t75 + (t589 + t589) * t76 * pitch * t78);
     const jg_real t590 = h_i_in_j_1 * h_i_dot_f_j;
-    jac_phi_q_v_geometry[55] = -((h_i_in_j_1 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * g_i_in_j_1 + f_i_dot_omega_i *
-        f_i_in_j_1 + h_i_dot_omega_i * h_i_in_j_1 - (g_i_in_j_1 * omega_j_in_joint_i_1 + f_i_in_j_1 *
-        omega_j_in_joint_i_0 + h_i_in_j_1 * omega_j_in_joint_i_2))) * t75 + (t590 + t590) * t76 * pitch * t78);
     const jg_real t591 = h_i_in_j_2 * h_i_dot_f_j;
-    jac_phi_q_v_geometry[56] = -((h_i_in_j_2 * t73 + h_i_dot_f_j * (g_i_dot_omega_i * g_i_in_j_2 + f_i_dot_omega_i *
-        f_i_in_j_2 + h_i_dot_omega_i * h_i_in_j_2 - (g_i_in_j_2 * omega_j_in_joint_i_1 + f_i_in_j_2 *
-        omega_j_in_joint_i_0 + h_i_in_j_2 * omega_j_in_joint_i_2))) * t75 + (t591 + t591) * t76 * pitch * t78);
-    jac_phi_q_v_geometry[63] = -(spread * t78);
+    jac_phi_q_v_geometry[54] = -((h_i_in_j_0 * t73 + h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_omega_i + g_i_dot_omega_i *
+        g_i_in_j_0 + h_i_dot_omega_i * h_i_in_j_0 - (f_i_in_j_0 * omega_j_in_joint_i_0 + g_i_in_j_0 *
+        omega_j_in_joint_i_1 + h_i_in_j_0 * omega_j_in_joint_i_2))) * t75 + (t589 + t589) * t77 * pitch * t76);
+    jac_phi_q_v_geometry[55] = -((h_i_in_j_1 * t73 + h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_omega_i + g_i_dot_omega_i *
+        g_i_in_j_1 + h_i_dot_omega_i * h_i_in_j_1 - (f_i_in_j_1 * omega_j_in_joint_i_0 + g_i_in_j_1 *
+        omega_j_in_joint_i_1 + h_i_in_j_1 * omega_j_in_joint_i_2))) * t75 + (t590 + t590) * t77 * pitch * t76);
+    jac_phi_q_v_geometry[56] = -((h_i_in_j_2 * t73 + h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_omega_i + g_i_dot_omega_i *
+        g_i_in_j_2 + h_i_dot_omega_i * h_i_in_j_2 - (f_i_in_j_2 * omega_j_in_joint_i_0 + g_i_in_j_2 *
+        omega_j_in_joint_i_1 + h_i_in_j_2 * omega_j_in_joint_i_2))) * t75 + (t591 + t591) * t77 * pitch * t76);
+    jac_phi_q_v_geometry[63] = -(spread * t76);
     jac_phi_q_v_velocity[0] = -f_i_world_0;
     jac_phi_q_v_velocity[1] = -g_i_world_0;
     jac_phi_q_v_velocity[2] = -h_i_world_0;
@@ -1376,7 +1375,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_velocity[11] = C_i[6] * h_j_in_joint_i_1 - C_i[3] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[12] = C_i[0] * h_j_in_joint_i_2 - C_i[6] * h_j_in_joint_i_0;
     jac_phi_q_v_velocity[13] = -(C_i[0] * s_j_in_joint_i_1 - C_i[3] * s_j_in_joint_i_0 + (C_i[0] * r_ij_in_joint_i_1
-        - C_i[3] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[3] * g_i_dot_f_j + C_i[0] * f_i_dot_f_j + C_i[6] *
+        - C_i[3] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[0] * f_i_dot_f_j + C_i[3] * g_i_dot_f_j + C_i[6] *
         h_i_dot_f_j) - C_i[6]) * t75));
     jac_phi_q_v_velocity[14] = -(C_i[4] * r_ij_in_joint_i_2 - C_i[7] * r_ij_in_joint_i_1 + (C_i[4] *
         s_j_in_joint_i_2 - C_i[7] * s_j_in_joint_i_1));
@@ -1385,7 +1384,7 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_velocity[16] = C_i[7] * h_j_in_joint_i_1 - C_i[4] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[17] = C_i[1] * h_j_in_joint_i_2 - C_i[7] * h_j_in_joint_i_0;
     jac_phi_q_v_velocity[18] = -(C_i[1] * s_j_in_joint_i_1 - C_i[4] * s_j_in_joint_i_0 + (C_i[1] * r_ij_in_joint_i_1
-        - C_i[4] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[4] * g_i_dot_f_j + C_i[1] * f_i_dot_f_j + C_i[7] *
+        - C_i[4] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[1] * f_i_dot_f_j + C_i[4] * g_i_dot_f_j + C_i[7] *
         h_i_dot_f_j) - C_i[7]) * t75));
     jac_phi_q_v_velocity[19] = -(C_i[5] * r_ij_in_joint_i_2 - C_i[8] * r_ij_in_joint_i_1 + (C_i[5] *
         s_j_in_joint_i_2 - C_i[8] * s_j_in_joint_i_1));
@@ -1394,26 +1393,26 @@ static void jg_screw_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_
     jac_phi_q_v_velocity[21] = C_i[8] * h_j_in_joint_i_1 - C_i[5] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[22] = C_i[2] * h_j_in_joint_i_2 - C_i[8] * h_j_in_joint_i_0;
     jac_phi_q_v_velocity[23] = -(C_i[2] * s_j_in_joint_i_1 - C_i[5] * s_j_in_joint_i_0 + (C_i[2] * r_ij_in_joint_i_1
-        - C_i[5] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[5] * g_i_dot_f_j + C_i[2] * f_i_dot_f_j + C_i[8] *
+        - C_i[5] * r_ij_in_joint_i_0 + (h_i_dot_f_j * (C_i[2] * f_i_dot_f_j + C_i[5] * g_i_dot_f_j + C_i[8] *
         h_i_dot_f_j) - C_i[8]) * t75));
     jac_phi_q_v_velocity[33] = g_i_in_j_0 * s_j_in_joint_i_2 - h_i_in_j_0 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[34] = h_i_in_j_0 * s_j_in_joint_i_0 - f_i_in_j_0 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[35] = g_i_in_j_0 * h_j_in_joint_i_2 - h_i_in_j_0 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[36] = h_i_in_j_0 * h_j_in_joint_i_0 - f_i_in_j_0 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * f_i_in_j_0 - g_i_in_j_0 * s_j_in_joint_i_0 - t75 * (h_i_in_j_0 -
-        h_i_dot_f_j * (g_i_in_j_0 * g_i_dot_f_j + f_i_in_j_0 * f_i_dot_f_j + t589));
+    jac_phi_q_v_velocity[37] = s_j_in_joint_i_1 * f_i_in_j_0 - g_i_in_j_0 * s_j_in_joint_i_0 - (h_i_in_j_0 -
+        h_i_dot_f_j * (f_i_in_j_0 * f_i_dot_f_j + g_i_in_j_0 * g_i_dot_f_j + t589)) * t75;
     jac_phi_q_v_velocity[38] = g_i_in_j_1 * s_j_in_joint_i_2 - h_i_in_j_1 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[39] = h_i_in_j_1 * s_j_in_joint_i_0 - f_i_in_j_1 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[40] = g_i_in_j_1 * h_j_in_joint_i_2 - h_i_in_j_1 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[41] = h_i_in_j_1 * h_j_in_joint_i_0 - f_i_in_j_1 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[42] = s_j_in_joint_i_1 * f_i_in_j_1 - g_i_in_j_1 * s_j_in_joint_i_0 - t75 * (h_i_in_j_1 -
-        h_i_dot_f_j * (g_i_in_j_1 * g_i_dot_f_j + f_i_in_j_1 * f_i_dot_f_j + t590));
+    jac_phi_q_v_velocity[42] = s_j_in_joint_i_1 * f_i_in_j_1 - g_i_in_j_1 * s_j_in_joint_i_0 - (h_i_in_j_1 -
+        h_i_dot_f_j * (f_i_in_j_1 * f_i_dot_f_j + g_i_in_j_1 * g_i_dot_f_j + t590)) * t75;
     jac_phi_q_v_velocity[43] = g_i_in_j_2 * s_j_in_joint_i_2 - h_i_in_j_2 * s_j_in_joint_i_1;
-    jac_phi_q_v_velocity[44] = h_i_in_j_2 * s_j_in_joint_i_0 - f_i_in_j_2 * s_j_in_joint_i_2;
+    jac_phi_q_v_velocity[44] = h_i_in_j_2 * s_j_in_joint_i_0 - s_j_in_joint_i_2 * f_i_in_j_2;
     jac_phi_q_v_velocity[45] = g_i_in_j_2 * h_j_in_joint_i_2 - h_i_in_j_2 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[46] = h_i_in_j_2 * h_j_in_joint_i_0 - f_i_in_j_2 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[47] = s_j_in_joint_i_1 * f_i_in_j_2 - g_i_in_j_2 * s_j_in_joint_i_0 - t75 * (h_i_in_j_2 -
-        h_i_dot_f_j * (g_i_in_j_2 * g_i_dot_f_j + f_i_in_j_2 * f_i_dot_f_j + t591));
+    jac_phi_q_v_velocity[47] = s_j_in_joint_i_1 * f_i_in_j_2 - g_i_in_j_2 * s_j_in_joint_i_0 - (h_i_in_j_2 -
+        h_i_dot_f_j * (f_i_in_j_2 * f_i_dot_f_j + g_i_in_j_2 * g_i_dot_f_j + t591)) * t75;
 }
 
 static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -1429,82 +1428,78 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real pitch = geometry[24];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    jac_phi_q_t_lambda_lambda[7] = f_i_world_1;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
-    jac_phi_q_t_lambda_lambda[42] = h_i_world_0;
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    jac_phi_q_t_lambda_lambda[43] = h_i_world_1;
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    jac_phi_q_t_lambda_lambda[6] = f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = f_i_world_1 * h_i_world_0 - h_i_world_1 * f_i_world_0;
-    jac_phi_q_t_lambda_lambda[20] = g_i_world_2;
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[8] = f_i_world_2;
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_q_t_lambda_lambda[44] = h_i_world_2;
     /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
     const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
     const jg_real g_i_world_1 = h_i_world_2 * f_i_world_0 - f_i_world_2 * h_i_world_0;
+    jac_phi_q_t_lambda_lambda[7] = f_i_world_1;
+    jac_phi_q_t_lambda_lambda[42] = h_i_world_0;
+    jac_phi_q_t_lambda_lambda[43] = h_i_world_1;
+    jac_phi_q_t_lambda_lambda[6] = f_i_world_0;
+    jac_phi_q_t_lambda_lambda[20] = g_i_world_2;
+    jac_phi_q_t_lambda_lambda[8] = f_i_world_2;
+    jac_phi_q_t_lambda_lambda[44] = h_i_world_2;
     jac_phi_q_t_lambda_lambda[19] = g_i_world_1;
     const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
     const jg_real t10 = A_i[1] * v_0_world_2 - A_i[2] * v_0_world_1;
-    jac_phi_q_t_lambda_r_j[0] = t10;
-    jac_phi_q_t_lambda_r_i[0] = -t10;
     const jg_real t11 = A_i[4] * v_0_world_2 - A_i[5] * v_0_world_1;
-    jac_phi_q_t_lambda_r_j[1] = t11;
-    jac_phi_q_t_lambda_r_i[1] = -t11;
     const jg_real t12 = A_i[7] * v_0_world_2 - A_i[8] * v_0_world_1;
-    jac_phi_q_t_lambda_r_j[2] = t12;
-    jac_phi_q_t_lambda_r_i[2] = -t12;
     const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
-    jac_phi_q_t_lambda_lambda[18] = g_i_world_0;
     const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
     const jg_real t15 = A_i[2] * v_0_world_0 - A_i[0] * v_0_world_2;
+    jac_phi_q_t_lambda_r_j[0] = t10;
+    jac_phi_q_t_lambda_r_i[0] = -t10;
+    jac_phi_q_t_lambda_r_j[1] = t11;
+    jac_phi_q_t_lambda_r_i[1] = -t11;
+    jac_phi_q_t_lambda_r_j[2] = t12;
+    jac_phi_q_t_lambda_r_i[2] = -t12;
+    jac_phi_q_t_lambda_lambda[18] = g_i_world_0;
     jac_phi_q_t_lambda_r_j[3] = t15;
-    jac_phi_q_t_lambda_r_i[3] = -t15;
     const jg_real t16 = A_i[5] * v_0_world_0 - A_i[3] * v_0_world_2;
+    const jg_real t17 = A_i[8] * v_0_world_0 - A_i[6] * v_0_world_2;
+    const jg_real t18 = A_i[0] * v_0_world_1 - A_i[1] * v_0_world_0;
+    const jg_real t19 = A_i[3] * v_0_world_1 - A_i[4] * v_0_world_0;
+    jac_phi_q_t_lambda_r_i[3] = -t15;
     jac_phi_q_t_lambda_r_j[4] = t16;
     jac_phi_q_t_lambda_r_i[4] = -t16;
-    const jg_real t17 = A_i[8] * v_0_world_0 - A_i[6] * v_0_world_2;
     jac_phi_q_t_lambda_r_j[5] = t17;
     jac_phi_q_t_lambda_r_i[5] = -t17;
-    const jg_real t18 = A_i[0] * v_0_world_1 - A_i[1] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[6] = t18;
     jac_phi_q_t_lambda_r_i[6] = -t18;
-    const jg_real t19 = A_i[3] * v_0_world_1 - A_i[4] * v_0_world_0;
     jac_phi_q_t_lambda_r_j[7] = t19;
-    jac_phi_q_t_lambda_r_i[7] = -t19;
     const jg_real t20 = A_i[6] * v_0_world_1 - A_i[7] * v_0_world_0;
+    const jg_real t21 = C_i[0] * lambda[0] + C_i[6] * lambda[4];
+    const jg_real t22 = -t21;
+    jac_phi_q_t_lambda_r_i[7] = -t19;
     jac_phi_q_t_lambda_r_j[8] = t20;
     jac_phi_q_t_lambda_r_i[8] = -t20;
-    const jg_real t21 = C_i[0] * lambda[0] + C_i[6] * lambda[4];
     jac_phi_q_t_lambda_A_i[6] = t21;
     jac_phi_q_t_lambda_A_i[19] = t21;
     jac_phi_q_t_lambda_A_i[32] = t21;
-    const jg_real t22 = -t21;
     jac_phi_q_t_lambda_A_i[0] = t22;
     jac_phi_q_t_lambda_A_i[13] = t22;
     jac_phi_q_t_lambda_A_i[26] = t22;
     const jg_real t23 = C_i[6] * f_i_world_2 - C_i[0] * h_i_world_2;
     const jg_real t24 = lambda[1] * t23;
-    jac_phi_q_t_lambda_A_i[1] = t24;
-    jac_phi_q_t_lambda_A_i[18] = t24;
     const jg_real t25 = C_i[0] * h_i_world_1 - C_i[6] * f_i_world_1;
     const jg_real t26 = lambda[1] * t25;
-    jac_phi_q_t_lambda_A_i[2] = t26;
-    jac_phi_q_t_lambda_A_i[30] = t26;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     /* v_1_world = lambda_0 s_j x f_i + lambda_1 s_j x g_i + lambda_4 s_j x h_i, world axes */
     const jg_real v_1_world_0 = s_j_world_1 * v_0_world_2 - s_j_world_2 * v_0_world_1;
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
-    const jg_real v_2_world_1 = lambda[2] * f_i_world_1 + lambda[3] * g_i_world_1;
+    const jg_real v_2_world_1 = f_i_world_1 * lambda[2] + lambda[3] * g_i_world_1;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real v_2_world_2 = lambda[2] * f_i_world_2 + lambda[3] * g_i_world_2;
+    const jg_real v_2_world_2 = f_i_world_2 * lambda[2] + lambda[3] * g_i_world_2;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     /* v_3_world = lambda_2 f_i x h_j + lambda_3 g_i x h_j, world axes */
     const jg_real v_3_world_0 = h_j_world_2 * v_2_world_1 - h_j_world_1 * v_2_world_2;
@@ -1541,12 +1536,12 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t54 = s_j_world_2 * t24;
     const jg_real t55 = s_j_world_1 * t26;
     const jg_real t56 = lambda[3] * t25;
-    const jg_real t57 = h_j_world_1 * t56;
+    const jg_real t57 = t56 * h_j_world_1;
     const jg_real t58 = lambda[3] * t23;
     const jg_real t59 = h_j_world_2 * t58;
     const jg_real t60 = across_world_0 * t53 + (C_i[6] - f_j_world_0 * t51) * t42 - (t54 - t55 - (t57 - t59));
-    const jg_real t61 = r_ij_world_2 * t24;
-    const jg_real t62 = r_ij_world_1 * t26;
+    const jg_real t61 = t24 * r_ij_world_2;
+    const jg_real t62 = t26 * r_ij_world_1;
     const jg_real t63 = t60 - (t61 - t62);
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
     const jg_real t65 = s_j_world_2 * t21;
@@ -1554,180 +1549,181 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real t68 = C_i[0] * lambda[2];
     const jg_real t69 = t68 * h_j_world_2;
-    const jg_real t70 = across_world_1 * t53 - t51 * f_j_world_1 * t42 - (t69 + t56 * h_j_world_0 + (t65 + t26 *
-        s_j_world_0));
+    const jg_real t70 = across_world_1 * t53 - f_j_world_1 * t51 * t42 - (t65 + t26 * s_j_world_0 + (t69 + t56 *
+        h_j_world_0));
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real t72 = r_ij_world_2 * t21;
-    const jg_real t73 = t70 - (t72 + r_ij_world_0 * t26);
+    const jg_real t73 = t70 - (t72 + t26 * r_ij_world_0);
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
     const jg_real t75 = s_j_world_1 * t21;
     const jg_real t76 = t68 * h_j_world_1;
-    const jg_real t77 = t76 + t58 * h_j_world_0 + (t75 + t24 * s_j_world_0) + (across_world_2 * t53 - t51 *
-        f_j_world_2 * t42);
+    const jg_real t77 = t75 + t24 * s_j_world_0 + (t76 + t58 * h_j_world_0) + (across_world_2 * t53 - f_j_world_2 *
+        t51 * t42);
     const jg_real t78 = r_ij_world_1 * t21;
-    const jg_real t79 = t78 + r_ij_world_0 * t24 + t77;
+    const jg_real t79 = t78 + t24 * r_ij_world_0 + t77;
+    const jg_real t80 = -t24;
+    jac_phi_q_t_lambda_A_i[1] = t24;
+    jac_phi_q_t_lambda_A_i[18] = t24;
+    jac_phi_q_t_lambda_A_i[2] = t26;
+    jac_phi_q_t_lambda_A_i[30] = t26;
     jac_phi_q_t_lambda_A_i[3] = v_8_world_0 + A_i[0] * t63 + A_i[1] * t73 + A_i[2] * t79;
     jac_phi_q_t_lambda_A_i[4] = A_i[3] * t63 + A_i[4] * t73 + A_i[5] * t79;
     jac_phi_q_t_lambda_A_i[5] = A_i[6] * t63 + A_i[7] * t73 + A_i[8] * t79;
-    const jg_real t80 = -t24;
     jac_phi_q_t_lambda_A_i[7] = t80;
     jac_phi_q_t_lambda_A_i[12] = t80;
     const jg_real t81 = -t26;
+    const jg_real t82 = C_i[6] * f_i_world_0 - C_i[0] * h_i_world_0;
+    const jg_real t83 = lambda[1] * t82;
+    const jg_real v_1_world_1 = s_j_world_2 * v_0_world_0 - v_0_world_2 * s_j_world_0;
+    const jg_real v_2_world_0 = lambda[3] * g_i_world_0 + lambda[2] * f_i_world_0;
+    const jg_real v_3_world_1 = v_2_world_2 * h_j_world_0 - h_j_world_2 * v_2_world_0;
+    const jg_real v_4_world_1 = v_1_world_1 - v_3_world_1;
+    const jg_real v_5_world_1 = across_world_1 * t42;
+    const jg_real v_6_world_1 = v_5_world_1 - v_4_world_1;
+    const jg_real v_7_world_1 = r_ij_world_2 * v_0_world_0 - v_0_world_2 * r_ij_world_0;
+    const jg_real v_8_world_1 = v_6_world_1 - v_7_world_1;
+    const jg_real t92 = C_i[6] * f_j_world_1;
+    const jg_real t93 = t92 * h_i_dot_f_j;
+    const jg_real t94 = (t93 + t93) * t50 * lambda[4] * pitch;
+    const jg_real t95 = t83 * s_j_world_0;
+    const jg_real t96 = lambda[3] * t82;
+    const jg_real t97 = t96 * h_j_world_0;
+    const jg_real t98 = across_world_1 * t94 + (C_i[6] - f_j_world_1 * t92) * t42 - (t54 + t95 + (t59 + t97));
+    const jg_real t99 = t83 * r_ij_world_0;
+    const jg_real t100 = t98 - (t61 + t99);
+    const jg_real t101 = t69 + t96 * h_j_world_1 + (t65 + s_j_world_1 * t83) + (across_world_0 * t94 - f_j_world_0 *
+        t92 * t42);
+    const jg_real t102 = r_ij_world_1 * t83 + t72 + t101;
+    const jg_real t103 = t21 * s_j_world_0;
+    const jg_real t104 = t68 * h_j_world_0;
+    const jg_real t105 = across_world_2 * t94 - f_j_world_2 * t92 * t42 - (t103 - s_j_world_1 * t24 - (t58 *
+        h_j_world_1 - t104));
+    const jg_real t106 = t21 * r_ij_world_0;
+    const jg_real t107 = t105 - (t106 - t24 * r_ij_world_1);
     jac_phi_q_t_lambda_A_i[8] = t81;
     jac_phi_q_t_lambda_A_i[24] = t81;
     jac_phi_q_t_lambda_A_i[9] = -(A_j[0] * t60 + A_j[1] * t70 + A_j[2] * t77);
     jac_phi_q_t_lambda_A_i[10] = -(A_j[3] * t60 + A_j[4] * t70 + A_j[5] * t77);
     jac_phi_q_t_lambda_A_i[11] = -(A_j[6] * t60 + A_j[7] * t70 + A_j[8] * t77);
-    const jg_real t82 = C_i[6] * f_i_world_0 - C_i[0] * h_i_world_0;
-    const jg_real t83 = lambda[1] * t82;
     jac_phi_q_t_lambda_A_i[14] = t83;
     jac_phi_q_t_lambda_A_i[31] = t83;
-    const jg_real v_1_world_1 = s_j_world_2 * v_0_world_0 - s_j_world_0 * v_0_world_2;
-    const jg_real v_2_world_0 = lambda[2] * f_i_world_0 + lambda[3] * g_i_world_0;
-    const jg_real v_3_world_1 = v_2_world_2 * h_j_world_0 - h_j_world_2 * v_2_world_0;
-    const jg_real v_4_world_1 = v_1_world_1 - v_3_world_1;
-    const jg_real v_5_world_1 = across_world_1 * t42;
-    const jg_real v_6_world_1 = v_5_world_1 - v_4_world_1;
-    const jg_real v_7_world_1 = r_ij_world_2 * v_0_world_0 - r_ij_world_0 * v_0_world_2;
-    const jg_real v_8_world_1 = v_6_world_1 - v_7_world_1;
-    const jg_real t92 = C_i[6] * f_j_world_1;
-    const jg_real t93 = t92 * h_i_dot_f_j;
-    const jg_real t94 = (t93 + t93) * t50 * lambda[4] * pitch;
-    const jg_real t95 = lambda[3] * t82;
-    const jg_real t96 = t95 * h_j_world_0;
-    const jg_real t97 = t83 * s_j_world_0;
-    const jg_real t98 = across_world_1 * t94 + (C_i[6] - f_j_world_1 * t92) * t42 - (t59 + t96 + (t54 + t97));
-    const jg_real t99 = r_ij_world_0 * t83;
-    const jg_real t100 = t98 - (t61 + t99);
-    const jg_real t101 = t69 + h_j_world_1 * t95 + (t65 + s_j_world_1 * t83) + (across_world_0 * t94 - f_j_world_0 *
-        t92 * t42);
-    const jg_real t102 = t72 + r_ij_world_1 * t83 + t101;
-    const jg_real t103 = s_j_world_0 * t21;
-    const jg_real t104 = t68 * h_j_world_0;
-    const jg_real t105 = across_world_2 * t94 - f_j_world_2 * t92 * t42 - (t103 - s_j_world_1 * t24 - (h_j_world_1 *
-        t58 - t104));
-    const jg_real t106 = r_ij_world_0 * t21;
-    const jg_real t107 = t105 - (t106 - r_ij_world_1 * t24);
     jac_phi_q_t_lambda_A_i[15] = v_8_world_1 + A_i[1] * t100 + A_i[0] * t102 + A_i[2] * t107;
+    const jg_real t108 = -t83;
+    const jg_real v_1_world_2 = v_0_world_1 * s_j_world_0 - s_j_world_1 * v_0_world_0;
+    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - v_2_world_1 * h_j_world_0;
+    const jg_real v_4_world_2 = v_1_world_2 - v_3_world_2;
+    const jg_real v_5_world_2 = across_world_2 * t42;
+    const jg_real v_6_world_2 = v_5_world_2 - v_4_world_2;
+    const jg_real v_7_world_2 = v_0_world_1 * r_ij_world_0 - r_ij_world_1 * v_0_world_0;
+    const jg_real v_8_world_2 = v_6_world_2 - v_7_world_2;
+    const jg_real t116 = C_i[6] * f_j_world_2;
+    const jg_real t117 = t116 * h_i_dot_f_j;
+    const jg_real t118 = (t117 + t117) * t50 * lambda[4] * pitch;
+    const jg_real t119 = across_world_2 * t118 + (C_i[6] - f_j_world_2 * t116) * t42 - (t95 - t55 - (t57 - t97));
+    const jg_real t120 = t119 - (t99 - t62);
+    const jg_real t121 = across_world_0 * t118 - f_j_world_0 * t116 * t42 - (t75 - s_j_world_2 * t83 - (h_j_world_2
+        * t96 - t76));
+    const jg_real t122 = t121 - (t78 - r_ij_world_2 * t83);
+    const jg_real t123 = across_world_1 * t118 - f_j_world_1 * t116 * t42 - (s_j_world_2 * t26 - t103 - (t104 -
+        h_j_world_2 * t56));
+    const jg_real t124 = t123 - (t26 * r_ij_world_2 - t106);
     jac_phi_q_t_lambda_A_i[16] = A_i[3] * t102 + A_i[4] * t100 + A_i[5] * t107;
     jac_phi_q_t_lambda_A_i[17] = A_i[6] * t102 + A_i[7] * t100 + A_i[8] * t107;
-    const jg_real t108 = -t83;
     jac_phi_q_t_lambda_A_i[20] = t108;
     jac_phi_q_t_lambda_A_i[25] = t108;
     jac_phi_q_t_lambda_A_i[21] = -(A_j[0] * t101 + A_j[1] * t98 + A_j[2] * t105);
     jac_phi_q_t_lambda_A_i[22] = -(A_j[3] * t101 + A_j[4] * t98 + A_j[5] * t105);
     jac_phi_q_t_lambda_A_i[23] = -(A_j[6] * t101 + A_j[7] * t98 + A_j[8] * t105);
-    const jg_real v_1_world_2 = s_j_world_0 * v_0_world_1 - s_j_world_1 * v_0_world_0;
-    const jg_real v_3_world_2 = h_j_world_1 * v_2_world_0 - v_2_world_1 * h_j_world_0;
-    const jg_real v_4_world_2 = v_1_world_2 - v_3_world_2;
-    const jg_real v_5_world_2 = across_world_2 * t42;
-    const jg_real v_6_world_2 = v_5_world_2 - v_4_world_2;
-    const jg_real v_7_world_2 = r_ij_world_0 * v_0_world_1 - r_ij_world_1 * v_0_world_0;
-    const jg_real v_8_world_2 = v_6_world_2 - v_7_world_2;
-    const jg_real t116 = C_i[6] * f_j_world_2;
-    const jg_real t117 = t116 * h_i_dot_f_j;
-    const jg_real t118 = (t117 + t117) * t50 * lambda[4] * pitch;
-    const jg_real t119 = across_world_2 * t118 + (C_i[6] - f_j_world_2 * t116) * t42 - (t97 - t55 - (t57 - t96));
-    const jg_real t120 = t119 - (t99 - t62);
-    const jg_real t121 = across_world_0 * t118 - f_j_world_0 * t116 * t42 - (t75 - s_j_world_2 * t83 - (h_j_world_2
-        * t95 - t76));
-    const jg_real t122 = t121 - (t78 - r_ij_world_2 * t83);
-    const jg_real t123 = across_world_1 * t118 - f_j_world_1 * t116 * t42 - (s_j_world_2 * t26 - t103 - (t104 -
-        h_j_world_2 * t56));
-    const jg_real t124 = t123 - (r_ij_world_2 * t26 - t106);
     jac_phi_q_t_lambda_A_i[27] = v_8_world_2 + A_i[2] * t120 + (A_i[0] * t122 + A_i[1] * t124);
+    const jg_real t125 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
     jac_phi_q_t_lambda_A_i[28] = A_i[3] * t122 + A_i[4] * t124 + A_i[5] * t120;
     jac_phi_q_t_lambda_A_i[29] = A_i[6] * t122 + A_i[7] * t124 + A_i[8] * t120;
     jac_phi_q_t_lambda_A_i[33] = -(A_j[0] * t121 + A_j[1] * t123 + A_j[2] * t119);
     jac_phi_q_t_lambda_A_i[34] = -(A_j[3] * t121 + A_j[4] * t123 + A_j[5] * t119);
     jac_phi_q_t_lambda_A_i[35] = -(A_j[6] * t121 + A_j[7] * t123 + A_j[8] * t119);
-    const jg_real t125 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
     jac_phi_q_t_lambda_A_i[42] = t125;
     jac_phi_q_t_lambda_A_i[55] = t125;
     jac_phi_q_t_lambda_A_i[68] = t125;
     const jg_real t126 = -t125;
-    jac_phi_q_t_lambda_A_i[36] = t126;
-    jac_phi_q_t_lambda_A_i[49] = t126;
-    jac_phi_q_t_lambda_A_i[62] = t126;
     const jg_real t127 = C_i[7] * f_i_world_2 - C_i[1] * h_i_world_2;
     const jg_real t128 = lambda[1] * t127;
-    jac_phi_q_t_lambda_A_i[37] = t128;
-    jac_phi_q_t_lambda_A_i[54] = t128;
     const jg_real t129 = C_i[1] * h_i_world_1 - C_i[7] * f_i_world_1;
     const jg_real t130 = lambda[1] * t129;
-    jac_phi_q_t_lambda_A_i[38] = t130;
-    jac_phi_q_t_lambda_A_i[66] = t130;
     const jg_real t131 = C_i[7] * f_j_world_0;
     const jg_real t132 = t131 * h_i_dot_f_j;
     const jg_real t133 = (t132 + t132) * t50 * lambda[4] * pitch;
     const jg_real t134 = s_j_world_2 * t128;
     const jg_real t135 = s_j_world_1 * t130;
     const jg_real t136 = lambda[3] * t129;
-    const jg_real t137 = h_j_world_1 * t136;
+    const jg_real t137 = t136 * h_j_world_1;
     const jg_real t138 = lambda[3] * t127;
     const jg_real t139 = h_j_world_2 * t138;
     const jg_real t140 = across_world_0 * t133 + (C_i[7] - f_j_world_0 * t131) * t42 - (t134 - t135 - (t137 -
         t139));
-    const jg_real t141 = r_ij_world_2 * t128;
-    const jg_real t142 = r_ij_world_1 * t130;
+    const jg_real t141 = t128 * r_ij_world_2;
+    const jg_real t142 = t130 * r_ij_world_1;
     const jg_real t143 = t140 - (t141 - t142);
     const jg_real t144 = s_j_world_2 * t125;
     const jg_real t145 = C_i[1] * lambda[2];
     const jg_real t146 = t145 * h_j_world_2;
-    const jg_real t147 = across_world_1 * t133 - t131 * f_j_world_1 * t42 - (t146 + t136 * h_j_world_0 + (t144 +
-        t130 * s_j_world_0));
+    const jg_real t147 = across_world_1 * t133 - f_j_world_1 * t131 * t42 - (t144 + t130 * s_j_world_0 + (t146 +
+        t136 * h_j_world_0));
     const jg_real t148 = r_ij_world_2 * t125;
-    const jg_real t149 = t147 - (t148 + r_ij_world_0 * t130);
+    const jg_real t149 = t147 - (t148 + t130 * r_ij_world_0);
     const jg_real t150 = s_j_world_1 * t125;
     const jg_real t151 = t145 * h_j_world_1;
-    const jg_real t152 = t151 + t138 * h_j_world_0 + (t150 + t128 * s_j_world_0) + (across_world_2 * t133 - t131 *
-        f_j_world_2 * t42);
+    const jg_real t152 = t150 + t128 * s_j_world_0 + (t151 + t138 * h_j_world_0) + (across_world_2 * t133 -
+        f_j_world_2 * t131 * t42);
     const jg_real t153 = r_ij_world_1 * t125;
-    const jg_real t154 = t153 + r_ij_world_0 * t128 + t152;
+    const jg_real t154 = t153 + t128 * r_ij_world_0 + t152;
+    jac_phi_q_t_lambda_A_i[36] = t126;
+    jac_phi_q_t_lambda_A_i[49] = t126;
+    jac_phi_q_t_lambda_A_i[62] = t126;
+    jac_phi_q_t_lambda_A_i[37] = t128;
+    jac_phi_q_t_lambda_A_i[54] = t128;
+    jac_phi_q_t_lambda_A_i[38] = t130;
+    jac_phi_q_t_lambda_A_i[66] = t130;
     jac_phi_q_t_lambda_A_i[39] = A_i[0] * t143 + A_i[1] * t149 + A_i[2] * t154;
+    const jg_real t155 = -t128;
+    const jg_real t156 = -t130;
     jac_phi_q_t_lambda_A_i[40] = v_8_world_0 + A_i[3] * t143 + A_i[4] * t149 + A_i[5] * t154;
     jac_phi_q_t_lambda_A_i[41] = A_i[6] * t143 + A_i[7] * t149 + A_i[8] * t154;
-    const jg_real t155 = -t128;
     jac_phi_q_t_lambda_A_i[43] = t155;
     jac_phi_q_t_lambda_A_i[48] = t155;
-    const jg_real t156 = -t130;
     jac_phi_q_t_lambda_A_i[44] = t156;
     jac_phi_q_t_lambda_A_i[60] = t156;
     jac_phi_q_t_lambda_A_i[45] = -(A_j[0] * t140 + A_j[1] * t147 + A_j[2] * t152);
     jac_phi_q_t_lambda_A_i[46] = -(A_j[3] * t140 + A_j[4] * t147 + A_j[5] * t152);
-    jac_phi_q_t_lambda_A_i[47] = -(A_j[6] * t140 + A_j[7] * t147 + A_j[8] * t152);
     const jg_real t157 = C_i[7] * f_i_world_0 - C_i[1] * h_i_world_0;
     const jg_real t158 = lambda[1] * t157;
-    jac_phi_q_t_lambda_A_i[50] = t158;
-    jac_phi_q_t_lambda_A_i[67] = t158;
     const jg_real t159 = C_i[7] * f_j_world_1;
     const jg_real t160 = t159 * h_i_dot_f_j;
     const jg_real t161 = (t160 + t160) * t50 * lambda[4] * pitch;
     const jg_real t162 = lambda[3] * t157;
-    const jg_real t163 = t146 + h_j_world_1 * t162 + (t144 + s_j_world_1 * t158) + (across_world_0 * t161 -
+    const jg_real t163 = t146 + t162 * h_j_world_1 + (t144 + s_j_world_1 * t158) + (across_world_0 * t161 -
         f_j_world_0 * t159 * t42);
-    const jg_real t164 = t148 + r_ij_world_1 * t158 + t163;
-    const jg_real t165 = t162 * h_j_world_0;
-    const jg_real t166 = t158 * s_j_world_0;
-    const jg_real t167 = across_world_1 * t161 + (C_i[7] - f_j_world_1 * t159) * t42 - (t139 + t165 + (t134 +
+    const jg_real t164 = r_ij_world_1 * t158 + t148 + t163;
+    const jg_real t165 = t158 * s_j_world_0;
+    const jg_real t166 = t162 * h_j_world_0;
+    const jg_real t167 = across_world_1 * t161 + (C_i[7] - f_j_world_1 * t159) * t42 - (t134 + t165 + (t139 +
         t166));
-    const jg_real t168 = r_ij_world_0 * t158;
+    const jg_real t168 = t158 * r_ij_world_0;
     const jg_real t169 = t167 - (t141 + t168);
-    const jg_real t170 = s_j_world_0 * t125;
+    const jg_real t170 = t125 * s_j_world_0;
     const jg_real t171 = t145 * h_j_world_0;
-    const jg_real t172 = across_world_2 * t161 - f_j_world_2 * t159 * t42 - (t170 - s_j_world_1 * t128 -
-        (h_j_world_1 * t138 - t171));
-    const jg_real t173 = r_ij_world_0 * t125;
-    const jg_real t174 = t172 - (t173 - r_ij_world_1 * t128);
+    const jg_real t172 = across_world_2 * t161 - f_j_world_2 * t159 * t42 - (t170 - s_j_world_1 * t128 - (t138 *
+        h_j_world_1 - t171));
+    const jg_real t173 = t125 * r_ij_world_0;
+    const jg_real t174 = t172 - (t173 - t128 * r_ij_world_1);
+    const jg_real t175 = -t158;
+    jac_phi_q_t_lambda_A_i[47] = -(A_j[6] * t140 + A_j[7] * t147 + A_j[8] * t152);
+    jac_phi_q_t_lambda_A_i[50] = t158;
+    jac_phi_q_t_lambda_A_i[67] = t158;
     jac_phi_q_t_lambda_A_i[51] = A_i[0] * t164 + A_i[1] * t169 + A_i[2] * t174;
     jac_phi_q_t_lambda_A_i[52] = v_8_world_1 + A_i[4] * t169 + A_i[3] * t164 + A_i[5] * t174;
     jac_phi_q_t_lambda_A_i[53] = A_i[6] * t164 + A_i[7] * t169 + A_i[8] * t174;
-    const jg_real t175 = -t158;
     jac_phi_q_t_lambda_A_i[56] = t175;
     jac_phi_q_t_lambda_A_i[61] = t175;
-    jac_phi_q_t_lambda_A_i[57] = -(A_j[0] * t163 + A_j[1] * t167 + A_j[2] * t172);
-    jac_phi_q_t_lambda_A_i[58] = -(A_j[3] * t163 + A_j[4] * t167 + A_j[5] * t172);
-    jac_phi_q_t_lambda_A_i[59] = -(A_j[6] * t163 + A_j[7] * t167 + A_j[8] * t172);
     const jg_real t176 = C_i[7] * f_j_world_2;
     const jg_real t177 = t176 * h_i_dot_f_j;
     const jg_real t178 = (t177 + t177) * t50 * lambda[4] * pitch;
@@ -1736,103 +1732,101 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t180 = t179 - (t153 - r_ij_world_2 * t158);
     const jg_real t181 = across_world_1 * t178 - f_j_world_1 * t176 * t42 - (s_j_world_2 * t130 - t170 - (t171 -
         h_j_world_2 * t136));
-    const jg_real t182 = t181 - (r_ij_world_2 * t130 - t173);
-    const jg_real t183 = across_world_2 * t178 + (C_i[7] - f_j_world_2 * t176) * t42 - (t166 - t135 - (t137 -
-        t165));
+    const jg_real t182 = t181 - (t130 * r_ij_world_2 - t173);
+    const jg_real t183 = across_world_2 * t178 + (C_i[7] - f_j_world_2 * t176) * t42 - (t165 - t135 - (t137 -
+        t166));
     const jg_real t184 = t183 - (t168 - t142);
+    jac_phi_q_t_lambda_A_i[57] = -(A_j[0] * t163 + A_j[1] * t167 + A_j[2] * t172);
+    jac_phi_q_t_lambda_A_i[58] = -(A_j[3] * t163 + A_j[4] * t167 + A_j[5] * t172);
+    jac_phi_q_t_lambda_A_i[59] = -(A_j[6] * t163 + A_j[7] * t167 + A_j[8] * t172);
     jac_phi_q_t_lambda_A_i[63] = A_i[0] * t180 + A_i[1] * t182 + A_i[2] * t184;
     jac_phi_q_t_lambda_A_i[64] = v_8_world_2 + A_i[5] * t184 + (A_i[3] * t180 + A_i[4] * t182);
     jac_phi_q_t_lambda_A_i[65] = A_i[6] * t180 + A_i[7] * t182 + A_i[8] * t184;
     jac_phi_q_t_lambda_A_i[69] = -(A_j[0] * t179 + A_j[1] * t181 + A_j[2] * t183);
     jac_phi_q_t_lambda_A_i[70] = -(A_j[3] * t179 + A_j[4] * t181 + A_j[5] * t183);
-    jac_phi_q_t_lambda_A_i[71] = -(A_j[6] * t179 + A_j[7] * t181 + A_j[8] * t183);
     const jg_real t185 = C_i[2] * lambda[0] + C_i[8] * lambda[4];
+    const jg_real t186 = -t185;
+    const jg_real t187 = C_i[8] * f_i_world_2 - C_i[2] * h_i_world_2;
+    const jg_real t188 = lambda[1] * t187;
+    jac_phi_q_t_lambda_A_i[71] = -(A_j[6] * t179 + A_j[7] * t181 + A_j[8] * t183);
     jac_phi_q_t_lambda_A_i[78] = t185;
     jac_phi_q_t_lambda_A_i[91] = t185;
     jac_phi_q_t_lambda_A_i[104] = t185;
-    const jg_real t186 = -t185;
     jac_phi_q_t_lambda_A_i[72] = t186;
     jac_phi_q_t_lambda_A_i[85] = t186;
     jac_phi_q_t_lambda_A_i[98] = t186;
-    const jg_real t187 = C_i[8] * f_i_world_2 - C_i[2] * h_i_world_2;
-    const jg_real t188 = lambda[1] * t187;
     jac_phi_q_t_lambda_A_i[73] = t188;
     jac_phi_q_t_lambda_A_i[90] = t188;
     const jg_real t189 = C_i[2] * h_i_world_1 - C_i[8] * f_i_world_1;
     const jg_real t190 = lambda[1] * t189;
-    jac_phi_q_t_lambda_A_i[74] = t190;
-    jac_phi_q_t_lambda_A_i[102] = t190;
     const jg_real t191 = C_i[8] * f_j_world_0;
     const jg_real t192 = t191 * h_i_dot_f_j;
     const jg_real t193 = (t192 + t192) * t50 * lambda[4] * pitch;
     const jg_real t194 = s_j_world_2 * t188;
     const jg_real t195 = s_j_world_1 * t190;
     const jg_real t196 = lambda[3] * t189;
-    const jg_real t197 = h_j_world_1 * t196;
+    const jg_real t197 = t196 * h_j_world_1;
     const jg_real t198 = lambda[3] * t187;
     const jg_real t199 = h_j_world_2 * t198;
     const jg_real t200 = across_world_0 * t193 + (C_i[8] - f_j_world_0 * t191) * t42 - (t194 - t195 - (t197 -
         t199));
-    const jg_real t201 = r_ij_world_2 * t188;
-    const jg_real t202 = r_ij_world_1 * t190;
+    const jg_real t201 = t188 * r_ij_world_2;
+    const jg_real t202 = t190 * r_ij_world_1;
     const jg_real t203 = t200 - (t201 - t202);
     const jg_real t204 = s_j_world_2 * t185;
     const jg_real t205 = C_i[2] * lambda[2];
     const jg_real t206 = t205 * h_j_world_2;
-    const jg_real t207 = across_world_1 * t193 - t191 * f_j_world_1 * t42 - (t206 + t196 * h_j_world_0 + (t204 +
-        t190 * s_j_world_0));
+    const jg_real t207 = across_world_1 * t193 - f_j_world_1 * t191 * t42 - (t204 + t190 * s_j_world_0 + (t206 +
+        t196 * h_j_world_0));
     const jg_real t208 = r_ij_world_2 * t185;
-    const jg_real t209 = t207 - (t208 + r_ij_world_0 * t190);
+    const jg_real t209 = t207 - (t208 + t190 * r_ij_world_0);
     const jg_real t210 = s_j_world_1 * t185;
     const jg_real t211 = t205 * h_j_world_1;
-    const jg_real t212 = t211 + t198 * h_j_world_0 + (t210 + t188 * s_j_world_0) + (across_world_2 * t193 - t191 *
-        f_j_world_2 * t42);
+    const jg_real t212 = t210 + t188 * s_j_world_0 + (t211 + t198 * h_j_world_0) + (across_world_2 * t193 -
+        f_j_world_2 * t191 * t42);
     const jg_real t213 = r_ij_world_1 * t185;
-    const jg_real t214 = t213 + r_ij_world_0 * t188 + t212;
+    const jg_real t214 = t213 + t188 * r_ij_world_0 + t212;
+    const jg_real t215 = -t188;
+    const jg_real t216 = -t190;
+    jac_phi_q_t_lambda_A_i[74] = t190;
+    jac_phi_q_t_lambda_A_i[102] = t190;
     jac_phi_q_t_lambda_A_i[75] = A_i[0] * t203 + A_i[1] * t209 + A_i[2] * t214;
     jac_phi_q_t_lambda_A_i[76] = A_i[3] * t203 + A_i[4] * t209 + A_i[5] * t214;
     jac_phi_q_t_lambda_A_i[77] = v_8_world_0 + A_i[6] * t203 + A_i[7] * t209 + A_i[8] * t214;
-    const jg_real t215 = -t188;
     jac_phi_q_t_lambda_A_i[79] = t215;
     jac_phi_q_t_lambda_A_i[84] = t215;
-    const jg_real t216 = -t190;
     jac_phi_q_t_lambda_A_i[80] = t216;
     jac_phi_q_t_lambda_A_i[96] = t216;
-    jac_phi_q_t_lambda_A_i[81] = -(A_j[0] * t200 + A_j[1] * t207 + A_j[2] * t212);
-    jac_phi_q_t_lambda_A_i[82] = -(A_j[3] * t200 + A_j[4] * t207 + A_j[5] * t212);
-    jac_phi_q_t_lambda_A_i[83] = -(A_j[6] * t200 + A_j[7] * t207 + A_j[8] * t212);
     const jg_real t217 = C_i[8] * f_i_world_0 - C_i[2] * h_i_world_0;
     const jg_real t218 = lambda[1] * t217;
-    jac_phi_q_t_lambda_A_i[86] = t218;
-    jac_phi_q_t_lambda_A_i[103] = t218;
     const jg_real t219 = C_i[8] * f_j_world_1;
     const jg_real t220 = t219 * h_i_dot_f_j;
     const jg_real t221 = (t220 + t220) * t50 * lambda[4] * pitch;
     const jg_real t222 = lambda[3] * t217;
-    const jg_real t223 = t206 + h_j_world_1 * t222 + (t204 + s_j_world_1 * t218) + (across_world_0 * t221 -
+    const jg_real t223 = t206 + t222 * h_j_world_1 + (t204 + s_j_world_1 * t218) + (across_world_0 * t221 -
         f_j_world_0 * t219 * t42);
-    const jg_real t224 = t208 + r_ij_world_1 * t218 + t223;
-    const jg_real t225 = t222 * h_j_world_0;
-    const jg_real t226 = t218 * s_j_world_0;
-    const jg_real t227 = across_world_1 * t221 + (C_i[8] - f_j_world_1 * t219) * t42 - (t199 + t225 + (t194 +
+    const jg_real t224 = r_ij_world_1 * t218 + t208 + t223;
+    const jg_real t225 = t218 * s_j_world_0;
+    const jg_real t226 = t222 * h_j_world_0;
+    const jg_real t227 = across_world_1 * t221 + (C_i[8] - f_j_world_1 * t219) * t42 - (t194 + t225 + (t199 +
         t226));
-    const jg_real t228 = r_ij_world_0 * t218;
+    const jg_real t228 = t218 * r_ij_world_0;
     const jg_real t229 = t227 - (t201 + t228);
-    const jg_real t230 = s_j_world_0 * t185;
+    const jg_real t230 = t185 * s_j_world_0;
     const jg_real t231 = t205 * h_j_world_0;
-    const jg_real t232 = across_world_2 * t221 - f_j_world_2 * t219 * t42 - (t230 - s_j_world_1 * t188 -
-        (h_j_world_1 * t198 - t231));
-    const jg_real t233 = r_ij_world_0 * t185;
-    const jg_real t234 = t232 - (t233 - r_ij_world_1 * t188);
+    const jg_real t232 = across_world_2 * t221 - f_j_world_2 * t219 * t42 - (t230 - s_j_world_1 * t188 - (t198 *
+        h_j_world_1 - t231));
+    const jg_real t233 = t185 * r_ij_world_0;
+    const jg_real t234 = t232 - (t233 - t188 * r_ij_world_1);
+    jac_phi_q_t_lambda_A_i[81] = -(A_j[0] * t200 + A_j[1] * t207 + A_j[2] * t212);
+    jac_phi_q_t_lambda_A_i[82] = -(A_j[3] * t200 + A_j[4] * t207 + A_j[5] * t212);
+    jac_phi_q_t_lambda_A_i[83] = -(A_j[6] * t200 + A_j[7] * t207 + A_j[8] * t212);
+    jac_phi_q_t_lambda_A_i[86] = t218;
+    jac_phi_q_t_lambda_A_i[103] = t218;
     jac_phi_q_t_lambda_A_i[87] = A_i[0] * t224 + A_i[1] * t229 + A_i[2] * t234;
     jac_phi_q_t_lambda_A_i[88] = A_i[3] * t224 + A_i[4] * t229 + A_i[5] * t234;
     jac_phi_q_t_lambda_A_i[89] = v_8_world_1 + A_i[7] * t229 + A_i[6] * t224 + A_i[8] * t234;
     const jg_real t235 = -t218;
-    jac_phi_q_t_lambda_A_i[92] = t235;
-    jac_phi_q_t_lambda_A_i[97] = t235;
-    jac_phi_q_t_lambda_A_i[93] = -(A_j[0] * t223 + A_j[1] * t227 + A_j[2] * t232);
-    jac_phi_q_t_lambda_A_i[94] = -(A_j[3] * t223 + A_j[4] * t227 + A_j[5] * t232);
-    jac_phi_q_t_lambda_A_i[95] = -(A_j[6] * t223 + A_j[7] * t227 + A_j[8] * t232);
     const jg_real t236 = C_i[8] * f_j_world_2;
     const jg_real t237 = t236 * h_i_dot_f_j;
     const jg_real t238 = (t237 + t237) * t50 * lambda[4] * pitch;
@@ -1841,409 +1835,414 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t240 = t239 - (t213 - r_ij_world_2 * t218);
     const jg_real t241 = across_world_1 * t238 - f_j_world_1 * t236 * t42 - (s_j_world_2 * t190 - t230 - (t231 -
         h_j_world_2 * t196));
-    const jg_real t242 = t241 - (r_ij_world_2 * t190 - t233);
-    const jg_real t243 = across_world_2 * t238 + (C_i[8] - f_j_world_2 * t236) * t42 - (t226 - t195 - (t197 -
-        t225));
+    const jg_real t242 = t241 - (t190 * r_ij_world_2 - t233);
+    const jg_real t243 = across_world_2 * t238 + (C_i[8] - f_j_world_2 * t236) * t42 - (t225 - t195 - (t197 -
+        t226));
     const jg_real t244 = t243 - (t228 - t202);
+    jac_phi_q_t_lambda_A_i[92] = t235;
+    jac_phi_q_t_lambda_A_i[97] = t235;
+    jac_phi_q_t_lambda_A_i[93] = -(A_j[0] * t223 + A_j[1] * t227 + A_j[2] * t232);
+    jac_phi_q_t_lambda_A_i[94] = -(A_j[3] * t223 + A_j[4] * t227 + A_j[5] * t232);
+    jac_phi_q_t_lambda_A_i[95] = -(A_j[6] * t223 + A_j[7] * t227 + A_j[8] * t232);
     jac_phi_q_t_lambda_A_i[99] = A_i[0] * t240 + A_i[1] * t242 + A_i[2] * t244;
     jac_phi_q_t_lambda_A_i[100] = A_i[3] * t240 + A_i[4] * t242 + A_i[5] * t244;
     jac_phi_q_t_lambda_A_i[101] = v_8_world_2 + A_i[8] * t244 + (A_i[6] * t240 + A_i[7] * t242);
-    jac_phi_q_t_lambda_A_i[105] = -(A_j[0] * t239 + A_j[1] * t241 + A_j[2] * t243);
-    jac_phi_q_t_lambda_A_i[106] = -(A_j[3] * t239 + A_j[4] * t241 + A_j[5] * t243);
-    jac_phi_q_t_lambda_A_i[107] = -(A_j[6] * t239 + A_j[7] * t241 + A_j[8] * t243);
-    const jg_real t245 = C_j[0] * h_i_world_0;
+    const jg_real t245 = h_i_world_0 * C_j[0];
     const jg_real t246 = t245 * h_i_dot_f_j;
     const jg_real t247 = (t246 + t246) * t50 * lambda[4] * pitch;
     const jg_real t248 = C_j[0] * h_i_dot_f_j;
     const jg_real t249 = across_world_0 * t247 - (t248 + f_j_world_0 * t245) * t42;
     const jg_real t250 = C_j[6] * v_2_world_2 + s_j[0] * v_0_world_2;
-    const jg_real t251 = across_world_1 * t247 - t245 * f_j_world_1 * t42 + t250;
+    const jg_real t251 = across_world_1 * t247 - f_j_world_1 * t245 * t42 + t250;
     const jg_real t252 = C_j[6] * v_2_world_1 + s_j[0] * v_0_world_1;
-    const jg_real t253 = across_world_2 * t247 - t245 * f_j_world_2 * t42 - t252;
+    const jg_real t253 = across_world_2 * t247 - f_j_world_2 * t245 * t42 - t252;
+    jac_phi_q_t_lambda_A_i[105] = -(A_j[0] * t239 + A_j[1] * t241 + A_j[2] * t243);
+    jac_phi_q_t_lambda_A_i[106] = -(A_j[3] * t239 + A_j[4] * t241 + A_j[5] * t243);
+    jac_phi_q_t_lambda_A_i[107] = -(A_j[6] * t239 + A_j[7] * t241 + A_j[8] * t243);
     jac_phi_q_t_lambda_A_j[0] = A_i[0] * t249 + A_i[1] * t251 + A_i[2] * t253;
     jac_phi_q_t_lambda_A_j[1] = A_i[3] * t249 + A_i[4] * t251 + A_i[5] * t253;
     jac_phi_q_t_lambda_A_j[2] = A_i[6] * t249 + A_i[7] * t251 + A_i[8] * t253;
     jac_phi_q_t_lambda_A_j[3] = -(v_6_world_0 + A_j[0] * t249 + A_j[1] * t251 + A_j[2] * t253);
     jac_phi_q_t_lambda_A_j[4] = -(A_j[3] * t249 + A_j[4] * t251 + A_j[5] * t253);
-    jac_phi_q_t_lambda_A_j[5] = -(A_j[6] * t249 + A_j[7] * t251 + A_j[8] * t253);
     const jg_real t254 = h_i_world_1 * C_j[0];
     const jg_real t255 = t254 * h_i_dot_f_j;
     const jg_real t256 = (t255 + t255) * t50 * lambda[4] * pitch;
     const jg_real t257 = across_world_0 * t256 - f_j_world_0 * t254 * t42 - t250;
     const jg_real t258 = across_world_1 * t256 - (t248 + f_j_world_1 * t254) * t42;
-    const jg_real t259 = C_j[6] * v_2_world_0 + s_j[0] * v_0_world_0;
+    const jg_real t259 = s_j[0] * v_0_world_0 + C_j[6] * v_2_world_0;
     const jg_real t260 = across_world_2 * t256 - f_j_world_2 * t254 * t42 + t259;
+    const jg_real t261 = h_i_world_2 * C_j[0];
+    const jg_real t262 = t261 * h_i_dot_f_j;
+    const jg_real t263 = (t262 + t262) * t50 * lambda[4] * pitch;
+    const jg_real t264 = across_world_0 * t263 - f_j_world_0 * t261 * t42 + t252;
+    const jg_real t265 = across_world_1 * t263 - f_j_world_1 * t261 * t42 - t259;
+    const jg_real t266 = across_world_2 * t263 - (t248 + f_j_world_2 * t261) * t42;
+    jac_phi_q_t_lambda_A_j[5] = -(A_j[6] * t249 + A_j[7] * t251 + A_j[8] * t253);
     jac_phi_q_t_lambda_A_j[6] = A_i[0] * t257 + A_i[1] * t258 + A_i[2] * t260;
     jac_phi_q_t_lambda_A_j[7] = A_i[3] * t257 + A_i[4] * t258 + A_i[5] * t260;
     jac_phi_q_t_lambda_A_j[8] = A_i[6] * t257 + A_i[7] * t258 + A_i[8] * t260;
     jac_phi_q_t_lambda_A_j[9] = -(v_6_world_1 + A_j[1] * t258 + A_j[0] * t257 + A_j[2] * t260);
     jac_phi_q_t_lambda_A_j[10] = -(A_j[3] * t257 + A_j[4] * t258 + A_j[5] * t260);
     jac_phi_q_t_lambda_A_j[11] = -(A_j[6] * t257 + A_j[7] * t258 + A_j[8] * t260);
-    const jg_real t261 = C_j[0] * h_i_world_2;
-    const jg_real t262 = t261 * h_i_dot_f_j;
-    const jg_real t263 = (t262 + t262) * t50 * lambda[4] * pitch;
-    const jg_real t264 = across_world_0 * t263 - f_j_world_0 * t261 * t42 + t252;
-    const jg_real t265 = across_world_1 * t263 - f_j_world_1 * t261 * t42 - t259;
-    const jg_real t266 = across_world_2 * t263 - (t248 + f_j_world_2 * t261) * t42;
     jac_phi_q_t_lambda_A_j[12] = A_i[0] * t264 + A_i[1] * t265 + A_i[2] * t266;
-    jac_phi_q_t_lambda_A_j[13] = A_i[3] * t264 + A_i[4] * t265 + A_i[5] * t266;
-    jac_phi_q_t_lambda_A_j[14] = A_i[6] * t264 + A_i[7] * t265 + A_i[8] * t266;
-    jac_phi_q_t_lambda_A_j[15] = -(v_6_world_2 + A_j[2] * t266 + (A_j[0] * t264 + A_j[1] * t265));
-    jac_phi_q_t_lambda_A_j[16] = -(A_j[3] * t264 + A_j[4] * t265 + A_j[5] * t266);
-    jac_phi_q_t_lambda_A_j[17] = -(A_j[6] * t264 + A_j[7] * t265 + A_j[8] * t266);
-    const jg_real t267 = C_j[1] * h_i_world_0;
+    const jg_real t267 = h_i_world_0 * C_j[1];
     const jg_real t268 = t267 * h_i_dot_f_j;
     const jg_real t269 = (t268 + t268) * t50 * lambda[4] * pitch;
     const jg_real t270 = C_j[1] * h_i_dot_f_j;
     const jg_real t271 = across_world_0 * t269 - (t270 + f_j_world_0 * t267) * t42;
     const jg_real t272 = C_j[7] * v_2_world_2 + s_j[1] * v_0_world_2;
-    const jg_real t273 = across_world_1 * t269 - t267 * f_j_world_1 * t42 + t272;
+    const jg_real t273 = across_world_1 * t269 - f_j_world_1 * t267 * t42 + t272;
     const jg_real t274 = C_j[7] * v_2_world_1 + s_j[1] * v_0_world_1;
-    const jg_real t275 = across_world_2 * t269 - t267 * f_j_world_2 * t42 - t274;
+    const jg_real t275 = across_world_2 * t269 - f_j_world_2 * t267 * t42 - t274;
+    jac_phi_q_t_lambda_A_j[13] = A_i[3] * t264 + A_i[4] * t265 + A_i[5] * t266;
+    jac_phi_q_t_lambda_A_j[14] = A_i[6] * t264 + A_i[7] * t265 + A_i[8] * t266;
+    jac_phi_q_t_lambda_A_j[15] = -(v_6_world_2 + A_j[2] * t266 + (A_j[0] * t264 + A_j[1] * t265));
+    jac_phi_q_t_lambda_A_j[16] = -(A_j[3] * t264 + A_j[4] * t265 + A_j[5] * t266);
+    jac_phi_q_t_lambda_A_j[17] = -(A_j[6] * t264 + A_j[7] * t265 + A_j[8] * t266);
     jac_phi_q_t_lambda_A_j[18] = A_i[0] * t271 + A_i[1] * t273 + A_i[2] * t275;
     jac_phi_q_t_lambda_A_j[19] = A_i[3] * t271 + A_i[4] * t273 + A_i[5] * t275;
     jac_phi_q_t_lambda_A_j[20] = A_i[6] * t271 + A_i[7] * t273 + A_i[8] * t275;
-    jac_phi_q_t_lambda_A_j[21] = -(A_j[0] * t271 + A_j[1] * t273 + A_j[2] * t275);
-    jac_phi_q_t_lambda_A_j[22] = -(v_6_world_0 + A_j[3] * t271 + A_j[4] * t273 + A_j[5] * t275);
-    jac_phi_q_t_lambda_A_j[23] = -(A_j[6] * t271 + A_j[7] * t273 + A_j[8] * t275);
     const jg_real t276 = h_i_world_1 * C_j[1];
     const jg_real t277 = t276 * h_i_dot_f_j;
     const jg_real t278 = (t277 + t277) * t50 * lambda[4] * pitch;
     const jg_real t279 = across_world_0 * t278 - f_j_world_0 * t276 * t42 - t272;
     const jg_real t280 = across_world_1 * t278 - (t270 + f_j_world_1 * t276) * t42;
-    const jg_real t281 = C_j[7] * v_2_world_0 + s_j[1] * v_0_world_0;
+    const jg_real t281 = s_j[1] * v_0_world_0 + C_j[7] * v_2_world_0;
     const jg_real t282 = across_world_2 * t278 - f_j_world_2 * t276 * t42 + t281;
+    jac_phi_q_t_lambda_A_j[21] = -(A_j[0] * t271 + A_j[1] * t273 + A_j[2] * t275);
+    jac_phi_q_t_lambda_A_j[22] = -(v_6_world_0 + A_j[3] * t271 + A_j[4] * t273 + A_j[5] * t275);
+    jac_phi_q_t_lambda_A_j[23] = -(A_j[6] * t271 + A_j[7] * t273 + A_j[8] * t275);
     jac_phi_q_t_lambda_A_j[24] = A_i[0] * t279 + A_i[1] * t280 + A_i[2] * t282;
     jac_phi_q_t_lambda_A_j[25] = A_i[3] * t279 + A_i[4] * t280 + A_i[5] * t282;
     jac_phi_q_t_lambda_A_j[26] = A_i[6] * t279 + A_i[7] * t280 + A_i[8] * t282;
     jac_phi_q_t_lambda_A_j[27] = -(A_j[0] * t279 + A_j[1] * t280 + A_j[2] * t282);
     jac_phi_q_t_lambda_A_j[28] = -(v_6_world_1 + A_j[4] * t280 + A_j[3] * t279 + A_j[5] * t282);
-    jac_phi_q_t_lambda_A_j[29] = -(A_j[6] * t279 + A_j[7] * t280 + A_j[8] * t282);
     const jg_real t283 = h_i_world_2 * C_j[1];
     const jg_real t284 = t283 * h_i_dot_f_j;
     const jg_real t285 = (t284 + t284) * t50 * lambda[4] * pitch;
     const jg_real t286 = across_world_0 * t285 - f_j_world_0 * t283 * t42 + t274;
     const jg_real t287 = across_world_1 * t285 - f_j_world_1 * t283 * t42 - t281;
     const jg_real t288 = across_world_2 * t285 - (t270 + f_j_world_2 * t283) * t42;
+    const jg_real t289 = h_i_world_0 * C_j[2];
+    const jg_real t290 = t289 * h_i_dot_f_j;
+    const jg_real t291 = (t290 + t290) * t50 * lambda[4] * pitch;
+    const jg_real t292 = C_j[2] * h_i_dot_f_j;
+    const jg_real t293 = across_world_0 * t291 - (t292 + f_j_world_0 * t289) * t42;
+    const jg_real t294 = C_j[8] * v_2_world_2 + s_j[2] * v_0_world_2;
+    const jg_real t295 = across_world_1 * t291 - f_j_world_1 * t289 * t42 + t294;
+    const jg_real t296 = C_j[8] * v_2_world_1 + s_j[2] * v_0_world_1;
+    const jg_real t297 = across_world_2 * t291 - f_j_world_2 * t289 * t42 - t296;
+    jac_phi_q_t_lambda_A_j[29] = -(A_j[6] * t279 + A_j[7] * t280 + A_j[8] * t282);
     jac_phi_q_t_lambda_A_j[30] = A_i[0] * t286 + A_i[1] * t287 + A_i[2] * t288;
     jac_phi_q_t_lambda_A_j[31] = A_i[3] * t286 + A_i[4] * t287 + A_i[5] * t288;
     jac_phi_q_t_lambda_A_j[32] = A_i[6] * t286 + A_i[7] * t287 + A_i[8] * t288;
     jac_phi_q_t_lambda_A_j[33] = -(A_j[0] * t286 + A_j[1] * t287 + A_j[2] * t288);
     jac_phi_q_t_lambda_A_j[34] = -(v_6_world_2 + A_j[5] * t288 + (A_j[3] * t286 + A_j[4] * t287));
     jac_phi_q_t_lambda_A_j[35] = -(A_j[6] * t286 + A_j[7] * t287 + A_j[8] * t288);
-    const jg_real t289 = C_j[2] * h_i_world_0;
-    const jg_real t290 = t289 * h_i_dot_f_j;
-    const jg_real t291 = (t290 + t290) * t50 * lambda[4] * pitch;
-    const jg_real t292 = C_j[2] * h_i_dot_f_j;
-    const jg_real t293 = across_world_0 * t291 - (t292 + f_j_world_0 * t289) * t42;
-    const jg_real t294 = C_j[8] * v_2_world_2 + s_j[2] * v_0_world_2;
-    const jg_real t295 = across_world_1 * t291 - t289 * f_j_world_1 * t42 + t294;
-    const jg_real t296 = C_j[8] * v_2_world_1 + s_j[2] * v_0_world_1;
-    const jg_real t297 = across_world_2 * t291 - t289 * f_j_world_2 * t42 - t296;
     jac_phi_q_t_lambda_A_j[36] = A_i[0] * t293 + A_i[1] * t295 + A_i[2] * t297;
-    jac_phi_q_t_lambda_A_j[37] = A_i[3] * t293 + A_i[4] * t295 + A_i[5] * t297;
-    jac_phi_q_t_lambda_A_j[38] = A_i[6] * t293 + A_i[7] * t295 + A_i[8] * t297;
-    jac_phi_q_t_lambda_A_j[39] = -(A_j[0] * t293 + A_j[1] * t295 + A_j[2] * t297);
-    jac_phi_q_t_lambda_A_j[40] = -(A_j[3] * t293 + A_j[4] * t295 + A_j[5] * t297);
-    jac_phi_q_t_lambda_A_j[41] = -(v_6_world_0 + A_j[6] * t293 + A_j[7] * t295 + A_j[8] * t297);
     const jg_real t298 = h_i_world_1 * C_j[2];
     const jg_real t299 = t298 * h_i_dot_f_j;
     const jg_real t300 = (t299 + t299) * t50 * lambda[4] * pitch;
     const jg_real t301 = across_world_0 * t300 - f_j_world_0 * t298 * t42 - t294;
     const jg_real t302 = across_world_1 * t300 - (t292 + f_j_world_1 * t298) * t42;
-    const jg_real t303 = C_j[8] * v_2_world_0 + s_j[2] * v_0_world_0;
+    const jg_real t303 = s_j[2] * v_0_world_0 + C_j[8] * v_2_world_0;
     const jg_real t304 = across_world_2 * t300 - f_j_world_2 * t298 * t42 + t303;
+    jac_phi_q_t_lambda_A_j[37] = A_i[3] * t293 + A_i[4] * t295 + A_i[5] * t297;
+    jac_phi_q_t_lambda_A_j[38] = A_i[6] * t293 + A_i[7] * t295 + A_i[8] * t297;
+    jac_phi_q_t_lambda_A_j[39] = -(A_j[0] * t293 + A_j[1] * t295 + A_j[2] * t297);
+    jac_phi_q_t_lambda_A_j[40] = -(A_j[3] * t293 + A_j[4] * t295 + A_j[5] * t297);
+    jac_phi_q_t_lambda_A_j[41] = -(v_6_world_0 + A_j[6] * t293 + A_j[7] * t295 + A_j[8] * t297);
     jac_phi_q_t_lambda_A_j[42] = A_i[0] * t301 + A_i[1] * t302 + A_i[2] * t304;
     jac_phi_q_t_lambda_A_j[43] = A_i[3] * t301 + A_i[4] * t302 + A_i[5] * t304;
     jac_phi_q_t_lambda_A_j[44] = A_i[6] * t301 + A_i[7] * t302 + A_i[8] * t304;
-    jac_phi_q_t_lambda_A_j[45] = -(A_j[0] * t301 + A_j[1] * t302 + A_j[2] * t304);
-    jac_phi_q_t_lambda_A_j[46] = -(A_j[3] * t301 + A_j[4] * t302 + A_j[5] * t304);
-    jac_phi_q_t_lambda_A_j[47] = -(v_6_world_1 + A_j[7] * t302 + A_j[6] * t301 + A_j[8] * t304);
     const jg_real t305 = h_i_world_2 * C_j[2];
     const jg_real t306 = t305 * h_i_dot_f_j;
     const jg_real t307 = (t306 + t306) * t50 * lambda[4] * pitch;
     const jg_real t308 = across_world_0 * t307 - f_j_world_0 * t305 * t42 + t296;
     const jg_real t309 = across_world_1 * t307 - f_j_world_1 * t305 * t42 - t303;
     const jg_real t310 = across_world_2 * t307 - (t292 + f_j_world_2 * t305) * t42;
+    jac_phi_q_t_lambda_A_j[45] = -(A_j[0] * t301 + A_j[1] * t302 + A_j[2] * t304);
+    jac_phi_q_t_lambda_A_j[46] = -(A_j[3] * t301 + A_j[4] * t302 + A_j[5] * t304);
+    jac_phi_q_t_lambda_A_j[47] = -(v_6_world_1 + A_j[7] * t302 + A_j[6] * t301 + A_j[8] * t304);
     jac_phi_q_t_lambda_A_j[48] = A_i[0] * t308 + A_i[1] * t309 + A_i[2] * t310;
     jac_phi_q_t_lambda_A_j[49] = A_i[3] * t308 + A_i[4] * t309 + A_i[5] * t310;
     jac_phi_q_t_lambda_A_j[50] = A_i[6] * t308 + A_i[7] * t309 + A_i[8] * t310;
     jac_phi_q_t_lambda_A_j[51] = -(A_j[0] * t308 + A_j[1] * t309 + A_j[2] * t310);
     jac_phi_q_t_lambda_A_j[52] = -(A_j[3] * t308 + A_j[4] * t309 + A_j[5] * t310);
-    jac_phi_q_t_lambda_A_j[53] = -(v_6_world_2 + A_j[8] * t310 + (A_j[6] * t308 + A_j[7] * t309));
     const jg_real t311 = A_i[2] * h_i_world_1 - A_i[1] * h_i_world_2;
     const jg_real t312 = A_i[0] * lambda[0] + lambda[1] * t311;
-    jac_phi_q_t_lambda_geometry[6] = t312;
-    jac_phi_q_t_lambda_geometry[0] = -t312;
     const jg_real t313 = A_i[0] * h_i_world_2 - A_i[2] * h_i_world_0;
     const jg_real t314 = A_i[1] * lambda[0] + lambda[1] * t313;
-    jac_phi_q_t_lambda_geometry[7] = t314;
-    jac_phi_q_t_lambda_geometry[1] = -t314;
     const jg_real t315 = A_i[1] * h_i_world_0 - A_i[0] * h_i_world_1;
     const jg_real t316 = A_i[2] * lambda[0] + lambda[1] * t315;
-    jac_phi_q_t_lambda_geometry[8] = t316;
-    jac_phi_q_t_lambda_geometry[2] = -t316;
     const jg_real t317 = A_i[1] * lambda[2] + lambda[3] * t313;
     const jg_real t318 = A_i[2] * lambda[2] + lambda[3] * t315;
     const jg_real t319 = s_j_world_1 * t316 - s_j_world_2 * t314 - (h_j_world_2 * t317 - h_j_world_1 * t318);
     const jg_real t320 = r_ij_world_1 * t316 - r_ij_world_2 * t314 + t319;
-    const jg_real t321 = A_i[0] * lambda[2] + lambda[3] * t311;
-    const jg_real t322 = s_j_world_2 * t312 - s_j_world_0 * t316 - (t318 * h_j_world_0 - h_j_world_2 * t321);
-    const jg_real t323 = r_ij_world_2 * t312 - r_ij_world_0 * t316 + t322;
-    const jg_real t324 = s_j_world_0 * t314 - s_j_world_1 * t312 - (h_j_world_1 * t321 - t317 * h_j_world_0);
-    const jg_real t325 = r_ij_world_0 * t314 - r_ij_world_1 * t312 + t324;
+    const jg_real t321 = lambda[3] * t311 + A_i[0] * lambda[2];
+    const jg_real t322 = s_j_world_2 * t312 - t316 * s_j_world_0 - (t318 * h_j_world_0 - h_j_world_2 * t321);
+    const jg_real t323 = r_ij_world_2 * t312 - t316 * r_ij_world_0 + t322;
+    const jg_real t324 = t314 * s_j_world_0 - s_j_world_1 * t312 - (h_j_world_1 * t321 - t317 * h_j_world_0);
+    const jg_real t325 = t314 * r_ij_world_0 - r_ij_world_1 * t312 + t324;
+    jac_phi_q_t_lambda_A_j[53] = -(v_6_world_2 + A_j[8] * t310 + (A_j[6] * t308 + A_j[7] * t309));
+    jac_phi_q_t_lambda_geometry[6] = t312;
+    jac_phi_q_t_lambda_geometry[0] = -t312;
+    jac_phi_q_t_lambda_geometry[7] = t314;
+    jac_phi_q_t_lambda_geometry[1] = -t314;
+    jac_phi_q_t_lambda_geometry[8] = t316;
+    jac_phi_q_t_lambda_geometry[2] = -t316;
     jac_phi_q_t_lambda_geometry[3] = -(A_i[0] * t320 + A_i[1] * t323 + A_i[2] * t325);
+    const jg_real t326 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
+    const jg_real t327 = A_i[3] * lambda[0] + lambda[1] * t326;
+    const jg_real t328 = A_i[3] * h_i_world_2 - A_i[5] * h_i_world_0;
+    const jg_real t329 = A_i[4] * lambda[0] + lambda[1] * t328;
     jac_phi_q_t_lambda_geometry[4] = -(A_i[3] * t320 + A_i[4] * t323 + A_i[5] * t325);
     jac_phi_q_t_lambda_geometry[5] = -(A_i[6] * t320 + A_i[7] * t323 + A_i[8] * t325);
     jac_phi_q_t_lambda_geometry[9] = A_j[0] * t319 + A_j[1] * t322 + A_j[2] * t324;
     jac_phi_q_t_lambda_geometry[10] = A_j[3] * t319 + A_j[4] * t322 + A_j[5] * t324;
     jac_phi_q_t_lambda_geometry[11] = A_j[6] * t319 + A_j[7] * t322 + A_j[8] * t324;
-    const jg_real t326 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
-    const jg_real t327 = A_i[3] * lambda[0] + lambda[1] * t326;
     jac_phi_q_t_lambda_geometry[18] = t327;
     jac_phi_q_t_lambda_geometry[12] = -t327;
-    const jg_real t328 = A_i[3] * h_i_world_2 - A_i[5] * h_i_world_0;
-    const jg_real t329 = A_i[4] * lambda[0] + lambda[1] * t328;
     jac_phi_q_t_lambda_geometry[19] = t329;
-    jac_phi_q_t_lambda_geometry[13] = -t329;
     const jg_real t330 = A_i[4] * h_i_world_0 - A_i[3] * h_i_world_1;
     const jg_real t331 = A_i[5] * lambda[0] + lambda[1] * t330;
-    jac_phi_q_t_lambda_geometry[20] = t331;
-    jac_phi_q_t_lambda_geometry[14] = -t331;
     const jg_real t332 = A_i[4] * lambda[2] + lambda[3] * t328;
     const jg_real t333 = A_i[5] * lambda[2] + lambda[3] * t330;
     const jg_real t334 = s_j_world_1 * t331 - s_j_world_2 * t329 - (h_j_world_2 * t332 - h_j_world_1 * t333);
     const jg_real t335 = r_ij_world_1 * t331 - r_ij_world_2 * t329 + t334;
-    const jg_real t336 = A_i[3] * lambda[2] + lambda[3] * t326;
-    const jg_real t337 = s_j_world_2 * t327 - s_j_world_0 * t331 - (t333 * h_j_world_0 - h_j_world_2 * t336);
-    const jg_real t338 = r_ij_world_2 * t327 - r_ij_world_0 * t331 + t337;
-    const jg_real t339 = s_j_world_0 * t329 - s_j_world_1 * t327 - (h_j_world_1 * t336 - t332 * h_j_world_0);
-    const jg_real t340 = r_ij_world_0 * t329 - r_ij_world_1 * t327 + t339;
+    const jg_real t336 = lambda[3] * t326 + A_i[3] * lambda[2];
+    const jg_real t337 = s_j_world_2 * t327 - t331 * s_j_world_0 - (t333 * h_j_world_0 - h_j_world_2 * t336);
+    const jg_real t338 = r_ij_world_2 * t327 - t331 * r_ij_world_0 + t337;
+    const jg_real t339 = t329 * s_j_world_0 - s_j_world_1 * t327 - (h_j_world_1 * t336 - t332 * h_j_world_0);
+    const jg_real t340 = t329 * r_ij_world_0 - r_ij_world_1 * t327 + t339;
+    jac_phi_q_t_lambda_geometry[13] = -t329;
+    jac_phi_q_t_lambda_geometry[20] = t331;
+    jac_phi_q_t_lambda_geometry[14] = -t331;
     jac_phi_q_t_lambda_geometry[15] = -(A_i[0] * t335 + A_i[1] * t338 + A_i[2] * t340);
     jac_phi_q_t_lambda_geometry[16] = -(A_i[3] * t335 + A_i[4] * t338 + A_i[5] * t340);
     jac_phi_q_t_lambda_geometry[17] = -(A_i[6] * t335 + A_i[7] * t338 + A_i[8] * t340);
     jac_phi_q_t_lambda_geometry[21] = A_j[0] * t334 + A_j[1] * t337 + A_j[2] * t339;
     jac_phi_q_t_lambda_geometry[22] = A_j[3] * t334 + A_j[4] * t337 + A_j[5] * t339;
-    jac_phi_q_t_lambda_geometry[23] = A_j[6] * t334 + A_j[7] * t337 + A_j[8] * t339;
     const jg_real t341 = A_i[8] * h_i_world_1 - A_i[7] * h_i_world_2;
     const jg_real t342 = A_i[6] * lambda[0] + lambda[1] * t341;
-    jac_phi_q_t_lambda_geometry[30] = t342;
-    jac_phi_q_t_lambda_geometry[24] = -t342;
     const jg_real t343 = A_i[6] * h_i_world_2 - A_i[8] * h_i_world_0;
     const jg_real t344 = A_i[7] * lambda[0] + lambda[1] * t343;
-    jac_phi_q_t_lambda_geometry[31] = t344;
-    jac_phi_q_t_lambda_geometry[25] = -t344;
     const jg_real t345 = A_i[7] * h_i_world_0 - A_i[6] * h_i_world_1;
     const jg_real t346 = A_i[8] * lambda[0] + lambda[1] * t345;
-    jac_phi_q_t_lambda_geometry[32] = t346;
-    jac_phi_q_t_lambda_geometry[26] = -t346;
     const jg_real t347 = A_i[7] * lambda[2] + lambda[3] * t343;
     const jg_real t348 = A_i[8] * lambda[2] + lambda[3] * t345;
     const jg_real t349 = s_j_world_1 * t346 - s_j_world_2 * t344 - (h_j_world_2 * t347 - h_j_world_1 * t348);
     const jg_real t350 = r_ij_world_1 * t346 - r_ij_world_2 * t344 + t349;
-    const jg_real t351 = A_i[6] * lambda[2] + lambda[3] * t341;
-    const jg_real t352 = s_j_world_2 * t342 - s_j_world_0 * t346 - (t348 * h_j_world_0 - h_j_world_2 * t351);
-    const jg_real t353 = r_ij_world_2 * t342 - r_ij_world_0 * t346 + t352;
-    const jg_real t354 = s_j_world_0 * t344 - s_j_world_1 * t342 - (h_j_world_1 * t351 - t347 * h_j_world_0);
-    const jg_real t355 = r_ij_world_0 * t344 - r_ij_world_1 * t342 + t354;
+    const jg_real t351 = lambda[3] * t341 + A_i[6] * lambda[2];
+    const jg_real t352 = s_j_world_2 * t342 - t346 * s_j_world_0 - (t348 * h_j_world_0 - h_j_world_2 * t351);
+    const jg_real t353 = r_ij_world_2 * t342 - t346 * r_ij_world_0 + t352;
+    const jg_real t354 = t344 * s_j_world_0 - s_j_world_1 * t342 - (h_j_world_1 * t351 - t347 * h_j_world_0);
+    const jg_real t355 = t344 * r_ij_world_0 - r_ij_world_1 * t342 + t354;
+    jac_phi_q_t_lambda_geometry[23] = A_j[6] * t334 + A_j[7] * t337 + A_j[8] * t339;
+    jac_phi_q_t_lambda_geometry[30] = t342;
+    jac_phi_q_t_lambda_geometry[24] = -t342;
+    jac_phi_q_t_lambda_geometry[31] = t344;
+    jac_phi_q_t_lambda_geometry[25] = -t344;
+    jac_phi_q_t_lambda_geometry[32] = t346;
+    jac_phi_q_t_lambda_geometry[26] = -t346;
     jac_phi_q_t_lambda_geometry[27] = -(A_i[0] * t350 + A_i[1] * t353 + A_i[2] * t355);
+    const jg_real t356 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
+    const jg_real t357 = A_i[0] * lambda[4] + lambda[1] * t356;
+    const jg_real t358 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
+    const jg_real t359 = A_i[1] * lambda[4] + lambda[1] * t358;
     jac_phi_q_t_lambda_geometry[28] = -(A_i[3] * t350 + A_i[4] * t353 + A_i[5] * t355);
     jac_phi_q_t_lambda_geometry[29] = -(A_i[6] * t350 + A_i[7] * t353 + A_i[8] * t355);
     jac_phi_q_t_lambda_geometry[33] = A_j[0] * t349 + A_j[1] * t352 + A_j[2] * t354;
     jac_phi_q_t_lambda_geometry[34] = A_j[3] * t349 + A_j[4] * t352 + A_j[5] * t354;
     jac_phi_q_t_lambda_geometry[35] = A_j[6] * t349 + A_j[7] * t352 + A_j[8] * t354;
-    const jg_real t356 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
-    const jg_real t357 = A_i[0] * lambda[4] + lambda[1] * t356;
     jac_phi_q_t_lambda_geometry[42] = t357;
     jac_phi_q_t_lambda_geometry[36] = -t357;
-    const jg_real t358 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
-    const jg_real t359 = A_i[1] * lambda[4] + lambda[1] * t358;
     jac_phi_q_t_lambda_geometry[43] = t359;
-    jac_phi_q_t_lambda_geometry[37] = -t359;
     const jg_real t360 = A_i[0] * f_i_world_1 - A_i[1] * f_i_world_0;
     const jg_real t361 = A_i[2] * lambda[4] + lambda[1] * t360;
-    jac_phi_q_t_lambda_geometry[44] = t361;
-    jac_phi_q_t_lambda_geometry[38] = -t361;
     const jg_real t362 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     const jg_real t363 = h_i_dot_f_j * t362;
     const jg_real t364 = (t363 + t363) * t50 * lambda[4] * pitch;
     const jg_real t365 = lambda[3] * t358;
     const jg_real t366 = lambda[3] * t360;
     const jg_real t367 = across_world_0 * t364 + (A_i[0] - f_j_world_0 * t362) * t42 - (s_j_world_1 * t361 -
-        s_j_world_2 * t359 - (h_j_world_2 * t365 - h_j_world_1 * t366));
+        s_j_world_2 * t359 - (h_j_world_2 * t365 - t366 * h_j_world_1));
     const jg_real t368 = t367 - (r_ij_world_1 * t361 - r_ij_world_2 * t359);
     const jg_real t369 = lambda[3] * t356;
-    const jg_real t370 = across_world_1 * t364 + (A_i[1] - f_j_world_1 * t362) * t42 - (s_j_world_2 * t357 -
-        s_j_world_0 * t361 - (t366 * h_j_world_0 - h_j_world_2 * t369));
-    const jg_real t371 = t370 - (r_ij_world_2 * t357 - r_ij_world_0 * t361);
-    const jg_real t372 = across_world_2 * t364 + (A_i[2] - f_j_world_2 * t362) * t42 - (s_j_world_0 * t359 -
+    const jg_real t370 = across_world_1 * t364 + (A_i[1] - f_j_world_1 * t362) * t42 - (s_j_world_2 * t357 - t361 *
+        s_j_world_0 - (t366 * h_j_world_0 - h_j_world_2 * t369));
+    const jg_real t371 = t370 - (r_ij_world_2 * t357 - t361 * r_ij_world_0);
+    const jg_real t372 = across_world_2 * t364 + (A_i[2] - f_j_world_2 * t362) * t42 - (t359 * s_j_world_0 -
         s_j_world_1 * t357 - (h_j_world_1 * t369 - t365 * h_j_world_0));
-    const jg_real t373 = t372 - (r_ij_world_0 * t359 - r_ij_world_1 * t357);
+    const jg_real t373 = t372 - (t359 * r_ij_world_0 - r_ij_world_1 * t357);
+    jac_phi_q_t_lambda_geometry[37] = -t359;
+    jac_phi_q_t_lambda_geometry[44] = t361;
+    jac_phi_q_t_lambda_geometry[38] = -t361;
     jac_phi_q_t_lambda_geometry[39] = A_i[0] * t368 + A_i[1] * t371 + A_i[2] * t373;
     jac_phi_q_t_lambda_geometry[40] = A_i[3] * t368 + A_i[4] * t371 + A_i[5] * t373;
     jac_phi_q_t_lambda_geometry[41] = A_i[6] * t368 + A_i[7] * t371 + A_i[8] * t373;
     jac_phi_q_t_lambda_geometry[45] = -(A_j[0] * t367 + A_j[1] * t370 + A_j[2] * t372);
     jac_phi_q_t_lambda_geometry[46] = -(A_j[3] * t367 + A_j[4] * t370 + A_j[5] * t372);
-    jac_phi_q_t_lambda_geometry[47] = -(A_j[6] * t367 + A_j[7] * t370 + A_j[8] * t372);
     const jg_real t374 = A_i[4] * f_i_world_2 - A_i[5] * f_i_world_1;
     const jg_real t375 = A_i[3] * lambda[4] + lambda[1] * t374;
-    jac_phi_q_t_lambda_geometry[54] = t375;
-    jac_phi_q_t_lambda_geometry[48] = -t375;
     const jg_real t376 = A_i[5] * f_i_world_0 - A_i[3] * f_i_world_2;
     const jg_real t377 = A_i[4] * lambda[4] + lambda[1] * t376;
-    jac_phi_q_t_lambda_geometry[55] = t377;
-    jac_phi_q_t_lambda_geometry[49] = -t377;
     const jg_real t378 = A_i[3] * f_i_world_1 - A_i[4] * f_i_world_0;
     const jg_real t379 = A_i[5] * lambda[4] + lambda[1] * t378;
-    jac_phi_q_t_lambda_geometry[56] = t379;
-    jac_phi_q_t_lambda_geometry[50] = -t379;
     const jg_real t380 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     const jg_real t381 = h_i_dot_f_j * t380;
     const jg_real t382 = (t381 + t381) * t50 * lambda[4] * pitch;
     const jg_real t383 = lambda[3] * t376;
     const jg_real t384 = lambda[3] * t378;
     const jg_real t385 = across_world_0 * t382 + (A_i[3] - f_j_world_0 * t380) * t42 - (s_j_world_1 * t379 -
-        s_j_world_2 * t377 - (h_j_world_2 * t383 - h_j_world_1 * t384));
+        s_j_world_2 * t377 - (h_j_world_2 * t383 - t384 * h_j_world_1));
     const jg_real t386 = t385 - (r_ij_world_1 * t379 - r_ij_world_2 * t377);
     const jg_real t387 = lambda[3] * t374;
-    const jg_real t388 = across_world_1 * t382 + (A_i[4] - f_j_world_1 * t380) * t42 - (s_j_world_2 * t375 -
-        s_j_world_0 * t379 - (t384 * h_j_world_0 - h_j_world_2 * t387));
-    const jg_real t389 = t388 - (r_ij_world_2 * t375 - r_ij_world_0 * t379);
-    const jg_real t390 = across_world_2 * t382 + (A_i[5] - f_j_world_2 * t380) * t42 - (s_j_world_0 * t377 -
+    const jg_real t388 = across_world_1 * t382 + (A_i[4] - f_j_world_1 * t380) * t42 - (s_j_world_2 * t375 - t379 *
+        s_j_world_0 - (t384 * h_j_world_0 - h_j_world_2 * t387));
+    const jg_real t389 = t388 - (r_ij_world_2 * t375 - t379 * r_ij_world_0);
+    const jg_real t390 = across_world_2 * t382 + (A_i[5] - f_j_world_2 * t380) * t42 - (t377 * s_j_world_0 -
         s_j_world_1 * t375 - (h_j_world_1 * t387 - t383 * h_j_world_0));
-    const jg_real t391 = t390 - (r_ij_world_0 * t377 - r_ij_world_1 * t375);
+    const jg_real t391 = t390 - (t377 * r_ij_world_0 - r_ij_world_1 * t375);
+    jac_phi_q_t_lambda_geometry[47] = -(A_j[6] * t367 + A_j[7] * t370 + A_j[8] * t372);
+    jac_phi_q_t_lambda_geometry[54] = t375;
+    jac_phi_q_t_lambda_geometry[48] = -t375;
+    jac_phi_q_t_lambda_geometry[55] = t377;
+    jac_phi_q_t_lambda_geometry[49] = -t377;
+    jac_phi_q_t_lambda_geometry[56] = t379;
+    jac_phi_q_t_lambda_geometry[50] = -t379;
     jac_phi_q_t_lambda_geometry[51] = A_i[0] * t386 + A_i[1] * t389 + A_i[2] * t391;
+    const jg_real t392 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
+    const jg_real t393 = A_i[6] * lambda[4] + lambda[1] * t392;
+    const jg_real t394 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
+    const jg_real t395 = A_i[7] * lambda[4] + lambda[1] * t394;
     jac_phi_q_t_lambda_geometry[52] = A_i[3] * t386 + A_i[4] * t389 + A_i[5] * t391;
     jac_phi_q_t_lambda_geometry[53] = A_i[6] * t386 + A_i[7] * t389 + A_i[8] * t391;
     jac_phi_q_t_lambda_geometry[57] = -(A_j[0] * t385 + A_j[1] * t388 + A_j[2] * t390);
     jac_phi_q_t_lambda_geometry[58] = -(A_j[3] * t385 + A_j[4] * t388 + A_j[5] * t390);
     jac_phi_q_t_lambda_geometry[59] = -(A_j[6] * t385 + A_j[7] * t388 + A_j[8] * t390);
-    const jg_real t392 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
-    const jg_real t393 = A_i[6] * lambda[4] + lambda[1] * t392;
     jac_phi_q_t_lambda_geometry[66] = t393;
     jac_phi_q_t_lambda_geometry[60] = -t393;
-    const jg_real t394 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
-    const jg_real t395 = A_i[7] * lambda[4] + lambda[1] * t394;
     jac_phi_q_t_lambda_geometry[67] = t395;
-    jac_phi_q_t_lambda_geometry[61] = -t395;
     const jg_real t396 = A_i[6] * f_i_world_1 - A_i[7] * f_i_world_0;
     const jg_real t397 = A_i[8] * lambda[4] + lambda[1] * t396;
-    jac_phi_q_t_lambda_geometry[68] = t397;
-    jac_phi_q_t_lambda_geometry[62] = -t397;
     const jg_real t398 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     const jg_real t399 = h_i_dot_f_j * t398;
     const jg_real t400 = (t399 + t399) * t50 * lambda[4] * pitch;
     const jg_real t401 = lambda[3] * t394;
     const jg_real t402 = lambda[3] * t396;
     const jg_real t403 = across_world_0 * t400 + (A_i[6] - f_j_world_0 * t398) * t42 - (s_j_world_1 * t397 -
-        s_j_world_2 * t395 - (h_j_world_2 * t401 - h_j_world_1 * t402));
+        s_j_world_2 * t395 - (h_j_world_2 * t401 - t402 * h_j_world_1));
     const jg_real t404 = t403 - (r_ij_world_1 * t397 - r_ij_world_2 * t395);
     const jg_real t405 = lambda[3] * t392;
-    const jg_real t406 = across_world_1 * t400 + (A_i[7] - f_j_world_1 * t398) * t42 - (s_j_world_2 * t393 -
-        s_j_world_0 * t397 - (t402 * h_j_world_0 - h_j_world_2 * t405));
-    const jg_real t407 = t406 - (r_ij_world_2 * t393 - r_ij_world_0 * t397);
-    const jg_real t408 = across_world_2 * t400 + (A_i[8] - f_j_world_2 * t398) * t42 - (s_j_world_0 * t395 -
+    const jg_real t406 = across_world_1 * t400 + (A_i[7] - f_j_world_1 * t398) * t42 - (s_j_world_2 * t393 - t397 *
+        s_j_world_0 - (t402 * h_j_world_0 - h_j_world_2 * t405));
+    const jg_real t407 = t406 - (r_ij_world_2 * t393 - t397 * r_ij_world_0);
+    const jg_real t408 = across_world_2 * t400 + (A_i[8] - f_j_world_2 * t398) * t42 - (t395 * s_j_world_0 -
         s_j_world_1 * t393 - (h_j_world_1 * t405 - t401 * h_j_world_0));
-    const jg_real t409 = t408 - (r_ij_world_0 * t395 - r_ij_world_1 * t393);
+    const jg_real t409 = t408 - (t395 * r_ij_world_0 - r_ij_world_1 * t393);
+    jac_phi_q_t_lambda_geometry[61] = -t395;
+    jac_phi_q_t_lambda_geometry[68] = t397;
+    jac_phi_q_t_lambda_geometry[62] = -t397;
     jac_phi_q_t_lambda_geometry[63] = A_i[0] * t404 + A_i[1] * t407 + A_i[2] * t409;
     jac_phi_q_t_lambda_geometry[64] = A_i[3] * t404 + A_i[4] * t407 + A_i[5] * t409;
     jac_phi_q_t_lambda_geometry[65] = A_i[6] * t404 + A_i[7] * t407 + A_i[8] * t409;
     jac_phi_q_t_lambda_geometry[69] = -(A_j[0] * t403 + A_j[1] * t406 + A_j[2] * t408);
     jac_phi_q_t_lambda_geometry[70] = -(A_j[3] * t403 + A_j[4] * t406 + A_j[5] * t408);
-    jac_phi_q_t_lambda_geometry[71] = -(A_j[6] * t403 + A_j[7] * t406 + A_j[8] * t408);
     const jg_real t410 = A_j[1] * v_0_world_2 - A_j[2] * v_0_world_1;
     const jg_real t411 = A_j[2] * v_0_world_0 - A_j[0] * v_0_world_2;
     const jg_real t412 = A_j[0] * v_0_world_1 - A_j[1] * v_0_world_0;
+    const jg_real t413 = A_j[4] * v_0_world_2 - A_j[5] * v_0_world_1;
+    const jg_real t414 = A_j[5] * v_0_world_0 - A_j[3] * v_0_world_2;
+    const jg_real t415 = A_j[3] * v_0_world_1 - A_j[4] * v_0_world_0;
+    jac_phi_q_t_lambda_geometry[71] = -(A_j[6] * t403 + A_j[7] * t406 + A_j[8] * t408);
     jac_phi_q_t_lambda_geometry[72] = -(A_i[0] * t410 + A_i[1] * t411 + A_i[2] * t412);
     jac_phi_q_t_lambda_geometry[73] = -(A_i[3] * t410 + A_i[4] * t411 + A_i[5] * t412);
     jac_phi_q_t_lambda_geometry[74] = -(A_i[6] * t410 + A_i[7] * t411 + A_i[8] * t412);
     jac_phi_q_t_lambda_geometry[75] = A_j[0] * t410 + A_j[1] * t411 + A_j[2] * t412;
     jac_phi_q_t_lambda_geometry[76] = A_j[3] * t410 + A_j[4] * t411 + A_j[5] * t412;
     jac_phi_q_t_lambda_geometry[77] = A_j[6] * t410 + A_j[7] * t411 + A_j[8] * t412;
-    const jg_real t413 = A_j[4] * v_0_world_2 - A_j[5] * v_0_world_1;
-    const jg_real t414 = A_j[5] * v_0_world_0 - A_j[3] * v_0_world_2;
-    const jg_real t415 = A_j[3] * v_0_world_1 - A_j[4] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[78] = -(A_i[0] * t413 + A_i[1] * t414 + A_i[2] * t415);
+    const jg_real t416 = A_j[7] * v_0_world_2 - A_j[8] * v_0_world_1;
+    const jg_real t417 = A_j[8] * v_0_world_0 - A_j[6] * v_0_world_2;
+    const jg_real t418 = A_j[6] * v_0_world_1 - A_j[7] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[79] = -(A_i[3] * t413 + A_i[4] * t414 + A_i[5] * t415);
     jac_phi_q_t_lambda_geometry[80] = -(A_i[6] * t413 + A_i[7] * t414 + A_i[8] * t415);
     jac_phi_q_t_lambda_geometry[81] = A_j[0] * t413 + A_j[1] * t414 + A_j[2] * t415;
     jac_phi_q_t_lambda_geometry[82] = A_j[3] * t413 + A_j[4] * t414 + A_j[5] * t415;
     jac_phi_q_t_lambda_geometry[83] = A_j[6] * t413 + A_j[7] * t414 + A_j[8] * t415;
-    const jg_real t416 = A_j[7] * v_0_world_2 - A_j[8] * v_0_world_1;
-    const jg_real t417 = A_j[8] * v_0_world_0 - A_j[6] * v_0_world_2;
-    const jg_real t418 = A_j[6] * v_0_world_1 - A_j[7] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[84] = -(A_i[0] * t416 + A_i[1] * t417 + A_i[2] * t418);
     jac_phi_q_t_lambda_geometry[85] = -(A_i[3] * t416 + A_i[4] * t417 + A_i[5] * t418);
     jac_phi_q_t_lambda_geometry[86] = -(A_i[6] * t416 + A_i[7] * t417 + A_i[8] * t418);
-    jac_phi_q_t_lambda_geometry[87] = A_j[0] * t416 + A_j[1] * t417 + A_j[2] * t418;
-    jac_phi_q_t_lambda_geometry[88] = A_j[3] * t416 + A_j[4] * t417 + A_j[5] * t418;
-    jac_phi_q_t_lambda_geometry[89] = A_j[6] * t416 + A_j[7] * t417 + A_j[8] * t418;
-    const jg_real t419 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    const jg_real t419 = h_i_world_0 * A_j[0] + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     const jg_real t420 = h_i_dot_f_j * t419;
     const jg_real t421 = (t420 + t420) * t50 * lambda[4] * pitch;
     const jg_real t422 = across_world_0 * t421 - (A_j[0] * h_i_dot_f_j + f_j_world_0 * t419) * t42;
     const jg_real t423 = across_world_1 * t421 - (A_j[1] * h_i_dot_f_j + f_j_world_1 * t419) * t42;
     const jg_real t424 = across_world_2 * t421 - (A_j[2] * h_i_dot_f_j + f_j_world_2 * t419) * t42;
+    jac_phi_q_t_lambda_geometry[87] = A_j[0] * t416 + A_j[1] * t417 + A_j[2] * t418;
+    jac_phi_q_t_lambda_geometry[88] = A_j[3] * t416 + A_j[4] * t417 + A_j[5] * t418;
+    jac_phi_q_t_lambda_geometry[89] = A_j[6] * t416 + A_j[7] * t417 + A_j[8] * t418;
     jac_phi_q_t_lambda_geometry[90] = A_i[0] * t422 + A_i[1] * t423 + A_i[2] * t424;
     jac_phi_q_t_lambda_geometry[91] = A_i[3] * t422 + A_i[4] * t423 + A_i[5] * t424;
     jac_phi_q_t_lambda_geometry[92] = A_i[6] * t422 + A_i[7] * t423 + A_i[8] * t424;
     jac_phi_q_t_lambda_geometry[93] = -(A_j[0] * t422 + A_j[1] * t423 + A_j[2] * t424);
     jac_phi_q_t_lambda_geometry[94] = -(A_j[3] * t422 + A_j[4] * t423 + A_j[5] * t424);
-    jac_phi_q_t_lambda_geometry[95] = -(A_j[6] * t422 + A_j[7] * t423 + A_j[8] * t424);
-    const jg_real t425 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
+    const jg_real t425 = h_i_world_0 * A_j[3] + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     const jg_real t426 = h_i_dot_f_j * t425;
     const jg_real t427 = (t426 + t426) * t50 * lambda[4] * pitch;
     const jg_real t428 = across_world_0 * t427 - (A_j[3] * h_i_dot_f_j + f_j_world_0 * t425) * t42;
     const jg_real t429 = across_world_1 * t427 - (A_j[4] * h_i_dot_f_j + f_j_world_1 * t425) * t42;
     const jg_real t430 = across_world_2 * t427 - (A_j[5] * h_i_dot_f_j + f_j_world_2 * t425) * t42;
+    const jg_real t431 = h_i_world_0 * A_j[6] + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
+    const jg_real t432 = h_i_dot_f_j * t431;
+    const jg_real t433 = (t432 + t432) * t50 * lambda[4] * pitch;
+    const jg_real t434 = across_world_0 * t433 - (A_j[6] * h_i_dot_f_j + f_j_world_0 * t431) * t42;
+    const jg_real t435 = across_world_1 * t433 - (A_j[7] * h_i_dot_f_j + f_j_world_1 * t431) * t42;
+    const jg_real t436 = across_world_2 * t433 - (A_j[8] * h_i_dot_f_j + f_j_world_2 * t431) * t42;
+    jac_phi_q_t_lambda_geometry[95] = -(A_j[6] * t422 + A_j[7] * t423 + A_j[8] * t424);
     jac_phi_q_t_lambda_geometry[96] = A_i[0] * t428 + A_i[1] * t429 + A_i[2] * t430;
     jac_phi_q_t_lambda_geometry[97] = A_i[3] * t428 + A_i[4] * t429 + A_i[5] * t430;
     jac_phi_q_t_lambda_geometry[98] = A_i[6] * t428 + A_i[7] * t429 + A_i[8] * t430;
     jac_phi_q_t_lambda_geometry[99] = -(A_j[0] * t428 + A_j[1] * t429 + A_j[2] * t430);
     jac_phi_q_t_lambda_geometry[100] = -(A_j[3] * t428 + A_j[4] * t429 + A_j[5] * t430);
     jac_phi_q_t_lambda_geometry[101] = -(A_j[6] * t428 + A_j[7] * t429 + A_j[8] * t430);
-    const jg_real t431 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
-    const jg_real t432 = h_i_dot_f_j * t431;
-    const jg_real t433 = (t432 + t432) * t50 * lambda[4] * pitch;
-    const jg_real t434 = across_world_0 * t433 - (A_j[6] * h_i_dot_f_j + f_j_world_0 * t431) * t42;
-    const jg_real t435 = across_world_1 * t433 - (A_j[7] * h_i_dot_f_j + f_j_world_1 * t431) * t42;
-    const jg_real t436 = across_world_2 * t433 - (A_j[8] * h_i_dot_f_j + f_j_world_2 * t431) * t42;
     jac_phi_q_t_lambda_geometry[102] = A_i[0] * t434 + A_i[1] * t435 + A_i[2] * t436;
+    const jg_real t437 = A_j[2] * v_2_world_1 - A_j[1] * v_2_world_2;
+    const jg_real t438 = A_j[0] * v_2_world_2 - A_j[2] * v_2_world_0;
+    const jg_real t439 = A_j[1] * v_2_world_0 - A_j[0] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[103] = A_i[3] * t434 + A_i[4] * t435 + A_i[5] * t436;
     jac_phi_q_t_lambda_geometry[104] = A_i[6] * t434 + A_i[7] * t435 + A_i[8] * t436;
     jac_phi_q_t_lambda_geometry[105] = -(A_j[0] * t434 + A_j[1] * t435 + A_j[2] * t436);
     jac_phi_q_t_lambda_geometry[106] = -(A_j[3] * t434 + A_j[4] * t435 + A_j[5] * t436);
     jac_phi_q_t_lambda_geometry[107] = -(A_j[6] * t434 + A_j[7] * t435 + A_j[8] * t436);
-    const jg_real t437 = A_j[2] * v_2_world_1 - A_j[1] * v_2_world_2;
-    const jg_real t438 = A_j[0] * v_2_world_2 - A_j[2] * v_2_world_0;
-    const jg_real t439 = A_j[1] * v_2_world_0 - A_j[0] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[108] = A_i[0] * t437 + A_i[1] * t438 + A_i[2] * t439;
     jac_phi_q_t_lambda_geometry[109] = A_i[3] * t437 + A_i[4] * t438 + A_i[5] * t439;
     jac_phi_q_t_lambda_geometry[110] = A_i[6] * t437 + A_i[7] * t438 + A_i[8] * t439;
-    jac_phi_q_t_lambda_geometry[111] = -(A_j[0] * t437 + A_j[1] * t438 + A_j[2] * t439);
-    jac_phi_q_t_lambda_geometry[112] = -(A_j[3] * t437 + A_j[4] * t438 + A_j[5] * t439);
-    jac_phi_q_t_lambda_geometry[113] = -(A_j[6] * t437 + A_j[7] * t438 + A_j[8] * t439);
     const jg_real t440 = A_j[5] * v_2_world_1 - A_j[4] * v_2_world_2;
     const jg_real t441 = A_j[3] * v_2_world_2 - A_j[5] * v_2_world_0;
     const jg_real t442 = A_j[4] * v_2_world_0 - A_j[3] * v_2_world_1;
+    jac_phi_q_t_lambda_geometry[111] = -(A_j[0] * t437 + A_j[1] * t438 + A_j[2] * t439);
+    jac_phi_q_t_lambda_geometry[112] = -(A_j[3] * t437 + A_j[4] * t438 + A_j[5] * t439);
+    jac_phi_q_t_lambda_geometry[113] = -(A_j[6] * t437 + A_j[7] * t438 + A_j[8] * t439);
     jac_phi_q_t_lambda_geometry[114] = A_i[0] * t440 + A_i[1] * t441 + A_i[2] * t442;
     jac_phi_q_t_lambda_geometry[115] = A_i[3] * t440 + A_i[4] * t441 + A_i[5] * t442;
     jac_phi_q_t_lambda_geometry[116] = A_i[6] * t440 + A_i[7] * t441 + A_i[8] * t442;
     jac_phi_q_t_lambda_geometry[117] = -(A_j[0] * t440 + A_j[1] * t441 + A_j[2] * t442);
     jac_phi_q_t_lambda_geometry[118] = -(A_j[3] * t440 + A_j[4] * t441 + A_j[5] * t442);
-    jac_phi_q_t_lambda_geometry[119] = -(A_j[6] * t440 + A_j[7] * t441 + A_j[8] * t442);
     const jg_real t443 = A_j[8] * v_2_world_1 - A_j[7] * v_2_world_2;
     const jg_real t444 = A_j[6] * v_2_world_2 - A_j[8] * v_2_world_0;
     const jg_real t445 = A_j[7] * v_2_world_0 - A_j[6] * v_2_world_1;
+    const jg_real t446 = across_world_0 * t41;
+    const jg_real t447 = across_world_1 * t41;
+    const jg_real t448 = across_world_2 * t41;
+    jac_phi_q_t_lambda_geometry[119] = -(A_j[6] * t440 + A_j[7] * t441 + A_j[8] * t442);
     jac_phi_q_t_lambda_geometry[120] = A_i[0] * t443 + A_i[1] * t444 + A_i[2] * t445;
     jac_phi_q_t_lambda_geometry[121] = A_i[3] * t443 + A_i[4] * t444 + A_i[5] * t445;
     jac_phi_q_t_lambda_geometry[122] = A_i[6] * t443 + A_i[7] * t444 + A_i[8] * t445;
     jac_phi_q_t_lambda_geometry[123] = -(A_j[0] * t443 + A_j[1] * t444 + A_j[2] * t445);
     jac_phi_q_t_lambda_geometry[124] = -(A_j[3] * t443 + A_j[4] * t444 + A_j[5] * t445);
     jac_phi_q_t_lambda_geometry[125] = -(A_j[6] * t443 + A_j[7] * t444 + A_j[8] * t445);
-    const jg_real t446 = across_world_0 * t41;
-    const jg_real t447 = across_world_1 * t41;
-    const jg_real t448 = across_world_2 * t41;
     jac_phi_q_t_lambda_geometry[126] = A_i[0] * t446 + A_i[1] * t447 + A_i[2] * t448;
     jac_phi_q_t_lambda_geometry[127] = A_i[3] * t446 + A_i[4] * t447 + A_i[5] * t448;
     jac_phi_q_t_lambda_geometry[128] = A_i[6] * t446 + A_i[7] * t447 + A_i[8] * t448;
@@ -2267,40 +2266,34 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     jac_phi_q_t_lambda_lambda[11] = A_j[6] * t449 + A_j[7] * t451 + A_j[8] * t453;
     jac_phi_q_t_lambda_lambda[12] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -g_i_world_1;
-    jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
     const jg_real t455 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
-    const jg_real t456 = r_ij_world_1 * g_i_world_2 - r_ij_world_2 * g_i_world_1 + t455;
+    const jg_real t456 = g_i_world_2 * r_ij_world_1 - g_i_world_1 * r_ij_world_2 + t455;
     const jg_real t457 = s_j_world_2 * g_i_world_0 - g_i_world_2 * s_j_world_0;
     const jg_real t458 = g_i_world_0 * r_ij_world_2 - g_i_world_2 * r_ij_world_0 + t457;
     const jg_real t459 = g_i_world_1 * s_j_world_0 - s_j_world_1 * g_i_world_0;
     const jg_real t460 = g_i_world_1 * r_ij_world_0 - g_i_world_0 * r_ij_world_1 + t459;
+    const jg_real t461 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
+    const jg_real t462 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
+    const jg_real t463 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
     jac_phi_q_t_lambda_lambda[15] = -(A_i[0] * t456 + A_i[1] * t458 + A_i[2] * t460);
     jac_phi_q_t_lambda_lambda[16] = -(A_i[3] * t456 + A_i[4] * t458 + A_i[5] * t460);
     jac_phi_q_t_lambda_lambda[17] = -(A_i[6] * t456 + A_i[7] * t458 + A_i[8] * t460);
     jac_phi_q_t_lambda_lambda[21] = A_j[0] * t455 + A_j[1] * t457 + A_j[2] * t459;
     jac_phi_q_t_lambda_lambda[22] = A_j[3] * t455 + A_j[4] * t457 + A_j[5] * t459;
     jac_phi_q_t_lambda_lambda[23] = A_j[6] * t455 + A_j[7] * t457 + A_j[8] * t459;
-    const jg_real t461 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
-    const jg_real t462 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    const jg_real t463 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[24] = A_i[0] * t461 + A_i[1] * t462 + A_i[2] * t463;
+    const jg_real t464 = h_j_world_2 * g_i_world_1 - g_i_world_2 * h_j_world_1;
+    const jg_real t465 = g_i_world_2 * h_j_world_0 - g_i_world_0 * h_j_world_2;
+    const jg_real t466 = g_i_world_0 * h_j_world_1 - g_i_world_1 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[25] = A_i[3] * t461 + A_i[4] * t462 + A_i[5] * t463;
     jac_phi_q_t_lambda_lambda[26] = A_i[6] * t461 + A_i[7] * t462 + A_i[8] * t463;
     jac_phi_q_t_lambda_lambda[27] = -(A_j[0] * t461 + A_j[1] * t462 + A_j[2] * t463);
     jac_phi_q_t_lambda_lambda[28] = -(A_j[3] * t461 + A_j[4] * t462 + A_j[5] * t463);
     jac_phi_q_t_lambda_lambda[29] = -(A_j[6] * t461 + A_j[7] * t462 + A_j[8] * t463);
-    const jg_real t464 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
-    const jg_real t465 = g_i_world_2 * h_j_world_0 - h_j_world_2 * g_i_world_0;
-    const jg_real t466 = h_j_world_1 * g_i_world_0 - g_i_world_1 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[30] = A_i[0] * t464 + A_i[1] * t465 + A_i[2] * t466;
     jac_phi_q_t_lambda_lambda[31] = A_i[3] * t464 + A_i[4] * t465 + A_i[5] * t466;
     jac_phi_q_t_lambda_lambda[32] = A_i[6] * t464 + A_i[7] * t465 + A_i[8] * t466;
-    jac_phi_q_t_lambda_lambda[33] = -(A_j[0] * t464 + A_j[1] * t465 + A_j[2] * t466);
-    jac_phi_q_t_lambda_lambda[34] = -(A_j[3] * t464 + A_j[4] * t465 + A_j[5] * t466);
-    jac_phi_q_t_lambda_lambda[35] = -(A_j[6] * t464 + A_j[7] * t465 + A_j[8] * t466);
-    jac_phi_q_t_lambda_lambda[36] = -h_i_world_0;
-    jac_phi_q_t_lambda_lambda[37] = -h_i_world_1;
-    jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
     const jg_real t467 = pitch * spread;
     const jg_real t468 = across_world_0 * t467 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
     const jg_real t469 = t468 - (h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2);
@@ -2308,6 +2301,12 @@ static void jg_screw_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_REST
     const jg_real t471 = t470 - (h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0);
     const jg_real t472 = across_world_2 * t467 - (h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1);
     const jg_real t473 = t472 - (h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1);
+    jac_phi_q_t_lambda_lambda[33] = -(A_j[0] * t464 + A_j[1] * t465 + A_j[2] * t466);
+    jac_phi_q_t_lambda_lambda[34] = -(A_j[3] * t464 + A_j[4] * t465 + A_j[5] * t466);
+    jac_phi_q_t_lambda_lambda[35] = -(A_j[6] * t464 + A_j[7] * t465 + A_j[8] * t466);
+    jac_phi_q_t_lambda_lambda[36] = -h_i_world_0;
+    jac_phi_q_t_lambda_lambda[37] = -h_i_world_1;
+    jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
     jac_phi_q_t_lambda_lambda[39] = A_i[0] * t469 + A_i[1] * t471 + A_i[2] * t473;
     jac_phi_q_t_lambda_lambda[40] = A_i[3] * t469 + A_i[4] * t471 + A_i[5] * t473;
     jac_phi_q_t_lambda_lambda[41] = A_i[6] * t469 + A_i[7] * t471 + A_i[8] * t473;

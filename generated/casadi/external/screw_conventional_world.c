@@ -35,45 +35,39 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real revolutions = geometry[26];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    jac_phi_r_j[0] = f_i_world_0;
-    jac_phi_r_i[0] = -f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real t2 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    jac_phi_r_j[0] = f_i_world_0;
+    jac_phi_r_i[0] = -f_i_world_0;
     jac_phi_r_j[1] = g_i_world_0;
     jac_phi_r_i[1] = -g_i_world_0;
-    const jg_real t2 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_r_j[2] = t2;
     jac_phi_r_i[2] = -t2;
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     jac_phi_r_j[3] = f_i_world_1;
     jac_phi_r_i[3] = -f_i_world_1;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t5 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_r_j[4] = g_i_world_1;
     jac_phi_r_i[4] = -g_i_world_1;
-    const jg_real t5 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     jac_phi_r_j[5] = t5;
     jac_phi_r_i[5] = -t5;
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_r_j[6] = f_i_world_2;
     jac_phi_r_i[6] = -f_i_world_2;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_r_j[7] = g_i_world_2;
     jac_phi_r_i[7] = -g_i_world_2;
     const jg_real t8 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_r_j[8] = t8;
-    jac_phi_r_i[8] = -t8;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* r_ij_world = r_ij, world axes */
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_ij + s_j, world axes */
     const jg_real e_ij_world_0 = r_ij_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = C_i[0] * e_ij_world_0;
-    jac_phi_A_i[1] = C_i[3] * e_ij_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    jac_phi_A_i[2] = C_i[0] * h_j_world_0;
-    jac_phi_A_i[3] = C_i[3] * h_j_world_0;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
@@ -85,22 +79,28 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t18 = f_i_dot_f_j * f_i_dot_f_j + g_i_dot_f_j * g_i_dot_f_j;
     const jg_real t19 = f_i_dot_f_j / t18;
     const jg_real t20 = g_i_dot_f_j / t18;
-    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - pitch * (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20);
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = r_ij_world_1 + s_j_world_1;
+    jac_phi_r_j[8] = t8;
+    jac_phi_r_i[8] = -t8;
+    jac_phi_A_i[0] = C_i[0] * e_ij_world_0;
+    jac_phi_A_i[1] = C_i[3] * e_ij_world_0;
+    jac_phi_A_i[2] = C_i[0] * h_j_world_0;
+    jac_phi_A_i[3] = C_i[3] * h_j_world_0;
+    jac_phi_A_i[4] = e_ij_world_0 * C_i[6] - pitch * (C_i[3] * f_j_world_0 * t19 - C_i[0] * f_j_world_0 * t20);
     jac_phi_A_i[5] = C_i[0] * e_ij_world_1;
-    jac_phi_A_i[6] = C_i[3] * e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[7] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[8] = C_i[3] * h_j_world_1;
-    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - pitch * (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20);
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = r_ij_world_2 + s_j_world_2;
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_A_i[6] = C_i[3] * e_ij_world_1;
+    jac_phi_A_i[7] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[8] = C_i[3] * h_j_world_1;
+    jac_phi_A_i[9] = e_ij_world_1 * C_i[6] - pitch * (C_i[3] * f_j_world_1 * t19 - C_i[0] * f_j_world_1 * t20);
     jac_phi_A_i[10] = C_i[0] * e_ij_world_2;
     jac_phi_A_i[11] = C_i[3] * e_ij_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[12] = C_i[0] * h_j_world_2;
     jac_phi_A_i[13] = C_i[3] * h_j_world_2;
     jac_phi_A_i[14] = e_ij_world_2 * C_i[6] - pitch * (C_i[3] * f_j_world_2 * t19 - C_i[0] * f_j_world_2 * t20);
@@ -127,6 +127,9 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_A_i[35] = C_i[2] * e_ij_world_1;
     jac_phi_A_i[36] = C_i[5] * e_ij_world_1;
     jac_phi_A_i[37] = C_i[2] * h_j_world_1;
+    const jg_real t29 = s_j[0] * A_i[0];
+    const jg_real t30 = s_j[0] * A_i[3];
+    const jg_real t31 = s_j[0] * A_i[6];
     jac_phi_A_i[38] = C_i[5] * h_j_world_1;
     jac_phi_A_i[39] = e_ij_world_1 * C_i[8] - pitch * (C_i[5] * f_j_world_1 * t19 - C_i[2] * f_j_world_1 * t20);
     jac_phi_A_i[40] = C_i[2] * e_ij_world_2;
@@ -134,45 +137,42 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_A_i[42] = C_i[2] * h_j_world_2;
     jac_phi_A_i[43] = C_i[5] * h_j_world_2;
     jac_phi_A_i[44] = e_ij_world_2 * C_i[8] - pitch * (C_i[5] * f_j_world_2 * t19 - C_i[2] * f_j_world_2 * t20);
-    const jg_real t29 = s_j[0] * A_i[0];
-    const jg_real t30 = s_j[0] * A_i[3];
-    const jg_real t31 = s_j[0] * A_i[6];
     jac_phi_A_j[0] = C_i[0] * t29 + C_i[1] * t30 + C_i[2] * t31;
-    jac_phi_A_j[1] = C_i[3] * t29 + C_i[4] * t30 + C_i[5] * t31;
-    jac_phi_A_j[2] = C_j[6] * f_i_world_0;
-    jac_phi_A_j[3] = C_j[6] * g_i_world_0;
-    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - pitch * (C_j[0] * g_i_world_0 * t19 - f_i_world_0
-        * C_j[0] * t20);
     const jg_real t32 = s_j[0] * A_i[1];
     const jg_real t33 = s_j[0] * A_i[4];
     const jg_real t34 = s_j[0] * A_i[7];
+    jac_phi_A_j[1] = C_i[3] * t29 + C_i[4] * t30 + C_i[5] * t31;
+    jac_phi_A_j[2] = C_j[6] * f_i_world_0;
+    jac_phi_A_j[3] = C_j[6] * g_i_world_0;
+    jac_phi_A_j[4] = t29 * C_i[6] + t30 * C_i[7] + t31 * C_i[8] - pitch * (g_i_world_0 * C_j[0] * t19 - f_i_world_0
+        * C_j[0] * t20);
     jac_phi_A_j[5] = C_i[0] * t32 + C_i[1] * t33 + C_i[2] * t34;
     jac_phi_A_j[6] = C_i[3] * t32 + C_i[4] * t33 + C_i[5] * t34;
     jac_phi_A_j[7] = C_j[6] * f_i_world_1;
     jac_phi_A_j[8] = C_j[6] * g_i_world_1;
-    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - pitch * (C_j[0] * g_i_world_1 * t19 - f_i_world_1
-        * C_j[0] * t20);
     const jg_real t35 = s_j[0] * A_i[2];
     const jg_real t36 = s_j[0] * A_i[5];
     const jg_real t37 = s_j[0] * A_i[8];
+    const jg_real t38 = s_j[1] * A_i[0];
+    const jg_real t39 = s_j[1] * A_i[3];
+    const jg_real t40 = s_j[1] * A_i[6];
+    jac_phi_A_j[9] = t32 * C_i[6] + t33 * C_i[7] + t34 * C_i[8] - pitch * (C_j[0] * g_i_world_1 * t19 - f_i_world_1
+        * C_j[0] * t20);
     jac_phi_A_j[10] = C_i[0] * t35 + C_i[1] * t36 + C_i[2] * t37;
     jac_phi_A_j[11] = C_i[3] * t35 + C_i[4] * t36 + C_i[5] * t37;
     jac_phi_A_j[12] = C_j[6] * f_i_world_2;
     jac_phi_A_j[13] = C_j[6] * g_i_world_2;
-    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - pitch * (C_j[0] * g_i_world_2 * t19 - C_j[0] *
-        f_i_world_2 * t20);
-    const jg_real t38 = s_j[1] * A_i[0];
-    const jg_real t39 = s_j[1] * A_i[3];
-    const jg_real t40 = s_j[1] * A_i[6];
+    jac_phi_A_j[14] = t35 * C_i[6] + t36 * C_i[7] + t37 * C_i[8] - pitch * (C_j[0] * g_i_world_2 * t19 - f_i_world_2
+        * C_j[0] * t20);
     jac_phi_A_j[15] = C_i[0] * t38 + C_i[1] * t39 + C_i[2] * t40;
     jac_phi_A_j[16] = C_i[3] * t38 + C_i[4] * t39 + C_i[5] * t40;
-    jac_phi_A_j[17] = C_j[7] * f_i_world_0;
-    jac_phi_A_j[18] = C_j[7] * g_i_world_0;
-    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - pitch * (C_j[1] * g_i_world_0 * t19 - f_i_world_0
-        * C_j[1] * t20);
     const jg_real t41 = s_j[1] * A_i[1];
     const jg_real t42 = s_j[1] * A_i[4];
     const jg_real t43 = s_j[1] * A_i[7];
+    jac_phi_A_j[17] = C_j[7] * f_i_world_0;
+    jac_phi_A_j[18] = C_j[7] * g_i_world_0;
+    jac_phi_A_j[19] = t38 * C_i[6] + t39 * C_i[7] + t40 * C_i[8] - pitch * (g_i_world_0 * C_j[1] * t19 - f_i_world_0
+        * C_j[1] * t20);
     jac_phi_A_j[20] = C_i[0] * t41 + C_i[1] * t42 + C_i[2] * t43;
     jac_phi_A_j[21] = C_i[3] * t41 + C_i[4] * t42 + C_i[5] * t43;
     jac_phi_A_j[22] = C_j[7] * f_i_world_1;
@@ -182,33 +182,33 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t44 = s_j[1] * A_i[2];
     const jg_real t45 = s_j[1] * A_i[5];
     const jg_real t46 = s_j[1] * A_i[8];
+    const jg_real t47 = s_j[2] * A_i[0];
+    const jg_real t48 = s_j[2] * A_i[3];
+    const jg_real t49 = s_j[2] * A_i[6];
     jac_phi_A_j[25] = C_i[0] * t44 + C_i[1] * t45 + C_i[2] * t46;
     jac_phi_A_j[26] = C_i[3] * t44 + C_i[4] * t45 + C_i[5] * t46;
     jac_phi_A_j[27] = C_j[7] * f_i_world_2;
     jac_phi_A_j[28] = C_j[7] * g_i_world_2;
     jac_phi_A_j[29] = t44 * C_i[6] + t45 * C_i[7] + t46 * C_i[8] - pitch * (C_j[1] * g_i_world_2 * t19 - f_i_world_2
         * C_j[1] * t20);
-    const jg_real t47 = s_j[2] * A_i[0];
-    const jg_real t48 = s_j[2] * A_i[3];
-    const jg_real t49 = s_j[2] * A_i[6];
     jac_phi_A_j[30] = C_i[0] * t47 + C_i[1] * t48 + C_i[2] * t49;
     jac_phi_A_j[31] = C_i[3] * t47 + C_i[4] * t48 + C_i[5] * t49;
     jac_phi_A_j[32] = C_j[8] * f_i_world_0;
-    jac_phi_A_j[33] = C_j[8] * g_i_world_0;
-    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - pitch * (C_j[2] * g_i_world_0 * t19 - f_i_world_0
-        * C_j[2] * t20);
     const jg_real t50 = s_j[2] * A_i[1];
     const jg_real t51 = s_j[2] * A_i[4];
     const jg_real t52 = s_j[2] * A_i[7];
+    const jg_real t53 = s_j[2] * A_i[2];
+    const jg_real t54 = s_j[2] * A_i[5];
+    const jg_real t55 = s_j[2] * A_i[8];
+    jac_phi_A_j[33] = C_j[8] * g_i_world_0;
+    jac_phi_A_j[34] = t47 * C_i[6] + t48 * C_i[7] + t49 * C_i[8] - pitch * (g_i_world_0 * C_j[2] * t19 - f_i_world_0
+        * C_j[2] * t20);
     jac_phi_A_j[35] = C_i[0] * t50 + C_i[1] * t51 + C_i[2] * t52;
     jac_phi_A_j[36] = C_i[3] * t50 + C_i[4] * t51 + C_i[5] * t52;
     jac_phi_A_j[37] = C_j[8] * f_i_world_1;
     jac_phi_A_j[38] = C_j[8] * g_i_world_1;
     jac_phi_A_j[39] = t50 * C_i[6] + t51 * C_i[7] + t52 * C_i[8] - pitch * (C_j[2] * g_i_world_1 * t19 - f_i_world_1
         * C_j[2] * t20);
-    const jg_real t53 = s_j[2] * A_i[2];
-    const jg_real t54 = s_j[2] * A_i[5];
-    const jg_real t55 = s_j[2] * A_i[8];
     jac_phi_A_j[40] = C_i[0] * t53 + C_i[1] * t54 + C_i[2] * t55;
     jac_phi_A_j[41] = C_i[3] * t53 + C_i[4] * t54 + C_i[5] * t55;
     jac_phi_A_j[42] = C_j[8] * f_i_world_2;
@@ -219,92 +219,90 @@ static void jg_screw_conventional_world_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[1] = -C_i[3];
     jac_phi_geometry[2] = -C_i[6];
     jac_phi_geometry[3] = -C_i[1];
+    /* e_ij_in_i = r_ij + s_j, axes of body i */
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
+    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
+    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[4] = -C_i[4];
     jac_phi_geometry[5] = -C_i[7];
     jac_phi_geometry[6] = -C_i[2];
     jac_phi_geometry[7] = -C_i[5];
     jac_phi_geometry[8] = -C_i[8];
-    /* e_ij_in_i = r_ij + s_j, axes of body i */
-    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
-    /* d_ij_in_i = r_ij + s_j - s_i, axes of body i */
-    const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     jac_phi_geometry[9] = d_ij_in_i_0;
     jac_phi_geometry[18] = d_ij_in_i_0;
     jac_phi_geometry[27] = d_ij_in_i_0;
     const jg_real t58 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
-    jac_phi_geometry[10] = t58;
-    jac_phi_geometry[19] = t58;
     const jg_real t59 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[11] = t59 * t20 * pitch;
     const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
+    const jg_real t62 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    jac_phi_geometry[10] = t58;
+    jac_phi_geometry[19] = t58;
+    jac_phi_geometry[11] = t59 * t20 * pitch;
     jac_phi_geometry[12] = d_ij_in_i_1;
     jac_phi_geometry[21] = d_ij_in_i_1;
     jac_phi_geometry[28] = d_ij_in_i_1;
-    const jg_real t62 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[13] = t62;
     jac_phi_geometry[22] = t62;
     const jg_real t63 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[14] = t63 * t20 * pitch;
     const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
+    const jg_real t66 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
+    const jg_real t67 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
+    jac_phi_geometry[14] = t63 * t20 * pitch;
     jac_phi_geometry[15] = d_ij_in_i_2;
     jac_phi_geometry[24] = d_ij_in_i_2;
     jac_phi_geometry[29] = d_ij_in_i_2;
-    const jg_real t66 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     jac_phi_geometry[16] = t66;
     jac_phi_geometry[25] = t66;
-    const jg_real t67 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[17] = t67 * t20 * pitch;
     jac_phi_geometry[20] = -(t59 * t19 * pitch);
-    jac_phi_geometry[23] = -(t63 * t19 * pitch);
-    jac_phi_geometry[26] = -(t67 * t19 * pitch);
     const jg_real t68 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real t69 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real t70 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[30] = C_i[0] * t68 + C_i[1] * t69 + C_i[2] * t70;
-    jac_phi_geometry[31] = C_i[3] * t68 + C_i[4] * t69 + C_i[5] * t70;
-    jac_phi_geometry[32] = C_i[6] * t68 + C_i[7] * t69 + C_i[8] * t70;
     const jg_real t71 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
     const jg_real t72 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     const jg_real t73 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    jac_phi_geometry[23] = -(t63 * t19 * pitch);
+    jac_phi_geometry[26] = -(t67 * t19 * pitch);
+    jac_phi_geometry[30] = C_i[0] * t68 + C_i[1] * t69 + C_i[2] * t70;
+    jac_phi_geometry[31] = C_i[3] * t68 + C_i[4] * t69 + C_i[5] * t70;
+    jac_phi_geometry[32] = t68 * C_i[6] + t69 * C_i[7] + t70 * C_i[8];
     jac_phi_geometry[33] = C_i[0] * t71 + C_i[1] * t72 + C_i[2] * t73;
     jac_phi_geometry[34] = C_i[3] * t71 + C_i[4] * t72 + C_i[5] * t73;
-    jac_phi_geometry[35] = C_i[6] * t71 + C_i[7] * t72 + C_i[8] * t73;
+    jac_phi_geometry[35] = t71 * C_i[6] + t72 * C_i[7] + t73 * C_i[8];
     const jg_real t74 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     const jg_real t75 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     const jg_real t76 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    const jg_real t77 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    const jg_real t78 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t79 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real t80 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[36] = C_i[0] * t74 + C_i[1] * t75 + C_i[2] * t76;
     jac_phi_geometry[37] = C_i[3] * t74 + C_i[4] * t75 + C_i[5] * t76;
-    jac_phi_geometry[38] = C_i[6] * t74 + C_i[7] * t75 + C_i[8] * t76;
-    const jg_real t77 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
+    jac_phi_geometry[38] = t74 * C_i[6] + t75 * C_i[7] + t76 * C_i[8];
     jac_phi_geometry[43] = t77;
-    const jg_real t78 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
     jac_phi_geometry[42] = t78;
     jac_phi_geometry[39] = -(pitch * (t77 * t19 - t78 * t20));
-    const jg_real t79 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
     jac_phi_geometry[45] = t79;
-    const jg_real t80 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[44] = t80;
-    jac_phi_geometry[40] = -(pitch * (t79 * t19 - t80 * t20));
     const jg_real t81 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    jac_phi_geometry[47] = t81;
     const jg_real t82 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
-    jac_phi_geometry[46] = t82;
-    jac_phi_geometry[41] = -(pitch * (t81 * t19 - t82 * t20));
     /* theta =  */
     const jg_real theta = jg_atan2(g_i_dot_f_j, f_i_dot_f_j);
+    jac_phi_geometry[40] = -(pitch * (t79 * t19 - t80 * t20));
+    jac_phi_geometry[47] = t81;
+    jac_phi_geometry[46] = t82;
+    jac_phi_geometry[41] = -(pitch * (t81 * t19 - t82 * t20));
     jac_phi_geometry[48] = -(theta_0 + theta + revolutions * JG_REAL(6.283185307179586));
     jac_phi_geometry[49] = -pitch;
     jac_phi_geometry[50] = -(JG_REAL(6.283185307179586) * pitch);
 }
 
-static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *jac_phi_q_v_r_i,
+    jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j, jg_real *jac_phi_q_v_geometry,
+    jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -316,49 +314,47 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real *const omega_j = velocity + 9;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    jac_phi_q_v_velocity[27] = f_i_world_1;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    jac_phi_q_v_velocity[31] = g_i_world_2;
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    jac_phi_q_v_velocity[30] = f_i_world_2;
     const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    jac_phi_q_v_velocity[28] = g_i_world_1;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = f_i_world_1 * g_i_world_2 - f_i_world_2 * g_i_world_1;
-    jac_phi_q_v_velocity[26] = h_i_world_0;
     const jg_real g_i_world_0 = C_i[3] * A_i[0] + C_i[4] * A_i[3] + C_i[5] * A_i[6];
-    jac_phi_q_v_velocity[25] = g_i_world_0;
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    jac_phi_q_v_velocity[24] = f_i_world_0;
     const jg_real h_i_world_1 = f_i_world_2 * g_i_world_0 - g_i_world_2 * f_i_world_0;
+    jac_phi_q_v_velocity[27] = f_i_world_1;
+    jac_phi_q_v_velocity[31] = g_i_world_2;
+    jac_phi_q_v_velocity[30] = f_i_world_2;
+    jac_phi_q_v_velocity[28] = g_i_world_1;
+    jac_phi_q_v_velocity[26] = h_i_world_0;
+    jac_phi_q_v_velocity[25] = g_i_world_0;
+    jac_phi_q_v_velocity[24] = f_i_world_0;
     jac_phi_q_v_velocity[29] = h_i_world_1;
     const jg_real h_i_world_2 = g_i_world_1 * f_i_world_0 - f_i_world_1 * g_i_world_0;
-    jac_phi_q_v_velocity[32] = h_i_world_2;
     /* h_i_dot_omega_i = h_i . omega_i */
     const jg_real h_i_dot_omega_i = omega_i[0] * h_i_world_0 + omega_i[1] * h_i_world_1 + omega_i[2] * h_i_world_2;
     /* g_i_dot_omega_i = g_i . omega_i */
-    const jg_real g_i_dot_omega_i = omega_i[1] * g_i_world_1 + omega_i[0] * g_i_world_0 + omega_i[2] * g_i_world_2;
+    const jg_real g_i_dot_omega_i = g_i_world_1 * omega_i[1] + omega_i[0] * g_i_world_0 + g_i_world_2 * omega_i[2];
     const jg_real t11 = h_i_world_0 * g_i_dot_omega_i - g_i_world_0 * h_i_dot_omega_i;
-    jac_phi_q_v_r_i[0] = t11;
     /* f_i_dot_omega_i = f_i . omega_i */
-    const jg_real f_i_dot_omega_i = f_i_world_1 * omega_i[1] + omega_i[0] * f_i_world_0 + omega_i[2] * f_i_world_2;
+    const jg_real f_i_dot_omega_i = omega_i[0] * f_i_world_0 + f_i_world_1 * omega_i[1] + f_i_world_2 * omega_i[2];
     const jg_real t13 = f_i_world_0 * h_i_dot_omega_i - h_i_world_0 * f_i_dot_omega_i;
-    jac_phi_q_v_r_i[1] = t13;
     const jg_real t14 = g_i_world_0 * f_i_dot_omega_i - f_i_world_0 * g_i_dot_omega_i;
-    jac_phi_q_v_r_i[2] = t14;
     const jg_real t15 = h_i_world_1 * g_i_dot_omega_i - g_i_world_1 * h_i_dot_omega_i;
-    jac_phi_q_v_r_i[3] = t15;
     const jg_real t16 = f_i_world_1 * h_i_dot_omega_i - h_i_world_1 * f_i_dot_omega_i;
-    jac_phi_q_v_r_i[4] = t16;
     const jg_real t17 = g_i_world_1 * f_i_dot_omega_i - f_i_world_1 * g_i_dot_omega_i;
-    jac_phi_q_v_r_i[5] = t17;
     const jg_real t18 = h_i_world_2 * g_i_dot_omega_i - g_i_world_2 * h_i_dot_omega_i;
+    jac_phi_q_v_velocity[32] = h_i_world_2;
+    jac_phi_q_v_r_i[0] = t11;
+    jac_phi_q_v_r_i[1] = t13;
+    jac_phi_q_v_r_i[2] = t14;
+    jac_phi_q_v_r_i[3] = t15;
+    jac_phi_q_v_r_i[4] = t16;
+    jac_phi_q_v_r_i[5] = t17;
     jac_phi_q_v_r_i[6] = t18;
     const jg_real t19 = f_i_world_2 * h_i_dot_omega_i - h_i_world_2 * f_i_dot_omega_i;
-    jac_phi_q_v_r_i[7] = t19;
     const jg_real t20 = g_i_world_2 * f_i_dot_omega_i - f_i_world_2 * g_i_dot_omega_i;
-    jac_phi_q_v_r_i[8] = t20;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real t22 = C_i[3] * s_j_world_0;
@@ -373,7 +369,7 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real s_j_in_joint_i_2 = s_j_world_0 * h_i_world_0 + s_j_world_1 * h_i_world_1 + s_j_world_2 *
         h_i_world_2;
     const jg_real t30 = C_i[3] * omega_i[0];
-    const jg_real t31 = s_j_world_1 * t26 + s_j_world_2 * t27;
+    const jg_real t31 = s_j_world_1 * t26 + t27 * s_j_world_2;
     /* r_ij_world = r_ij, world axes */
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
@@ -383,32 +379,24 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
         h_i_world_2;
     const jg_real t36 = r_ij_world_1 * t26 + r_ij_world_2 * t27;
     const jg_real t37 = C_i[3] * r_ij_world_0;
-    const jg_real r_ij_in_joint_i_1 = r_ij_world_1 * g_i_world_1 + r_ij_world_0 * g_i_world_0 + g_i_world_2 *
+    const jg_real r_ij_in_joint_i_1 = r_ij_world_0 * g_i_world_0 + g_i_world_1 * r_ij_world_1 + g_i_world_2 *
         r_ij_world_2;
     /* h_i_dot_omega_j = h_i . omega_j */
     const jg_real h_i_dot_omega_j = omega_j[0] * h_i_world_0 + omega_j[1] * h_i_world_1 + omega_j[2] * h_i_world_2;
-    const jg_real t40 = omega_j[1] * t26 + omega_j[2] * t27;
+    const jg_real t40 = omega_j[1] * t26 + t27 * omega_j[2];
     const jg_real t41 = C_i[3] * omega_j[0];
     /* g_i_dot_omega_j = g_i . omega_j */
-    const jg_real g_i_dot_omega_j = omega_j[1] * g_i_world_1 + omega_j[0] * g_i_world_0 + g_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_i[0] = C_i[0] * v_j[0] - (t30 * s_j_in_joint_i_2 - g_i_dot_omega_i * t31 - (t22 * h_i_dot_omega_i
-        - s_j_in_joint_i_1 * t28) + (t30 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t36 - (t37 * h_i_dot_omega_i -
-        r_ij_in_joint_i_1 * t28) + C_i[0] * v_i[0]) - (t41 * s_j_in_joint_i_2 - g_i_dot_omega_j * t31 - (t22 *
-        h_i_dot_omega_j - s_j_in_joint_i_1 * t40)));
+    const jg_real g_i_dot_omega_j = g_i_world_1 * omega_j[1] + g_i_world_0 * omega_j[0] + g_i_world_2 * omega_j[2];
     const jg_real t43 = C_i[0] * s_j_world_0;
     const jg_real s_j_in_joint_i_0 = s_j_world_0 * f_i_world_0 + f_i_world_1 * s_j_world_1 + f_i_world_2 *
         s_j_world_2;
     const jg_real t45 = C_i[0] * omega_i[0];
     const jg_real t46 = C_i[0] * r_ij_world_0;
-    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + f_i_world_1 * r_ij_world_1 + r_ij_world_2 *
-        f_i_world_2;
+    const jg_real r_ij_in_joint_i_0 = r_ij_world_0 * f_i_world_0 + f_i_world_1 * r_ij_world_1 + f_i_world_2 *
+        r_ij_world_2;
     const jg_real t48 = C_i[0] * omega_j[0];
     /* f_i_dot_omega_j = f_i . omega_j */
-    const jg_real f_i_dot_omega_j = omega_j[0] * f_i_world_0 + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
-    jac_phi_q_v_A_i[1] = C_i[3] * v_j[0] - (t43 * h_i_dot_omega_i - s_j_in_joint_i_0 * t28 - (t45 * s_j_in_joint_i_2
-        - f_i_dot_omega_i * t31) + (t46 * h_i_dot_omega_i - r_ij_in_joint_i_0 * t28 - (t45 * r_ij_in_joint_i_2 -
-        f_i_dot_omega_i * t36) + C_i[3] * v_i[0]) - (t43 * h_i_dot_omega_j - s_j_in_joint_i_0 * t40 - (t48 *
-        s_j_in_joint_i_2 - t31 * f_i_dot_omega_j)));
+    const jg_real f_i_dot_omega_j = f_i_world_0 * omega_j[0] + f_i_world_1 * omega_j[1] + f_i_world_2 * omega_j[2];
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real t51 = C_i[3] * h_j_world_0;
@@ -420,15 +408,9 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real h_j_in_joint_i_2 = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 *
         h_j_world_2;
     const jg_real t56 = t26 * h_j_world_1 + t27 * h_j_world_2;
-    jac_phi_q_v_A_i[2] = t41 * h_j_in_joint_i_2 - g_i_dot_omega_j * t56 - (h_i_dot_omega_j * t51 - t40 *
-        h_j_in_joint_i_1) - (t30 * h_j_in_joint_i_2 - g_i_dot_omega_i * t56 - (h_i_dot_omega_i * t51 - t28 *
-        h_j_in_joint_i_1));
     const jg_real t57 = C_i[0] * h_j_world_0;
     const jg_real h_j_in_joint_i_0 = f_i_world_0 * h_j_world_0 + f_i_world_1 * h_j_world_1 + f_i_world_2 *
         h_j_world_2;
-    jac_phi_q_v_A_i[3] = h_i_dot_omega_j * t57 - t40 * h_j_in_joint_i_0 - (t48 * h_j_in_joint_i_2 - f_i_dot_omega_j
-        * t56) - (h_i_dot_omega_i * t57 - t28 * h_j_in_joint_i_0 - (t45 * h_j_in_joint_i_2 - f_i_dot_omega_i *
-        t56));
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
@@ -447,11 +429,6 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t69 = omega_i_dot_f_j - omega_j_dot_f_j;
     const jg_real t70 = h_i_dot_f_j * t69 - h_i_dot_omega_i + h_i_dot_omega_j;
     const jg_real t71 = pitch * spread;
-    jac_phi_q_v_A_i[4] = -(v_j[1] * t26 + v_j[2] * t27 + (t45 * s_j_in_joint_i_1 + t22 * f_i_dot_omega_i - (t30 *
-        s_j_in_joint_i_0 + t43 * g_i_dot_omega_i) + (t37 * f_i_dot_omega_i + t45 * r_ij_in_joint_i_1 - (t46 *
-        g_i_dot_omega_i + t30 * r_ij_in_joint_i_0) + ((t28 - t65 * t69 - t40) * t71 - (t66 + t66) * t64 * pitch *
-        t70 - (v_i[1] * t26 + v_i[2] * t27))) - (t22 * f_i_dot_omega_j + s_j_in_joint_i_1 * t48 - (t43 *
-        g_i_dot_omega_j + t41 * s_j_in_joint_i_0))));
     const jg_real t72 = C_i[0] * g_i_world_0 - C_i[3] * f_i_world_0;
     const jg_real t73 = omega_i[0] * t26 - omega_i[2] * t72;
     const jg_real t74 = C_i[3] * s_j_world_1;
@@ -461,6 +438,27 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t78 = C_i[3] * r_ij_world_1;
     const jg_real t79 = omega_j[0] * t26 - omega_j[2] * t72;
     const jg_real t80 = C_i[3] * omega_j[1];
+    jac_phi_q_v_r_i[7] = t19;
+    jac_phi_q_v_r_i[8] = t20;
+    jac_phi_q_v_A_i[0] = C_i[0] * v_j[0] - (t30 * s_j_in_joint_i_2 - g_i_dot_omega_i * t31 - (t22 * h_i_dot_omega_i
+        - s_j_in_joint_i_1 * t28) + (t30 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t36 - (t37 * h_i_dot_omega_i -
+        r_ij_in_joint_i_1 * t28) + C_i[0] * v_i[0]) - (t41 * s_j_in_joint_i_2 - g_i_dot_omega_j * t31 - (t22 *
+        h_i_dot_omega_j - s_j_in_joint_i_1 * t40)));
+    jac_phi_q_v_A_i[1] = C_i[3] * v_j[0] - (t43 * h_i_dot_omega_i - t28 * s_j_in_joint_i_0 - (t45 * s_j_in_joint_i_2
+        - t31 * f_i_dot_omega_i) + (h_i_dot_omega_i * t46 - t28 * r_ij_in_joint_i_0 - (t45 * r_ij_in_joint_i_2 - t36
+        * f_i_dot_omega_i) + C_i[3] * v_i[0]) - (t43 * h_i_dot_omega_j - t40 * s_j_in_joint_i_0 - (s_j_in_joint_i_2
+        * t48 - t31 * f_i_dot_omega_j)));
+    jac_phi_q_v_A_i[2] = t41 * h_j_in_joint_i_2 - g_i_dot_omega_j * t56 - (h_i_dot_omega_j * t51 - t40 *
+        h_j_in_joint_i_1) - (t30 * h_j_in_joint_i_2 - g_i_dot_omega_i * t56 - (h_i_dot_omega_i * t51 - t28 *
+        h_j_in_joint_i_1));
+    jac_phi_q_v_A_i[3] = h_i_dot_omega_j * t57 - t40 * h_j_in_joint_i_0 - (t48 * h_j_in_joint_i_2 - f_i_dot_omega_j
+        * t56) - (h_i_dot_omega_i * t57 - t28 * h_j_in_joint_i_0 - (t45 * h_j_in_joint_i_2 - f_i_dot_omega_i *
+        t56));
+    jac_phi_q_v_A_i[4] = -(t26 * v_j[1] + t27 * v_j[2] + (s_j_in_joint_i_1 * t45 + t22 * f_i_dot_omega_i - (t30 *
+        s_j_in_joint_i_0 + g_i_dot_omega_i * t43) + (t37 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t45 -
+        (g_i_dot_omega_i * t46 + t30 * r_ij_in_joint_i_0) + ((t28 - t65 * t69 - t40) * t71 - (t66 + t66) * t64 *
+        pitch * t70 - (v_i[1] * t26 + v_i[2] * t27))) - (t22 * f_i_dot_omega_j + s_j_in_joint_i_1 * t48 -
+        (g_i_dot_omega_j * t43 + t41 * s_j_in_joint_i_0))));
     jac_phi_q_v_A_i[5] = C_i[0] * v_j[1] - (t75 * s_j_in_joint_i_2 + g_i_dot_omega_i * t76 - (s_j_in_joint_i_1 * t73
         + t74 * h_i_dot_omega_i) + (g_i_dot_omega_i * t77 + t75 * r_ij_in_joint_i_2 - (t78 * h_i_dot_omega_i +
         r_ij_in_joint_i_1 * t73) + C_i[0] * v_i[1]) - (g_i_dot_omega_j * t76 + t80 * s_j_in_joint_i_2 - (t74 *
@@ -469,26 +467,11 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t82 = C_i[0] * omega_i[1];
     const jg_real t83 = C_i[0] * r_ij_world_1;
     const jg_real t84 = C_i[0] * omega_j[1];
-    jac_phi_q_v_A_i[6] = C_i[3] * v_j[1] - (s_j_in_joint_i_0 * t73 + t81 * h_i_dot_omega_i - (t82 * s_j_in_joint_i_2
-        + f_i_dot_omega_i * t76) + (t83 * h_i_dot_omega_i + r_ij_in_joint_i_0 * t73 - (f_i_dot_omega_i * t77 + t82 *
-        r_ij_in_joint_i_2) + C_i[3] * v_i[1]) - (t81 * h_i_dot_omega_j + s_j_in_joint_i_0 * t79 - (t76 *
-        f_i_dot_omega_j + t84 * s_j_in_joint_i_2)));
     const jg_real t85 = C_i[3] * h_j_world_1;
     const jg_real t86 = t26 * h_j_world_0 - t72 * h_j_world_2;
-    jac_phi_q_v_A_i[7] = t80 * h_j_in_joint_i_2 + g_i_dot_omega_j * t86 - (t79 * h_j_in_joint_i_1 + h_i_dot_omega_j
-        * t85) - (t75 * h_j_in_joint_i_2 + g_i_dot_omega_i * t86 - (t73 * h_j_in_joint_i_1 + h_i_dot_omega_i *
-        t85));
     const jg_real t87 = C_i[0] * h_j_world_1;
-    jac_phi_q_v_A_i[8] = t79 * h_j_in_joint_i_0 + h_i_dot_omega_j * t87 - (t84 * h_j_in_joint_i_2 + f_i_dot_omega_j
-        * t86) - (t73 * h_j_in_joint_i_0 + h_i_dot_omega_i * t87 - (t82 * h_j_in_joint_i_2 + f_i_dot_omega_i *
-        t86));
     const jg_real t88 = t26 * f_j_world_0 - t72 * f_j_world_2;
     const jg_real t89 = h_i_dot_f_j * t88;
-    jac_phi_q_v_A_i[9] = v_j[0] * t26 - v_j[2] * t72 - (t82 * s_j_in_joint_i_1 + t74 * f_i_dot_omega_i - (t75 *
-        s_j_in_joint_i_0 + t81 * g_i_dot_omega_i) + (t78 * f_i_dot_omega_i + t82 * r_ij_in_joint_i_1 -
-        (g_i_dot_omega_i * t83 + t75 * r_ij_in_joint_i_0) + (v_i[0] * t26 - v_i[2] * t72 + ((t88 * t69 - t73 + t79)
-        * t71 + (t89 + t89) * t64 * pitch * t70))) - (t74 * f_i_dot_omega_j + s_j_in_joint_i_1 * t84 - (t81 *
-        g_i_dot_omega_j + t80 * s_j_in_joint_i_0)));
     const jg_real t90 = omega_i[0] * t27 + omega_i[1] * t72;
     const jg_real t91 = C_i[3] * s_j_world_2;
     const jg_real t92 = C_i[3] * omega_i[2];
@@ -497,72 +480,63 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t95 = C_i[3] * r_ij_world_2;
     const jg_real t96 = omega_j[0] * t27 + omega_j[1] * t72;
     const jg_real t97 = C_i[3] * omega_j[2];
-    jac_phi_q_v_A_i[10] = C_i[0] * v_j[2] - (t92 * s_j_in_joint_i_2 + g_i_dot_omega_i * t93 - (s_j_in_joint_i_1 *
-        t90 + t91 * h_i_dot_omega_i) + (g_i_dot_omega_i * t94 + t92 * r_ij_in_joint_i_2 - (t95 * h_i_dot_omega_i +
-        r_ij_in_joint_i_1 * t90) + C_i[0] * v_i[2]) - (g_i_dot_omega_j * t93 + t97 * s_j_in_joint_i_2 - (t91 *
-        h_i_dot_omega_j + s_j_in_joint_i_1 * t96)));
     const jg_real t98 = C_i[0] * s_j_world_2;
     const jg_real t99 = C_i[0] * omega_i[2];
     const jg_real t100 = C_i[0] * r_ij_world_2;
     const jg_real t101 = C_i[0] * omega_j[2];
-    jac_phi_q_v_A_i[11] = C_i[3] * v_j[2] - (s_j_in_joint_i_0 * t90 + t98 * h_i_dot_omega_i - (t99 *
-        s_j_in_joint_i_2 + f_i_dot_omega_i * t93) + (t100 * h_i_dot_omega_i + t90 * r_ij_in_joint_i_0 -
-        (f_i_dot_omega_i * t94 + t99 * r_ij_in_joint_i_2) + C_i[3] * v_i[2]) - (t98 * h_i_dot_omega_j +
-        s_j_in_joint_i_0 * t96 - (t93 * f_i_dot_omega_j + t101 * s_j_in_joint_i_2)));
     const jg_real t102 = C_i[3] * h_j_world_2;
     const jg_real t103 = t27 * h_j_world_0 + t72 * h_j_world_1;
+    const jg_real t104 = C_i[0] * h_j_world_2;
+    jac_phi_q_v_A_i[6] = C_i[3] * v_j[1] - (t73 * s_j_in_joint_i_0 + t81 * h_i_dot_omega_i - (t82 * s_j_in_joint_i_2
+        + t76 * f_i_dot_omega_i) + (h_i_dot_omega_i * t83 + t73 * r_ij_in_joint_i_0 - (t77 * f_i_dot_omega_i + t82 *
+        r_ij_in_joint_i_2) + C_i[3] * v_i[1]) - (t81 * h_i_dot_omega_j + t79 * s_j_in_joint_i_0 - (t76 *
+        f_i_dot_omega_j + s_j_in_joint_i_2 * t84)));
+    jac_phi_q_v_A_i[7] = t80 * h_j_in_joint_i_2 + g_i_dot_omega_j * t86 - (t79 * h_j_in_joint_i_1 + h_i_dot_omega_j
+        * t85) - (t75 * h_j_in_joint_i_2 + g_i_dot_omega_i * t86 - (t73 * h_j_in_joint_i_1 + h_i_dot_omega_i *
+        t85));
+    jac_phi_q_v_A_i[8] = t79 * h_j_in_joint_i_0 + h_i_dot_omega_j * t87 - (t84 * h_j_in_joint_i_2 + f_i_dot_omega_j
+        * t86) - (t73 * h_j_in_joint_i_0 + h_i_dot_omega_i * t87 - (t82 * h_j_in_joint_i_2 + f_i_dot_omega_i *
+        t86));
+    jac_phi_q_v_A_i[9] = t26 * v_j[0] - t72 * v_j[2] - (s_j_in_joint_i_1 * t82 + t74 * f_i_dot_omega_i - (t75 *
+        s_j_in_joint_i_0 + g_i_dot_omega_i * t81) + (t78 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t82 -
+        (g_i_dot_omega_i * t83 + t75 * r_ij_in_joint_i_0) + (v_i[0] * t26 - v_i[2] * t72 + ((t88 * t69 - t73 + t79)
+        * t71 + (t89 + t89) * t64 * pitch * t70))) - (t74 * f_i_dot_omega_j + s_j_in_joint_i_1 * t84 -
+        (g_i_dot_omega_j * t81 + t80 * s_j_in_joint_i_0)));
+    jac_phi_q_v_A_i[10] = C_i[0] * v_j[2] - (t92 * s_j_in_joint_i_2 + g_i_dot_omega_i * t93 - (s_j_in_joint_i_1 *
+        t90 + t91 * h_i_dot_omega_i) + (g_i_dot_omega_i * t94 + t92 * r_ij_in_joint_i_2 - (t95 * h_i_dot_omega_i +
+        r_ij_in_joint_i_1 * t90) + C_i[0] * v_i[2]) - (g_i_dot_omega_j * t93 + t97 * s_j_in_joint_i_2 - (t91 *
+        h_i_dot_omega_j + s_j_in_joint_i_1 * t96)));
+    jac_phi_q_v_A_i[11] = C_i[3] * v_j[2] - (t90 * s_j_in_joint_i_0 + t98 * h_i_dot_omega_i - (t99 *
+        s_j_in_joint_i_2 + t93 * f_i_dot_omega_i) + (h_i_dot_omega_i * t100 + t90 * r_ij_in_joint_i_0 - (t94 *
+        f_i_dot_omega_i + t99 * r_ij_in_joint_i_2) + C_i[3] * v_i[2]) - (t98 * h_i_dot_omega_j + t96 *
+        s_j_in_joint_i_0 - (t93 * f_i_dot_omega_j + s_j_in_joint_i_2 * t101)));
     jac_phi_q_v_A_i[12] = t97 * h_j_in_joint_i_2 + g_i_dot_omega_j * t103 - (t96 * h_j_in_joint_i_1 +
         h_i_dot_omega_j * t102) - (t92 * h_j_in_joint_i_2 + g_i_dot_omega_i * t103 - (t90 * h_j_in_joint_i_1 +
         h_i_dot_omega_i * t102));
-    const jg_real t104 = C_i[0] * h_j_world_2;
     jac_phi_q_v_A_i[13] = t96 * h_j_in_joint_i_0 + h_i_dot_omega_j * t104 - (t101 * h_j_in_joint_i_2 +
         f_i_dot_omega_j * t103) - (t90 * h_j_in_joint_i_0 + h_i_dot_omega_i * t104 - (t99 * h_j_in_joint_i_2 +
         f_i_dot_omega_i * t103));
     const jg_real t105 = t27 * f_j_world_0 + t72 * f_j_world_1;
     const jg_real t106 = t105 * h_i_dot_f_j;
-    jac_phi_q_v_A_i[14] = v_j[0] * t27 + v_j[1] * t72 - (t99 * s_j_in_joint_i_1 + t91 * f_i_dot_omega_i - (t92 *
-        s_j_in_joint_i_0 + t98 * g_i_dot_omega_i) + (t95 * f_i_dot_omega_i + t99 * r_ij_in_joint_i_1 -
-        (g_i_dot_omega_i * t100 + t92 * r_ij_in_joint_i_0) + (v_i[0] * t27 + v_i[1] * t72 + ((t105 * t69 - t90 +
-        t96) * t71 + (t106 + t106) * t64 * pitch * t70))) - (t91 * f_i_dot_omega_j + s_j_in_joint_i_1 * t101 - (t98
-        * g_i_dot_omega_j + t97 * s_j_in_joint_i_0)));
     const jg_real t107 = C_i[4] * s_j_world_0;
     const jg_real t108 = C_i[1] * g_i_world_2 - C_i[4] * f_i_world_2;
     const jg_real t109 = C_i[4] * f_i_world_1 - C_i[1] * g_i_world_1;
     const jg_real t110 = omega_i[1] * t108 + omega_i[2] * t109;
     const jg_real t111 = C_i[4] * omega_i[0];
-    const jg_real t112 = s_j_world_1 * t108 + s_j_world_2 * t109;
+    const jg_real t112 = s_j_world_1 * t108 + t109 * s_j_world_2;
     const jg_real t113 = r_ij_world_1 * t108 + r_ij_world_2 * t109;
     const jg_real t114 = C_i[4] * r_ij_world_0;
-    const jg_real t115 = omega_j[1] * t108 + omega_j[2] * t109;
+    const jg_real t115 = omega_j[1] * t108 + t109 * omega_j[2];
     const jg_real t116 = C_i[4] * omega_j[0];
-    jac_phi_q_v_A_i[15] = C_i[1] * v_j[0] - (t111 * s_j_in_joint_i_2 - g_i_dot_omega_i * t112 - (t107 *
-        h_i_dot_omega_i - s_j_in_joint_i_1 * t110) + (t111 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t113 - (t114 *
-        h_i_dot_omega_i - r_ij_in_joint_i_1 * t110) + C_i[1] * v_i[0]) - (t116 * s_j_in_joint_i_2 - g_i_dot_omega_j
-        * t112 - (t107 * h_i_dot_omega_j - s_j_in_joint_i_1 * t115)));
     const jg_real t117 = C_i[1] * s_j_world_0;
     const jg_real t118 = C_i[1] * omega_i[0];
     const jg_real t119 = C_i[1] * r_ij_world_0;
     const jg_real t120 = C_i[1] * omega_j[0];
-    jac_phi_q_v_A_i[16] = C_i[4] * v_j[0] - (t117 * h_i_dot_omega_i - s_j_in_joint_i_0 * t110 - (t118 *
-        s_j_in_joint_i_2 - f_i_dot_omega_i * t112) + (t119 * h_i_dot_omega_i - r_ij_in_joint_i_0 * t110 - (t118 *
-        r_ij_in_joint_i_2 - f_i_dot_omega_i * t113) + C_i[4] * v_i[0]) - (t117 * h_i_dot_omega_j - s_j_in_joint_i_0
-        * t115 - (t120 * s_j_in_joint_i_2 - t112 * f_i_dot_omega_j)));
     const jg_real t121 = C_i[4] * h_j_world_0;
     const jg_real t122 = t108 * h_j_world_1 + t109 * h_j_world_2;
-    jac_phi_q_v_A_i[17] = t116 * h_j_in_joint_i_2 - g_i_dot_omega_j * t122 - (h_i_dot_omega_j * t121 - t115 *
-        h_j_in_joint_i_1) - (t111 * h_j_in_joint_i_2 - g_i_dot_omega_i * t122 - (h_i_dot_omega_i * t121 - t110 *
-        h_j_in_joint_i_1));
     const jg_real t123 = C_i[1] * h_j_world_0;
-    jac_phi_q_v_A_i[18] = h_i_dot_omega_j * t123 - t115 * h_j_in_joint_i_0 - (t120 * h_j_in_joint_i_2 -
-        f_i_dot_omega_j * t122) - (h_i_dot_omega_i * t123 - t110 * h_j_in_joint_i_0 - (t118 * h_j_in_joint_i_2 -
-        f_i_dot_omega_i * t122));
     const jg_real t124 = t108 * f_j_world_1 + t109 * f_j_world_2;
     const jg_real t125 = h_i_dot_f_j * t124;
-    jac_phi_q_v_A_i[19] = -(v_j[1] * t108 + v_j[2] * t109 + (t118 * s_j_in_joint_i_1 + t107 * f_i_dot_omega_i -
-        (t111 * s_j_in_joint_i_0 + t117 * g_i_dot_omega_i) + (t114 * f_i_dot_omega_i + t118 * r_ij_in_joint_i_1 -
-        (t119 * g_i_dot_omega_i + t111 * r_ij_in_joint_i_0) + ((t110 - t124 * t69 - t115) * t71 - (t125 + t125) *
-        t64 * pitch * t70 - (v_i[1] * t108 + v_i[2] * t109))) - (t107 * f_i_dot_omega_j + s_j_in_joint_i_1 * t120 -
-        (t117 * g_i_dot_omega_j + t116 * s_j_in_joint_i_0))));
     const jg_real t126 = C_i[1] * g_i_world_0 - C_i[4] * f_i_world_0;
     const jg_real t127 = omega_i[0] * t108 - omega_i[2] * t126;
     const jg_real t128 = C_i[4] * s_j_world_1;
@@ -572,34 +546,47 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t132 = C_i[4] * r_ij_world_1;
     const jg_real t133 = omega_j[0] * t108 - omega_j[2] * t126;
     const jg_real t134 = C_i[4] * omega_j[1];
-    jac_phi_q_v_A_i[20] = C_i[1] * v_j[1] - (t129 * s_j_in_joint_i_2 + g_i_dot_omega_i * t130 - (s_j_in_joint_i_1 *
-        t127 + t128 * h_i_dot_omega_i) + (g_i_dot_omega_i * t131 + t129 * r_ij_in_joint_i_2 - (t132 *
-        h_i_dot_omega_i + r_ij_in_joint_i_1 * t127) + C_i[1] * v_i[1]) - (g_i_dot_omega_j * t130 + t134 *
-        s_j_in_joint_i_2 - (t128 * h_i_dot_omega_j + s_j_in_joint_i_1 * t133)));
     const jg_real t135 = C_i[1] * s_j_world_1;
     const jg_real t136 = C_i[1] * omega_i[1];
     const jg_real t137 = C_i[1] * r_ij_world_1;
     const jg_real t138 = C_i[1] * omega_j[1];
-    jac_phi_q_v_A_i[21] = C_i[4] * v_j[1] - (s_j_in_joint_i_0 * t127 + t135 * h_i_dot_omega_i - (t136 *
-        s_j_in_joint_i_2 + f_i_dot_omega_i * t130) + (t137 * h_i_dot_omega_i + r_ij_in_joint_i_0 * t127 -
-        (f_i_dot_omega_i * t131 + t136 * r_ij_in_joint_i_2) + C_i[4] * v_i[1]) - (t135 * h_i_dot_omega_j +
-        s_j_in_joint_i_0 * t133 - (t130 * f_i_dot_omega_j + t138 * s_j_in_joint_i_2)));
+    jac_phi_q_v_A_i[14] = t27 * v_j[0] + t72 * v_j[1] - (s_j_in_joint_i_1 * t99 + t91 * f_i_dot_omega_i - (t92 *
+        s_j_in_joint_i_0 + g_i_dot_omega_i * t98) + (t95 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t99 -
+        (g_i_dot_omega_i * t100 + t92 * r_ij_in_joint_i_0) + (v_i[0] * t27 + v_i[1] * t72 + ((t105 * t69 - t90 +
+        t96) * t71 + (t106 + t106) * t64 * pitch * t70))) - (t91 * f_i_dot_omega_j + s_j_in_joint_i_1 * t101 -
+        (g_i_dot_omega_j * t98 + t97 * s_j_in_joint_i_0)));
+    jac_phi_q_v_A_i[15] = C_i[1] * v_j[0] - (t111 * s_j_in_joint_i_2 - g_i_dot_omega_i * t112 - (t107 *
+        h_i_dot_omega_i - s_j_in_joint_i_1 * t110) + (t111 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t113 - (t114 *
+        h_i_dot_omega_i - r_ij_in_joint_i_1 * t110) + C_i[1] * v_i[0]) - (t116 * s_j_in_joint_i_2 - g_i_dot_omega_j
+        * t112 - (t107 * h_i_dot_omega_j - s_j_in_joint_i_1 * t115)));
+    jac_phi_q_v_A_i[16] = C_i[4] * v_j[0] - (t117 * h_i_dot_omega_i - t110 * s_j_in_joint_i_0 - (t118 *
+        s_j_in_joint_i_2 - t112 * f_i_dot_omega_i) + (h_i_dot_omega_i * t119 - t110 * r_ij_in_joint_i_0 - (t118 *
+        r_ij_in_joint_i_2 - t113 * f_i_dot_omega_i) + C_i[4] * v_i[0]) - (t117 * h_i_dot_omega_j - t115 *
+        s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t120 - t112 * f_i_dot_omega_j)));
+    jac_phi_q_v_A_i[17] = t116 * h_j_in_joint_i_2 - g_i_dot_omega_j * t122 - (h_i_dot_omega_j * t121 - t115 *
+        h_j_in_joint_i_1) - (t111 * h_j_in_joint_i_2 - g_i_dot_omega_i * t122 - (h_i_dot_omega_i * t121 - t110 *
+        h_j_in_joint_i_1));
+    jac_phi_q_v_A_i[18] = h_i_dot_omega_j * t123 - t115 * h_j_in_joint_i_0 - (t120 * h_j_in_joint_i_2 -
+        f_i_dot_omega_j * t122) - (h_i_dot_omega_i * t123 - t110 * h_j_in_joint_i_0 - (t118 * h_j_in_joint_i_2 -
+        f_i_dot_omega_i * t122));
+    jac_phi_q_v_A_i[19] = -(t108 * v_j[1] + t109 * v_j[2] + (s_j_in_joint_i_1 * t118 + t107 * f_i_dot_omega_i -
+        (t111 * s_j_in_joint_i_0 + g_i_dot_omega_i * t117) + (t114 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t118 -
+        (g_i_dot_omega_i * t119 + t111 * r_ij_in_joint_i_0) + ((t110 - t124 * t69 - t115) * t71 - (t125 + t125) *
+        t64 * pitch * t70 - (v_i[1] * t108 + v_i[2] * t109))) - (t107 * f_i_dot_omega_j + s_j_in_joint_i_1 * t120 -
+        (g_i_dot_omega_j * t117 + t116 * s_j_in_joint_i_0))));
+    jac_phi_q_v_A_i[20] = C_i[1] * v_j[1] - (t129 * s_j_in_joint_i_2 + g_i_dot_omega_i * t130 - (s_j_in_joint_i_1 *
+        t127 + t128 * h_i_dot_omega_i) + (g_i_dot_omega_i * t131 + t129 * r_ij_in_joint_i_2 - (t132 *
+        h_i_dot_omega_i + r_ij_in_joint_i_1 * t127) + C_i[1] * v_i[1]) - (g_i_dot_omega_j * t130 + t134 *
+        s_j_in_joint_i_2 - (t128 * h_i_dot_omega_j + s_j_in_joint_i_1 * t133)));
+    jac_phi_q_v_A_i[21] = C_i[4] * v_j[1] - (t127 * s_j_in_joint_i_0 + t135 * h_i_dot_omega_i - (t136 *
+        s_j_in_joint_i_2 + t130 * f_i_dot_omega_i) + (h_i_dot_omega_i * t137 + t127 * r_ij_in_joint_i_0 - (t131 *
+        f_i_dot_omega_i + t136 * r_ij_in_joint_i_2) + C_i[4] * v_i[1]) - (t135 * h_i_dot_omega_j + t133 *
+        s_j_in_joint_i_0 - (t130 * f_i_dot_omega_j + s_j_in_joint_i_2 * t138)));
     const jg_real t139 = C_i[4] * h_j_world_1;
     const jg_real t140 = t108 * h_j_world_0 - t126 * h_j_world_2;
-    jac_phi_q_v_A_i[22] = t134 * h_j_in_joint_i_2 + g_i_dot_omega_j * t140 - (t133 * h_j_in_joint_i_1 +
-        h_i_dot_omega_j * t139) - (t129 * h_j_in_joint_i_2 + g_i_dot_omega_i * t140 - (t127 * h_j_in_joint_i_1 +
-        h_i_dot_omega_i * t139));
     const jg_real t141 = C_i[1] * h_j_world_1;
-    jac_phi_q_v_A_i[23] = t133 * h_j_in_joint_i_0 + h_i_dot_omega_j * t141 - (t138 * h_j_in_joint_i_2 +
-        f_i_dot_omega_j * t140) - (t127 * h_j_in_joint_i_0 + h_i_dot_omega_i * t141 - (t136 * h_j_in_joint_i_2 +
-        f_i_dot_omega_i * t140));
     const jg_real t142 = t108 * f_j_world_0 - t126 * f_j_world_2;
     const jg_real t143 = h_i_dot_f_j * t142;
-    jac_phi_q_v_A_i[24] = v_j[0] * t108 - v_j[2] * t126 - (t136 * s_j_in_joint_i_1 + t128 * f_i_dot_omega_i - (t129
-        * s_j_in_joint_i_0 + t135 * g_i_dot_omega_i) + (t132 * f_i_dot_omega_i + t136 * r_ij_in_joint_i_1 -
-        (g_i_dot_omega_i * t137 + t129 * r_ij_in_joint_i_0) + (v_i[0] * t108 - v_i[2] * t126 + ((t142 * t69 - t127 +
-        t133) * t71 + (t143 + t143) * t64 * pitch * t70))) - (t128 * f_i_dot_omega_j + s_j_in_joint_i_1 * t138 -
-        (t135 * g_i_dot_omega_j + t134 * s_j_in_joint_i_0)));
     const jg_real t144 = omega_i[0] * t109 + omega_i[1] * t126;
     const jg_real t145 = C_i[4] * s_j_world_2;
     const jg_real t146 = C_i[4] * omega_i[2];
@@ -608,72 +595,64 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t149 = C_i[4] * r_ij_world_2;
     const jg_real t150 = omega_j[0] * t109 + omega_j[1] * t126;
     const jg_real t151 = C_i[4] * omega_j[2];
-    jac_phi_q_v_A_i[25] = C_i[1] * v_j[2] - (t146 * s_j_in_joint_i_2 + g_i_dot_omega_i * t147 - (s_j_in_joint_i_1 *
-        t144 + t145 * h_i_dot_omega_i) + (g_i_dot_omega_i * t148 + t146 * r_ij_in_joint_i_2 - (t149 *
-        h_i_dot_omega_i + r_ij_in_joint_i_1 * t144) + C_i[1] * v_i[2]) - (g_i_dot_omega_j * t147 + t151 *
-        s_j_in_joint_i_2 - (t145 * h_i_dot_omega_j + s_j_in_joint_i_1 * t150)));
     const jg_real t152 = C_i[1] * s_j_world_2;
     const jg_real t153 = C_i[1] * omega_i[2];
     const jg_real t154 = C_i[1] * r_ij_world_2;
     const jg_real t155 = C_i[1] * omega_j[2];
-    jac_phi_q_v_A_i[26] = C_i[4] * v_j[2] - (s_j_in_joint_i_0 * t144 + t152 * h_i_dot_omega_i - (t153 *
-        s_j_in_joint_i_2 + f_i_dot_omega_i * t147) + (t154 * h_i_dot_omega_i + t144 * r_ij_in_joint_i_0 -
-        (f_i_dot_omega_i * t148 + t153 * r_ij_in_joint_i_2) + C_i[4] * v_i[2]) - (t152 * h_i_dot_omega_j +
-        s_j_in_joint_i_0 * t150 - (t147 * f_i_dot_omega_j + t155 * s_j_in_joint_i_2)));
     const jg_real t156 = C_i[4] * h_j_world_2;
     const jg_real t157 = t109 * h_j_world_0 + t126 * h_j_world_1;
+    const jg_real t158 = C_i[1] * h_j_world_2;
+    const jg_real t159 = t109 * f_j_world_0 + t126 * f_j_world_1;
+    const jg_real t160 = t159 * h_i_dot_f_j;
+    jac_phi_q_v_A_i[22] = t134 * h_j_in_joint_i_2 + g_i_dot_omega_j * t140 - (t133 * h_j_in_joint_i_1 +
+        h_i_dot_omega_j * t139) - (t129 * h_j_in_joint_i_2 + g_i_dot_omega_i * t140 - (t127 * h_j_in_joint_i_1 +
+        h_i_dot_omega_i * t139));
+    jac_phi_q_v_A_i[23] = t133 * h_j_in_joint_i_0 + h_i_dot_omega_j * t141 - (t138 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t140) - (t127 * h_j_in_joint_i_0 + h_i_dot_omega_i * t141 - (t136 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t140));
+    jac_phi_q_v_A_i[24] = t108 * v_j[0] - t126 * v_j[2] - (s_j_in_joint_i_1 * t136 + t128 * f_i_dot_omega_i - (t129
+        * s_j_in_joint_i_0 + g_i_dot_omega_i * t135) + (t132 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t136 -
+        (g_i_dot_omega_i * t137 + t129 * r_ij_in_joint_i_0) + (v_i[0] * t108 - v_i[2] * t126 + ((t142 * t69 - t127 +
+        t133) * t71 + (t143 + t143) * t64 * pitch * t70))) - (t128 * f_i_dot_omega_j + s_j_in_joint_i_1 * t138 -
+        (g_i_dot_omega_j * t135 + t134 * s_j_in_joint_i_0)));
+    jac_phi_q_v_A_i[25] = C_i[1] * v_j[2] - (t146 * s_j_in_joint_i_2 + g_i_dot_omega_i * t147 - (s_j_in_joint_i_1 *
+        t144 + t145 * h_i_dot_omega_i) + (g_i_dot_omega_i * t148 + t146 * r_ij_in_joint_i_2 - (t149 *
+        h_i_dot_omega_i + r_ij_in_joint_i_1 * t144) + C_i[1] * v_i[2]) - (g_i_dot_omega_j * t147 + t151 *
+        s_j_in_joint_i_2 - (t145 * h_i_dot_omega_j + s_j_in_joint_i_1 * t150)));
+    jac_phi_q_v_A_i[26] = C_i[4] * v_j[2] - (t144 * s_j_in_joint_i_0 + t152 * h_i_dot_omega_i - (t153 *
+        s_j_in_joint_i_2 + t147 * f_i_dot_omega_i) + (h_i_dot_omega_i * t154 + t144 * r_ij_in_joint_i_0 - (t148 *
+        f_i_dot_omega_i + t153 * r_ij_in_joint_i_2) + C_i[4] * v_i[2]) - (t152 * h_i_dot_omega_j + t150 *
+        s_j_in_joint_i_0 - (t147 * f_i_dot_omega_j + s_j_in_joint_i_2 * t155)));
     jac_phi_q_v_A_i[27] = t151 * h_j_in_joint_i_2 + g_i_dot_omega_j * t157 - (t150 * h_j_in_joint_i_1 +
         h_i_dot_omega_j * t156) - (t146 * h_j_in_joint_i_2 + g_i_dot_omega_i * t157 - (t144 * h_j_in_joint_i_1 +
         h_i_dot_omega_i * t156));
-    const jg_real t158 = C_i[1] * h_j_world_2;
     jac_phi_q_v_A_i[28] = t150 * h_j_in_joint_i_0 + h_i_dot_omega_j * t158 - (t155 * h_j_in_joint_i_2 +
         f_i_dot_omega_j * t157) - (t144 * h_j_in_joint_i_0 + h_i_dot_omega_i * t158 - (t153 * h_j_in_joint_i_2 +
         f_i_dot_omega_i * t157));
-    const jg_real t159 = t109 * f_j_world_0 + t126 * f_j_world_1;
-    const jg_real t160 = t159 * h_i_dot_f_j;
-    jac_phi_q_v_A_i[29] = v_j[0] * t109 + v_j[1] * t126 - (t153 * s_j_in_joint_i_1 + t145 * f_i_dot_omega_i - (t146
-        * s_j_in_joint_i_0 + t152 * g_i_dot_omega_i) + (t149 * f_i_dot_omega_i + t153 * r_ij_in_joint_i_1 -
+    jac_phi_q_v_A_i[29] = t109 * v_j[0] + t126 * v_j[1] - (s_j_in_joint_i_1 * t153 + t145 * f_i_dot_omega_i - (t146
+        * s_j_in_joint_i_0 + g_i_dot_omega_i * t152) + (t149 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t153 -
         (g_i_dot_omega_i * t154 + t146 * r_ij_in_joint_i_0) + (v_i[0] * t109 + v_i[1] * t126 + ((t159 * t69 - t144 +
         t150) * t71 + (t160 + t160) * t64 * pitch * t70))) - (t145 * f_i_dot_omega_j + s_j_in_joint_i_1 * t155 -
-        (t152 * g_i_dot_omega_j + t151 * s_j_in_joint_i_0)));
+        (g_i_dot_omega_j * t152 + t151 * s_j_in_joint_i_0)));
     const jg_real t161 = C_i[5] * s_j_world_0;
     const jg_real t162 = C_i[2] * g_i_world_2 - C_i[5] * f_i_world_2;
     const jg_real t163 = C_i[5] * f_i_world_1 - C_i[2] * g_i_world_1;
     const jg_real t164 = omega_i[1] * t162 + omega_i[2] * t163;
     const jg_real t165 = C_i[5] * omega_i[0];
-    const jg_real t166 = s_j_world_1 * t162 + s_j_world_2 * t163;
+    const jg_real t166 = s_j_world_1 * t162 + t163 * s_j_world_2;
     const jg_real t167 = r_ij_world_1 * t162 + r_ij_world_2 * t163;
     const jg_real t168 = C_i[5] * r_ij_world_0;
-    const jg_real t169 = omega_j[1] * t162 + omega_j[2] * t163;
+    const jg_real t169 = omega_j[1] * t162 + t163 * omega_j[2];
     const jg_real t170 = C_i[5] * omega_j[0];
-    jac_phi_q_v_A_i[30] = C_i[2] * v_j[0] - (t165 * s_j_in_joint_i_2 - g_i_dot_omega_i * t166 - (t161 *
-        h_i_dot_omega_i - s_j_in_joint_i_1 * t164) + (t165 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t167 - (t168 *
-        h_i_dot_omega_i - r_ij_in_joint_i_1 * t164) + C_i[2] * v_i[0]) - (t170 * s_j_in_joint_i_2 - g_i_dot_omega_j
-        * t166 - (t161 * h_i_dot_omega_j - s_j_in_joint_i_1 * t169)));
     const jg_real t171 = C_i[2] * s_j_world_0;
     const jg_real t172 = C_i[2] * omega_i[0];
     const jg_real t173 = C_i[2] * r_ij_world_0;
     const jg_real t174 = C_i[2] * omega_j[0];
-    jac_phi_q_v_A_i[31] = C_i[5] * v_j[0] - (t171 * h_i_dot_omega_i - s_j_in_joint_i_0 * t164 - (t172 *
-        s_j_in_joint_i_2 - f_i_dot_omega_i * t166) + (t173 * h_i_dot_omega_i - r_ij_in_joint_i_0 * t164 - (t172 *
-        r_ij_in_joint_i_2 - f_i_dot_omega_i * t167) + C_i[5] * v_i[0]) - (t171 * h_i_dot_omega_j - s_j_in_joint_i_0
-        * t169 - (t174 * s_j_in_joint_i_2 - t166 * f_i_dot_omega_j)));
     const jg_real t175 = C_i[5] * h_j_world_0;
     const jg_real t176 = t162 * h_j_world_1 + t163 * h_j_world_2;
-    jac_phi_q_v_A_i[32] = t170 * h_j_in_joint_i_2 - g_i_dot_omega_j * t176 - (h_i_dot_omega_j * t175 - t169 *
-        h_j_in_joint_i_1) - (t165 * h_j_in_joint_i_2 - g_i_dot_omega_i * t176 - (h_i_dot_omega_i * t175 - t164 *
-        h_j_in_joint_i_1));
     const jg_real t177 = C_i[2] * h_j_world_0;
-    jac_phi_q_v_A_i[33] = h_i_dot_omega_j * t177 - t169 * h_j_in_joint_i_0 - (t174 * h_j_in_joint_i_2 -
-        f_i_dot_omega_j * t176) - (h_i_dot_omega_i * t177 - t164 * h_j_in_joint_i_0 - (t172 * h_j_in_joint_i_2 -
-        f_i_dot_omega_i * t176));
     const jg_real t178 = t162 * f_j_world_1 + t163 * f_j_world_2;
     const jg_real t179 = h_i_dot_f_j * t178;
-    jac_phi_q_v_A_i[34] = -(v_j[1] * t162 + v_j[2] * t163 + (t172 * s_j_in_joint_i_1 + t161 * f_i_dot_omega_i -
-        (t165 * s_j_in_joint_i_0 + t171 * g_i_dot_omega_i) + (t168 * f_i_dot_omega_i + t172 * r_ij_in_joint_i_1 -
-        (t173 * g_i_dot_omega_i + t165 * r_ij_in_joint_i_0) + ((t164 - t178 * t69 - t169) * t71 - (t179 + t179) *
-        t64 * pitch * t70 - (v_i[1] * t162 + v_i[2] * t163))) - (t161 * f_i_dot_omega_j + s_j_in_joint_i_1 * t174 -
-        (t171 * g_i_dot_omega_j + t170 * s_j_in_joint_i_0))));
     const jg_real t180 = C_i[2] * g_i_world_0 - C_i[5] * f_i_world_0;
     const jg_real t181 = omega_i[0] * t162 - omega_i[2] * t180;
     const jg_real t182 = C_i[5] * s_j_world_1;
@@ -683,34 +662,45 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t186 = C_i[5] * r_ij_world_1;
     const jg_real t187 = omega_j[0] * t162 - omega_j[2] * t180;
     const jg_real t188 = C_i[5] * omega_j[1];
-    jac_phi_q_v_A_i[35] = C_i[2] * v_j[1] - (t183 * s_j_in_joint_i_2 + g_i_dot_omega_i * t184 - (s_j_in_joint_i_1 *
-        t181 + t182 * h_i_dot_omega_i) + (g_i_dot_omega_i * t185 + t183 * r_ij_in_joint_i_2 - (t186 *
-        h_i_dot_omega_i + r_ij_in_joint_i_1 * t181) + C_i[2] * v_i[1]) - (g_i_dot_omega_j * t184 + t188 *
-        s_j_in_joint_i_2 - (t182 * h_i_dot_omega_j + s_j_in_joint_i_1 * t187)));
     const jg_real t189 = C_i[2] * s_j_world_1;
     const jg_real t190 = C_i[2] * omega_i[1];
     const jg_real t191 = C_i[2] * r_ij_world_1;
     const jg_real t192 = C_i[2] * omega_j[1];
-    jac_phi_q_v_A_i[36] = C_i[5] * v_j[1] - (s_j_in_joint_i_0 * t181 + t189 * h_i_dot_omega_i - (t190 *
-        s_j_in_joint_i_2 + f_i_dot_omega_i * t184) + (t191 * h_i_dot_omega_i + r_ij_in_joint_i_0 * t181 -
-        (f_i_dot_omega_i * t185 + t190 * r_ij_in_joint_i_2) + C_i[5] * v_i[1]) - (t189 * h_i_dot_omega_j +
-        s_j_in_joint_i_0 * t187 - (t184 * f_i_dot_omega_j + t192 * s_j_in_joint_i_2)));
     const jg_real t193 = C_i[5] * h_j_world_1;
     const jg_real t194 = t162 * h_j_world_0 - t180 * h_j_world_2;
+    jac_phi_q_v_A_i[30] = C_i[2] * v_j[0] - (t165 * s_j_in_joint_i_2 - g_i_dot_omega_i * t166 - (t161 *
+        h_i_dot_omega_i - s_j_in_joint_i_1 * t164) + (t165 * r_ij_in_joint_i_2 - g_i_dot_omega_i * t167 - (t168 *
+        h_i_dot_omega_i - r_ij_in_joint_i_1 * t164) + C_i[2] * v_i[0]) - (t170 * s_j_in_joint_i_2 - g_i_dot_omega_j
+        * t166 - (t161 * h_i_dot_omega_j - s_j_in_joint_i_1 * t169)));
+    jac_phi_q_v_A_i[31] = C_i[5] * v_j[0] - (t171 * h_i_dot_omega_i - t164 * s_j_in_joint_i_0 - (t172 *
+        s_j_in_joint_i_2 - t166 * f_i_dot_omega_i) + (h_i_dot_omega_i * t173 - t164 * r_ij_in_joint_i_0 - (t172 *
+        r_ij_in_joint_i_2 - t167 * f_i_dot_omega_i) + C_i[5] * v_i[0]) - (t171 * h_i_dot_omega_j - t169 *
+        s_j_in_joint_i_0 - (s_j_in_joint_i_2 * t174 - t166 * f_i_dot_omega_j)));
+    jac_phi_q_v_A_i[32] = t170 * h_j_in_joint_i_2 - g_i_dot_omega_j * t176 - (h_i_dot_omega_j * t175 - t169 *
+        h_j_in_joint_i_1) - (t165 * h_j_in_joint_i_2 - g_i_dot_omega_i * t176 - (h_i_dot_omega_i * t175 - t164 *
+        h_j_in_joint_i_1));
+    jac_phi_q_v_A_i[33] = h_i_dot_omega_j * t177 - t169 * h_j_in_joint_i_0 - (t174 * h_j_in_joint_i_2 -
+        f_i_dot_omega_j * t176) - (h_i_dot_omega_i * t177 - t164 * h_j_in_joint_i_0 - (t172 * h_j_in_joint_i_2 -
+        f_i_dot_omega_i * t176));
+    jac_phi_q_v_A_i[34] = -(t162 * v_j[1] + t163 * v_j[2] + (s_j_in_joint_i_1 * t172 + t161 * f_i_dot_omega_i -
+        (t165 * s_j_in_joint_i_0 + g_i_dot_omega_i * t171) + (t168 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t172 -
+        (g_i_dot_omega_i * t173 + t165 * r_ij_in_joint_i_0) + ((t164 - t178 * t69 - t169) * t71 - (t179 + t179) *
+        t64 * pitch * t70 - (v_i[1] * t162 + v_i[2] * t163))) - (t161 * f_i_dot_omega_j + s_j_in_joint_i_1 * t174 -
+        (g_i_dot_omega_j * t171 + t170 * s_j_in_joint_i_0))));
+    jac_phi_q_v_A_i[35] = C_i[2] * v_j[1] - (t183 * s_j_in_joint_i_2 + g_i_dot_omega_i * t184 - (s_j_in_joint_i_1 *
+        t181 + t182 * h_i_dot_omega_i) + (g_i_dot_omega_i * t185 + t183 * r_ij_in_joint_i_2 - (t186 *
+        h_i_dot_omega_i + r_ij_in_joint_i_1 * t181) + C_i[2] * v_i[1]) - (g_i_dot_omega_j * t184 + t188 *
+        s_j_in_joint_i_2 - (t182 * h_i_dot_omega_j + s_j_in_joint_i_1 * t187)));
+    jac_phi_q_v_A_i[36] = C_i[5] * v_j[1] - (t181 * s_j_in_joint_i_0 + t189 * h_i_dot_omega_i - (t190 *
+        s_j_in_joint_i_2 + t184 * f_i_dot_omega_i) + (h_i_dot_omega_i * t191 + t181 * r_ij_in_joint_i_0 - (t185 *
+        f_i_dot_omega_i + t190 * r_ij_in_joint_i_2) + C_i[5] * v_i[1]) - (t189 * h_i_dot_omega_j + t187 *
+        s_j_in_joint_i_0 - (t184 * f_i_dot_omega_j + s_j_in_joint_i_2 * t192)));
     jac_phi_q_v_A_i[37] = t188 * h_j_in_joint_i_2 + g_i_dot_omega_j * t194 - (t187 * h_j_in_joint_i_1 +
         h_i_dot_omega_j * t193) - (t183 * h_j_in_joint_i_2 + g_i_dot_omega_i * t194 - (t181 * h_j_in_joint_i_1 +
         h_i_dot_omega_i * t193));
     const jg_real t195 = C_i[2] * h_j_world_1;
-    jac_phi_q_v_A_i[38] = t187 * h_j_in_joint_i_0 + h_i_dot_omega_j * t195 - (t192 * h_j_in_joint_i_2 +
-        f_i_dot_omega_j * t194) - (t181 * h_j_in_joint_i_0 + h_i_dot_omega_i * t195 - (t190 * h_j_in_joint_i_2 +
-        f_i_dot_omega_i * t194));
     const jg_real t196 = t162 * f_j_world_0 - t180 * f_j_world_2;
     const jg_real t197 = h_i_dot_f_j * t196;
-    jac_phi_q_v_A_i[39] = v_j[0] * t162 - v_j[2] * t180 - (t190 * s_j_in_joint_i_1 + t182 * f_i_dot_omega_i - (t183
-        * s_j_in_joint_i_0 + t189 * g_i_dot_omega_i) + (t186 * f_i_dot_omega_i + t190 * r_ij_in_joint_i_1 -
-        (g_i_dot_omega_i * t191 + t183 * r_ij_in_joint_i_0) + (v_i[0] * t162 - v_i[2] * t180 + ((t196 * t69 - t181 +
-        t187) * t71 + (t197 + t197) * t64 * pitch * t70))) - (t182 * f_i_dot_omega_j + s_j_in_joint_i_1 * t192 -
-        (t189 * g_i_dot_omega_j + t188 * s_j_in_joint_i_0)));
     const jg_real t198 = omega_i[0] * t163 + omega_i[1] * t180;
     const jg_real t199 = C_i[5] * s_j_world_2;
     const jg_real t200 = C_i[5] * omega_i[2];
@@ -719,34 +709,42 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t203 = C_i[5] * r_ij_world_2;
     const jg_real t204 = omega_j[0] * t163 + omega_j[1] * t180;
     const jg_real t205 = C_i[5] * omega_j[2];
-    jac_phi_q_v_A_i[40] = C_i[2] * v_j[2] - (t200 * s_j_in_joint_i_2 + g_i_dot_omega_i * t201 - (s_j_in_joint_i_1 *
-        t198 + t199 * h_i_dot_omega_i) + (g_i_dot_omega_i * t202 + t200 * r_ij_in_joint_i_2 - (t203 *
-        h_i_dot_omega_i + r_ij_in_joint_i_1 * t198) + C_i[2] * v_i[2]) - (g_i_dot_omega_j * t201 + t205 *
-        s_j_in_joint_i_2 - (t199 * h_i_dot_omega_j + s_j_in_joint_i_1 * t204)));
     const jg_real t206 = C_i[2] * s_j_world_2;
     const jg_real t207 = C_i[2] * omega_i[2];
     const jg_real t208 = C_i[2] * r_ij_world_2;
     const jg_real t209 = C_i[2] * omega_j[2];
-    jac_phi_q_v_A_i[41] = C_i[5] * v_j[2] - (s_j_in_joint_i_0 * t198 + t206 * h_i_dot_omega_i - (t207 *
-        s_j_in_joint_i_2 + f_i_dot_omega_i * t201) + (t208 * h_i_dot_omega_i + t198 * r_ij_in_joint_i_0 -
-        (f_i_dot_omega_i * t202 + t207 * r_ij_in_joint_i_2) + C_i[5] * v_i[2]) - (t206 * h_i_dot_omega_j +
-        s_j_in_joint_i_0 * t204 - (t201 * f_i_dot_omega_j + t209 * s_j_in_joint_i_2)));
     const jg_real t210 = C_i[5] * h_j_world_2;
     const jg_real t211 = t163 * h_j_world_0 + t180 * h_j_world_1;
+    const jg_real t212 = C_i[2] * h_j_world_2;
+    const jg_real t213 = t163 * f_j_world_0 + t180 * f_j_world_1;
+    const jg_real t214 = t213 * h_i_dot_f_j;
+    jac_phi_q_v_A_i[38] = t187 * h_j_in_joint_i_0 + h_i_dot_omega_j * t195 - (t192 * h_j_in_joint_i_2 +
+        f_i_dot_omega_j * t194) - (t181 * h_j_in_joint_i_0 + h_i_dot_omega_i * t195 - (t190 * h_j_in_joint_i_2 +
+        f_i_dot_omega_i * t194));
+    jac_phi_q_v_A_i[39] = t162 * v_j[0] - t180 * v_j[2] - (s_j_in_joint_i_1 * t190 + t182 * f_i_dot_omega_i - (t183
+        * s_j_in_joint_i_0 + g_i_dot_omega_i * t189) + (t186 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t190 -
+        (g_i_dot_omega_i * t191 + t183 * r_ij_in_joint_i_0) + (v_i[0] * t162 - v_i[2] * t180 + ((t196 * t69 - t181 +
+        t187) * t71 + (t197 + t197) * t64 * pitch * t70))) - (t182 * f_i_dot_omega_j + s_j_in_joint_i_1 * t192 -
+        (g_i_dot_omega_j * t189 + t188 * s_j_in_joint_i_0)));
+    jac_phi_q_v_A_i[40] = C_i[2] * v_j[2] - (t200 * s_j_in_joint_i_2 + g_i_dot_omega_i * t201 - (s_j_in_joint_i_1 *
+        t198 + t199 * h_i_dot_omega_i) + (g_i_dot_omega_i * t202 + t200 * r_ij_in_joint_i_2 - (t203 *
+        h_i_dot_omega_i + r_ij_in_joint_i_1 * t198) + C_i[2] * v_i[2]) - (g_i_dot_omega_j * t201 + t205 *
+        s_j_in_joint_i_2 - (t199 * h_i_dot_omega_j + s_j_in_joint_i_1 * t204)));
+    jac_phi_q_v_A_i[41] = C_i[5] * v_j[2] - (t198 * s_j_in_joint_i_0 + t206 * h_i_dot_omega_i - (t207 *
+        s_j_in_joint_i_2 + t201 * f_i_dot_omega_i) + (h_i_dot_omega_i * t208 + t198 * r_ij_in_joint_i_0 - (t202 *
+        f_i_dot_omega_i + t207 * r_ij_in_joint_i_2) + C_i[5] * v_i[2]) - (t206 * h_i_dot_omega_j + t204 *
+        s_j_in_joint_i_0 - (t201 * f_i_dot_omega_j + s_j_in_joint_i_2 * t209)));
     jac_phi_q_v_A_i[42] = t205 * h_j_in_joint_i_2 + g_i_dot_omega_j * t211 - (t204 * h_j_in_joint_i_1 +
         h_i_dot_omega_j * t210) - (t200 * h_j_in_joint_i_2 + g_i_dot_omega_i * t211 - (t198 * h_j_in_joint_i_1 +
         h_i_dot_omega_i * t210));
-    const jg_real t212 = C_i[2] * h_j_world_2;
     jac_phi_q_v_A_i[43] = t204 * h_j_in_joint_i_0 + h_i_dot_omega_j * t212 - (t209 * h_j_in_joint_i_2 +
         f_i_dot_omega_j * t211) - (t198 * h_j_in_joint_i_0 + h_i_dot_omega_i * t212 - (t207 * h_j_in_joint_i_2 +
         f_i_dot_omega_i * t211));
-    const jg_real t213 = t163 * f_j_world_0 + t180 * f_j_world_1;
-    const jg_real t214 = t213 * h_i_dot_f_j;
-    jac_phi_q_v_A_i[44] = v_j[0] * t163 + v_j[1] * t180 - (t207 * s_j_in_joint_i_1 + t199 * f_i_dot_omega_i - (t200
-        * s_j_in_joint_i_0 + t206 * g_i_dot_omega_i) + (t203 * f_i_dot_omega_i + t207 * r_ij_in_joint_i_1 -
+    jac_phi_q_v_A_i[44] = t163 * v_j[0] + t180 * v_j[1] - (s_j_in_joint_i_1 * t207 + t199 * f_i_dot_omega_i - (t200
+        * s_j_in_joint_i_0 + g_i_dot_omega_i * t206) + (t203 * f_i_dot_omega_i + r_ij_in_joint_i_1 * t207 -
         (g_i_dot_omega_i * t208 + t200 * r_ij_in_joint_i_0) + (v_i[0] * t163 + v_i[1] * t180 + ((t213 * t69 - t198 +
         t204) * t71 + (t214 + t214) * t64 * pitch * t70))) - (t199 * f_i_dot_omega_j + s_j_in_joint_i_1 * t209 -
-        (t206 * g_i_dot_omega_j + t205 * s_j_in_joint_i_0)));
+        (g_i_dot_omega_j * t206 + t205 * s_j_in_joint_i_0)));
     jac_phi_q_v_r_j[0] = -t11;
     jac_phi_q_v_r_j[1] = -t13;
     jac_phi_q_v_r_j[2] = -t14;
@@ -758,175 +756,164 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_r_j[8] = -t20;
     const jg_real t215 = s_j[0] * g_i_world_0;
     const jg_real t216 = s_j[0] * h_i_world_0;
-    jac_phi_q_v_A_j[0] = t216 * g_i_dot_omega_j - t215 * h_i_dot_omega_j - (t216 * g_i_dot_omega_i - t215 *
-        h_i_dot_omega_i);
     const jg_real t217 = s_j[0] * f_i_world_0;
-    jac_phi_q_v_A_j[1] = t217 * h_i_dot_omega_j - t216 * f_i_dot_omega_j - (t217 * h_i_dot_omega_i - t216 *
-        f_i_dot_omega_i);
-    const jg_real t218 = C_j[6] * g_i_world_0;
-    const jg_real t219 = C_j[6] * h_i_world_0;
-    jac_phi_q_v_A_j[2] = g_i_dot_omega_j * t219 - h_i_dot_omega_j * t218 - (g_i_dot_omega_i * t219 - h_i_dot_omega_i
-        * t218);
-    const jg_real t220 = C_j[6] * f_i_world_0;
-    jac_phi_q_v_A_j[3] = h_i_dot_omega_j * t220 - f_i_dot_omega_j * t219 - (h_i_dot_omega_i * t220 - f_i_dot_omega_i
-        * t219);
+    const jg_real t218 = g_i_world_0 * C_j[6];
+    const jg_real t219 = h_i_world_0 * C_j[6];
+    const jg_real t220 = f_i_world_0 * C_j[6];
     const jg_real t221 = h_i_world_0 * C_j[0];
     const jg_real t222 = t221 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[4] = t215 * f_i_dot_omega_j - t217 * g_i_dot_omega_j - (t215 * f_i_dot_omega_i - t217 *
-        g_i_dot_omega_i + ((t221 * t69 + h_i_dot_f_j * (omega_i[0] * C_j[0] - omega_j[0] * C_j[0])) * t71 + (t222 +
-        t222) * t64 * pitch * t70));
     const jg_real t223 = s_j[0] * g_i_world_1;
     const jg_real t224 = s_j[0] * h_i_world_1;
+    const jg_real t225 = s_j[0] * f_i_world_1;
+    const jg_real t226 = g_i_world_1 * C_j[6];
+    const jg_real t227 = h_i_world_1 * C_j[6];
+    jac_phi_q_v_A_j[0] = t216 * g_i_dot_omega_j - t215 * h_i_dot_omega_j - (t216 * g_i_dot_omega_i - t215 *
+        h_i_dot_omega_i);
+    jac_phi_q_v_A_j[1] = t217 * h_i_dot_omega_j - t216 * f_i_dot_omega_j - (t217 * h_i_dot_omega_i - t216 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_A_j[2] = g_i_dot_omega_j * t219 - h_i_dot_omega_j * t218 - (g_i_dot_omega_i * t219 - h_i_dot_omega_i
+        * t218);
+    jac_phi_q_v_A_j[3] = h_i_dot_omega_j * t220 - f_i_dot_omega_j * t219 - (h_i_dot_omega_i * t220 - f_i_dot_omega_i
+        * t219);
+    jac_phi_q_v_A_j[4] = t215 * f_i_dot_omega_j - g_i_dot_omega_j * t217 - (t215 * f_i_dot_omega_i - g_i_dot_omega_i
+        * t217 + ((t221 * t69 + h_i_dot_f_j * (omega_i[0] * C_j[0] - omega_j[0] * C_j[0])) * t71 + (t222 + t222) *
+        t64 * pitch * t70));
     jac_phi_q_v_A_j[5] = t224 * g_i_dot_omega_j - t223 * h_i_dot_omega_j - (g_i_dot_omega_i * t224 - t223 *
         h_i_dot_omega_i);
-    const jg_real t225 = s_j[0] * f_i_world_1;
     jac_phi_q_v_A_j[6] = t225 * h_i_dot_omega_j - t224 * f_i_dot_omega_j - (t225 * h_i_dot_omega_i - t224 *
         f_i_dot_omega_i);
-    const jg_real t226 = C_j[6] * g_i_world_1;
-    const jg_real t227 = C_j[6] * h_i_world_1;
     jac_phi_q_v_A_j[7] = g_i_dot_omega_j * t227 - h_i_dot_omega_j * t226 - (g_i_dot_omega_i * t227 - h_i_dot_omega_i
         * t226);
     const jg_real t228 = f_i_world_1 * C_j[6];
-    jac_phi_q_v_A_j[8] = h_i_dot_omega_j * t228 - f_i_dot_omega_j * t227 - (h_i_dot_omega_i * t228 - f_i_dot_omega_i
-        * t227);
     const jg_real t229 = h_i_world_1 * C_j[0];
     const jg_real t230 = t229 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[9] = t223 * f_i_dot_omega_j - t225 * g_i_dot_omega_j - (t223 * f_i_dot_omega_i - t225 *
-        g_i_dot_omega_i + ((t229 * t69 + h_i_dot_f_j * (omega_i[1] * C_j[0] - omega_j[1] * C_j[0])) * t71 + (t230 +
-        t230) * t64 * pitch * t70));
     const jg_real t231 = s_j[0] * g_i_world_2;
     const jg_real t232 = s_j[0] * h_i_world_2;
-    jac_phi_q_v_A_j[10] = t232 * g_i_dot_omega_j - t231 * h_i_dot_omega_j - (g_i_dot_omega_i * t232 - t231 *
-        h_i_dot_omega_i);
     const jg_real t233 = s_j[0] * f_i_world_2;
-    jac_phi_q_v_A_j[11] = t233 * h_i_dot_omega_j - t232 * f_i_dot_omega_j - (t233 * h_i_dot_omega_i - t232 *
-        f_i_dot_omega_i);
     const jg_real t234 = g_i_world_2 * C_j[6];
-    const jg_real t235 = C_j[6] * h_i_world_2;
-    jac_phi_q_v_A_j[12] = g_i_dot_omega_j * t235 - h_i_dot_omega_j * t234 - (g_i_dot_omega_i * t235 -
-        h_i_dot_omega_i * t234);
+    const jg_real t235 = h_i_world_2 * C_j[6];
     const jg_real t236 = f_i_world_2 * C_j[6];
-    jac_phi_q_v_A_j[13] = h_i_dot_omega_j * t236 - f_i_dot_omega_j * t235 - (h_i_dot_omega_i * t236 -
-        f_i_dot_omega_i * t235);
     const jg_real t237 = h_i_world_2 * C_j[0];
     const jg_real t238 = t237 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[14] = t231 * f_i_dot_omega_j - t233 * g_i_dot_omega_j - (t231 * f_i_dot_omega_i - t233 *
-        g_i_dot_omega_i + ((t237 * t69 + h_i_dot_f_j * (omega_i[2] * C_j[0] - omega_j[2] * C_j[0])) * t71 + (t238 +
-        t238) * t64 * pitch * t70));
     const jg_real t239 = s_j[1] * g_i_world_0;
     const jg_real t240 = s_j[1] * h_i_world_0;
+    jac_phi_q_v_A_j[8] = h_i_dot_omega_j * t228 - f_i_dot_omega_j * t227 - (h_i_dot_omega_i * t228 - f_i_dot_omega_i
+        * t227);
+    jac_phi_q_v_A_j[9] = t223 * f_i_dot_omega_j - g_i_dot_omega_j * t225 - (t223 * f_i_dot_omega_i - g_i_dot_omega_i
+        * t225 + ((t229 * t69 + h_i_dot_f_j * (omega_i[1] * C_j[0] - omega_j[1] * C_j[0])) * t71 + (t230 + t230) *
+        t64 * pitch * t70));
+    jac_phi_q_v_A_j[10] = t232 * g_i_dot_omega_j - t231 * h_i_dot_omega_j - (g_i_dot_omega_i * t232 - t231 *
+        h_i_dot_omega_i);
+    jac_phi_q_v_A_j[11] = t233 * h_i_dot_omega_j - t232 * f_i_dot_omega_j - (t233 * h_i_dot_omega_i - t232 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_A_j[12] = g_i_dot_omega_j * t235 - h_i_dot_omega_j * t234 - (g_i_dot_omega_i * t235 -
+        h_i_dot_omega_i * t234);
+    jac_phi_q_v_A_j[13] = h_i_dot_omega_j * t236 - f_i_dot_omega_j * t235 - (h_i_dot_omega_i * t236 -
+        f_i_dot_omega_i * t235);
+    jac_phi_q_v_A_j[14] = t231 * f_i_dot_omega_j - g_i_dot_omega_j * t233 - (t231 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t233 + ((t237 * t69 + h_i_dot_f_j * (omega_i[2] * C_j[0] - omega_j[2] * C_j[0])) * t71 +
+        (t238 + t238) * t64 * pitch * t70));
     jac_phi_q_v_A_j[15] = t240 * g_i_dot_omega_j - t239 * h_i_dot_omega_j - (t240 * g_i_dot_omega_i - t239 *
         h_i_dot_omega_i);
     const jg_real t241 = s_j[1] * f_i_world_0;
-    jac_phi_q_v_A_j[16] = t241 * h_i_dot_omega_j - t240 * f_i_dot_omega_j - (t241 * h_i_dot_omega_i - t240 *
-        f_i_dot_omega_i);
-    const jg_real t242 = C_j[7] * g_i_world_0;
-    const jg_real t243 = C_j[7] * h_i_world_0;
-    jac_phi_q_v_A_j[17] = g_i_dot_omega_j * t243 - h_i_dot_omega_j * t242 - (g_i_dot_omega_i * t243 -
-        h_i_dot_omega_i * t242);
-    const jg_real t244 = C_j[7] * f_i_world_0;
-    jac_phi_q_v_A_j[18] = h_i_dot_omega_j * t244 - f_i_dot_omega_j * t243 - (h_i_dot_omega_i * t244 -
-        f_i_dot_omega_i * t243);
+    const jg_real t242 = g_i_world_0 * C_j[7];
+    const jg_real t243 = h_i_world_0 * C_j[7];
+    const jg_real t244 = f_i_world_0 * C_j[7];
     const jg_real t245 = h_i_world_0 * C_j[1];
     const jg_real t246 = t245 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[19] = t239 * f_i_dot_omega_j - t241 * g_i_dot_omega_j - (t239 * f_i_dot_omega_i - t241 *
-        g_i_dot_omega_i + ((t245 * t69 + h_i_dot_f_j * (omega_i[0] * C_j[1] - omega_j[0] * C_j[1])) * t71 + (t246 +
-        t246) * t64 * pitch * t70));
     const jg_real t247 = s_j[1] * g_i_world_1;
     const jg_real t248 = s_j[1] * h_i_world_1;
+    const jg_real t249 = s_j[1] * f_i_world_1;
+    const jg_real t250 = g_i_world_1 * C_j[7];
+    const jg_real t251 = h_i_world_1 * C_j[7];
+    const jg_real t252 = f_i_world_1 * C_j[7];
+    jac_phi_q_v_A_j[16] = t241 * h_i_dot_omega_j - t240 * f_i_dot_omega_j - (t241 * h_i_dot_omega_i - t240 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_A_j[17] = g_i_dot_omega_j * t243 - h_i_dot_omega_j * t242 - (g_i_dot_omega_i * t243 -
+        h_i_dot_omega_i * t242);
+    jac_phi_q_v_A_j[18] = h_i_dot_omega_j * t244 - f_i_dot_omega_j * t243 - (h_i_dot_omega_i * t244 -
+        f_i_dot_omega_i * t243);
+    jac_phi_q_v_A_j[19] = t239 * f_i_dot_omega_j - g_i_dot_omega_j * t241 - (t239 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t241 + ((t245 * t69 + h_i_dot_f_j * (omega_i[0] * C_j[1] - omega_j[0] * C_j[1])) * t71 +
+        (t246 + t246) * t64 * pitch * t70));
     jac_phi_q_v_A_j[20] = t248 * g_i_dot_omega_j - t247 * h_i_dot_omega_j - (g_i_dot_omega_i * t248 - t247 *
         h_i_dot_omega_i);
-    const jg_real t249 = s_j[1] * f_i_world_1;
     jac_phi_q_v_A_j[21] = t249 * h_i_dot_omega_j - t248 * f_i_dot_omega_j - (t249 * h_i_dot_omega_i - t248 *
         f_i_dot_omega_i);
-    const jg_real t250 = g_i_world_1 * C_j[7];
-    const jg_real t251 = C_j[7] * h_i_world_1;
     jac_phi_q_v_A_j[22] = g_i_dot_omega_j * t251 - h_i_dot_omega_j * t250 - (g_i_dot_omega_i * t251 -
         h_i_dot_omega_i * t250);
-    const jg_real t252 = f_i_world_1 * C_j[7];
     jac_phi_q_v_A_j[23] = h_i_dot_omega_j * t252 - f_i_dot_omega_j * t251 - (h_i_dot_omega_i * t252 -
         f_i_dot_omega_i * t251);
     const jg_real t253 = h_i_world_1 * C_j[1];
     const jg_real t254 = t253 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[24] = t247 * f_i_dot_omega_j - t249 * g_i_dot_omega_j - (t247 * f_i_dot_omega_i - t249 *
-        g_i_dot_omega_i + ((t253 * t69 + h_i_dot_f_j * (omega_i[1] * C_j[1] - omega_j[1] * C_j[1])) * t71 + (t254 +
-        t254) * t64 * pitch * t70));
     const jg_real t255 = s_j[1] * g_i_world_2;
     const jg_real t256 = s_j[1] * h_i_world_2;
-    jac_phi_q_v_A_j[25] = t256 * g_i_dot_omega_j - t255 * h_i_dot_omega_j - (g_i_dot_omega_i * t256 - t255 *
-        h_i_dot_omega_i);
     const jg_real t257 = s_j[1] * f_i_world_2;
-    jac_phi_q_v_A_j[26] = t257 * h_i_dot_omega_j - t256 * f_i_dot_omega_j - (t257 * h_i_dot_omega_i - t256 *
-        f_i_dot_omega_i);
     const jg_real t258 = g_i_world_2 * C_j[7];
-    const jg_real t259 = C_j[7] * h_i_world_2;
-    jac_phi_q_v_A_j[27] = g_i_dot_omega_j * t259 - h_i_dot_omega_j * t258 - (g_i_dot_omega_i * t259 -
-        h_i_dot_omega_i * t258);
+    const jg_real t259 = h_i_world_2 * C_j[7];
     const jg_real t260 = f_i_world_2 * C_j[7];
-    jac_phi_q_v_A_j[28] = h_i_dot_omega_j * t260 - f_i_dot_omega_j * t259 - (h_i_dot_omega_i * t260 -
-        f_i_dot_omega_i * t259);
     const jg_real t261 = h_i_world_2 * C_j[1];
     const jg_real t262 = t261 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[29] = t255 * f_i_dot_omega_j - t257 * g_i_dot_omega_j - (t255 * f_i_dot_omega_i - t257 *
-        g_i_dot_omega_i + ((t261 * t69 + h_i_dot_f_j * (omega_i[2] * C_j[1] - omega_j[2] * C_j[1])) * t71 + (t262 +
-        t262) * t64 * pitch * t70));
     const jg_real t263 = s_j[2] * g_i_world_0;
     const jg_real t264 = s_j[2] * h_i_world_0;
+    const jg_real t265 = s_j[2] * f_i_world_0;
+    jac_phi_q_v_A_j[24] = t247 * f_i_dot_omega_j - g_i_dot_omega_j * t249 - (t247 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t249 + ((t253 * t69 + h_i_dot_f_j * (omega_i[1] * C_j[1] - omega_j[1] * C_j[1])) * t71 +
+        (t254 + t254) * t64 * pitch * t70));
+    jac_phi_q_v_A_j[25] = t256 * g_i_dot_omega_j - t255 * h_i_dot_omega_j - (g_i_dot_omega_i * t256 - t255 *
+        h_i_dot_omega_i);
+    jac_phi_q_v_A_j[26] = t257 * h_i_dot_omega_j - t256 * f_i_dot_omega_j - (t257 * h_i_dot_omega_i - t256 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_A_j[27] = g_i_dot_omega_j * t259 - h_i_dot_omega_j * t258 - (g_i_dot_omega_i * t259 -
+        h_i_dot_omega_i * t258);
+    jac_phi_q_v_A_j[28] = h_i_dot_omega_j * t260 - f_i_dot_omega_j * t259 - (h_i_dot_omega_i * t260 -
+        f_i_dot_omega_i * t259);
+    jac_phi_q_v_A_j[29] = t255 * f_i_dot_omega_j - g_i_dot_omega_j * t257 - (t255 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t257 + ((t261 * t69 + h_i_dot_f_j * (omega_i[2] * C_j[1] - omega_j[2] * C_j[1])) * t71 +
+        (t262 + t262) * t64 * pitch * t70));
     jac_phi_q_v_A_j[30] = t264 * g_i_dot_omega_j - t263 * h_i_dot_omega_j - (t264 * g_i_dot_omega_i - t263 *
         h_i_dot_omega_i);
-    const jg_real t265 = s_j[2] * f_i_world_0;
     jac_phi_q_v_A_j[31] = t265 * h_i_dot_omega_j - t264 * f_i_dot_omega_j - (t265 * h_i_dot_omega_i - t264 *
         f_i_dot_omega_i);
-    const jg_real t266 = C_j[8] * g_i_world_0;
-    const jg_real t267 = C_j[8] * h_i_world_0;
-    jac_phi_q_v_A_j[32] = g_i_dot_omega_j * t267 - h_i_dot_omega_j * t266 - (g_i_dot_omega_i * t267 -
-        h_i_dot_omega_i * t266);
-    const jg_real t268 = C_j[8] * f_i_world_0;
-    jac_phi_q_v_A_j[33] = h_i_dot_omega_j * t268 - f_i_dot_omega_j * t267 - (h_i_dot_omega_i * t268 -
-        f_i_dot_omega_i * t267);
+    const jg_real t266 = g_i_world_0 * C_j[8];
+    const jg_real t267 = h_i_world_0 * C_j[8];
+    const jg_real t268 = f_i_world_0 * C_j[8];
     const jg_real t269 = h_i_world_0 * C_j[2];
     const jg_real t270 = t269 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[34] = t263 * f_i_dot_omega_j - t265 * g_i_dot_omega_j - (t263 * f_i_dot_omega_i - t265 *
-        g_i_dot_omega_i + ((t269 * t69 + h_i_dot_f_j * (omega_i[0] * C_j[2] - omega_j[0] * C_j[2])) * t71 + (t270 +
-        t270) * t64 * pitch * t70));
     const jg_real t271 = s_j[2] * g_i_world_1;
     const jg_real t272 = s_j[2] * h_i_world_1;
-    jac_phi_q_v_A_j[35] = t272 * g_i_dot_omega_j - t271 * h_i_dot_omega_j - (g_i_dot_omega_i * t272 - t271 *
-        h_i_dot_omega_i);
     const jg_real t273 = s_j[2] * f_i_world_1;
-    jac_phi_q_v_A_j[36] = t273 * h_i_dot_omega_j - t272 * f_i_dot_omega_j - (t273 * h_i_dot_omega_i - t272 *
-        f_i_dot_omega_i);
     const jg_real t274 = g_i_world_1 * C_j[8];
-    const jg_real t275 = C_j[8] * h_i_world_1;
-    jac_phi_q_v_A_j[37] = g_i_dot_omega_j * t275 - h_i_dot_omega_j * t274 - (g_i_dot_omega_i * t275 -
-        h_i_dot_omega_i * t274);
+    const jg_real t275 = h_i_world_1 * C_j[8];
     const jg_real t276 = f_i_world_1 * C_j[8];
-    jac_phi_q_v_A_j[38] = h_i_dot_omega_j * t276 - f_i_dot_omega_j * t275 - (h_i_dot_omega_i * t276 -
-        f_i_dot_omega_i * t275);
     const jg_real t277 = h_i_world_1 * C_j[2];
     const jg_real t278 = t277 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[39] = t271 * f_i_dot_omega_j - t273 * g_i_dot_omega_j - (t271 * f_i_dot_omega_i - t273 *
-        g_i_dot_omega_i + ((t277 * t69 + h_i_dot_f_j * (omega_i[1] * C_j[2] - omega_j[1] * C_j[2])) * t71 + (t278 +
-        t278) * t64 * pitch * t70));
+    jac_phi_q_v_A_j[32] = g_i_dot_omega_j * t267 - h_i_dot_omega_j * t266 - (g_i_dot_omega_i * t267 -
+        h_i_dot_omega_i * t266);
+    jac_phi_q_v_A_j[33] = h_i_dot_omega_j * t268 - f_i_dot_omega_j * t267 - (h_i_dot_omega_i * t268 -
+        f_i_dot_omega_i * t267);
+    jac_phi_q_v_A_j[34] = t263 * f_i_dot_omega_j - g_i_dot_omega_j * t265 - (t263 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t265 + ((t269 * t69 + h_i_dot_f_j * (omega_i[0] * C_j[2] - omega_j[0] * C_j[2])) * t71 +
+        (t270 + t270) * t64 * pitch * t70));
+    jac_phi_q_v_A_j[35] = t272 * g_i_dot_omega_j - t271 * h_i_dot_omega_j - (g_i_dot_omega_i * t272 - t271 *
+        h_i_dot_omega_i);
+    jac_phi_q_v_A_j[36] = t273 * h_i_dot_omega_j - t272 * f_i_dot_omega_j - (t273 * h_i_dot_omega_i - t272 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_A_j[37] = g_i_dot_omega_j * t275 - h_i_dot_omega_j * t274 - (g_i_dot_omega_i * t275 -
+        h_i_dot_omega_i * t274);
+    jac_phi_q_v_A_j[38] = h_i_dot_omega_j * t276 - f_i_dot_omega_j * t275 - (h_i_dot_omega_i * t276 -
+        f_i_dot_omega_i * t275);
+    jac_phi_q_v_A_j[39] = t271 * f_i_dot_omega_j - g_i_dot_omega_j * t273 - (t271 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t273 + ((t277 * t69 + h_i_dot_f_j * (omega_i[1] * C_j[2] - omega_j[1] * C_j[2])) * t71 +
+        (t278 + t278) * t64 * pitch * t70));
     const jg_real t279 = s_j[2] * g_i_world_2;
     const jg_real t280 = s_j[2] * h_i_world_2;
-    jac_phi_q_v_A_j[40] = t280 * g_i_dot_omega_j - t279 * h_i_dot_omega_j - (g_i_dot_omega_i * t280 - t279 *
-        h_i_dot_omega_i);
     const jg_real t281 = s_j[2] * f_i_world_2;
-    jac_phi_q_v_A_j[41] = t281 * h_i_dot_omega_j - t280 * f_i_dot_omega_j - (t281 * h_i_dot_omega_i - t280 *
-        f_i_dot_omega_i);
     const jg_real t282 = g_i_world_2 * C_j[8];
-    const jg_real t283 = C_j[8] * h_i_world_2;
-    jac_phi_q_v_A_j[42] = g_i_dot_omega_j * t283 - h_i_dot_omega_j * t282 - (g_i_dot_omega_i * t283 -
-        h_i_dot_omega_i * t282);
+    const jg_real t283 = h_i_world_2 * C_j[8];
     const jg_real t284 = f_i_world_2 * C_j[8];
-    jac_phi_q_v_A_j[43] = h_i_dot_omega_j * t284 - f_i_dot_omega_j * t283 - (h_i_dot_omega_i * t284 -
-        f_i_dot_omega_i * t283);
     const jg_real t285 = h_i_world_2 * C_j[2];
     const jg_real t286 = t285 * h_i_dot_f_j;
-    jac_phi_q_v_A_j[44] = t279 * f_i_dot_omega_j - t281 * g_i_dot_omega_j - (t279 * f_i_dot_omega_i - t281 *
-        g_i_dot_omega_i + ((t285 * t69 + h_i_dot_f_j * (omega_i[2] * C_j[2] - omega_j[2] * C_j[2])) * t71 + (t286 +
-        t286) * t64 * pitch * t70));
     const jg_real t287 = A_i[1] * g_i_world_2 - A_i[2] * g_i_world_1;
     const jg_real t288 = A_i[2] * g_i_world_0 - A_i[0] * g_i_world_2;
     const jg_real t289 = A_i[0] * g_i_world_1 - A_i[1] * g_i_world_0;
@@ -935,23 +922,34 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t292 = r_ij_world_0 * t287 + r_ij_world_1 * t288 + r_ij_world_2 * t289;
     const jg_real t293 = A_i[1] * v_i[1] + A_i[0] * v_i[0] + A_i[2] * v_i[2];
     const jg_real t294 = omega_j[0] * t287 + omega_j[1] * t288 + omega_j[2] * t289;
-    const jg_real t295 = A_i[1] * v_j[1] + A_i[0] * v_j[0] + A_i[2] * v_j[2];
-    jac_phi_q_v_geometry[0] = t295 - (g_i_dot_omega_i * t291 - s_j_in_joint_i_1 * t290 + (g_i_dot_omega_i * t292 -
-        r_ij_in_joint_i_1 * t290 + t293) - (g_i_dot_omega_j * t291 - s_j_in_joint_i_1 * t294));
+    const jg_real t295 = A_i[0] * v_j[0] + A_i[1] * v_j[1] + A_i[2] * v_j[2];
     const jg_real t296 = A_i[0] * s_j_world_0 + A_i[1] * s_j_world_1 + A_i[2] * s_j_world_2;
     const jg_real t297 = t296 * h_i_dot_omega_i;
     const jg_real t298 = A_i[1] * omega_i[1] + A_i[0] * omega_i[0] + A_i[2] * omega_i[2];
     const jg_real t299 = t298 * s_j_in_joint_i_2;
-    const jg_real t300 = A_i[1] * r_ij_world_1 + A_i[0] * r_ij_world_0 + A_i[2] * r_ij_world_2;
+    const jg_real t300 = A_i[0] * r_ij_world_0 + A_i[1] * r_ij_world_1 + A_i[2] * r_ij_world_2;
     const jg_real t301 = t300 * h_i_dot_omega_i;
     const jg_real t302 = t298 * r_ij_in_joint_i_2;
     const jg_real t303 = t296 * h_i_dot_omega_j;
     const jg_real t304 = A_i[1] * omega_j[1] + A_i[0] * omega_j[0] + A_i[2] * omega_j[2];
     const jg_real t305 = t304 * s_j_in_joint_i_2;
-    jac_phi_q_v_geometry[1] = t303 + s_j_in_joint_i_0 * t294 - (t305 + t291 * f_i_dot_omega_j) - (t297 +
-        s_j_in_joint_i_0 * t290 - (t299 + f_i_dot_omega_i * t291) + (t301 + r_ij_in_joint_i_0 * t290 - (t302 +
-        f_i_dot_omega_i * t292)));
     const jg_real t306 = t287 * h_j_world_0 + t288 * h_j_world_1 + t289 * h_j_world_2;
+    jac_phi_q_v_A_j[40] = t280 * g_i_dot_omega_j - t279 * h_i_dot_omega_j - (g_i_dot_omega_i * t280 - t279 *
+        h_i_dot_omega_i);
+    jac_phi_q_v_A_j[41] = t281 * h_i_dot_omega_j - t280 * f_i_dot_omega_j - (t281 * h_i_dot_omega_i - t280 *
+        f_i_dot_omega_i);
+    jac_phi_q_v_A_j[42] = g_i_dot_omega_j * t283 - h_i_dot_omega_j * t282 - (g_i_dot_omega_i * t283 -
+        h_i_dot_omega_i * t282);
+    jac_phi_q_v_A_j[43] = h_i_dot_omega_j * t284 - f_i_dot_omega_j * t283 - (h_i_dot_omega_i * t284 -
+        f_i_dot_omega_i * t283);
+    jac_phi_q_v_A_j[44] = t279 * f_i_dot_omega_j - g_i_dot_omega_j * t281 - (t279 * f_i_dot_omega_i -
+        g_i_dot_omega_i * t281 + ((t285 * t69 + h_i_dot_f_j * (omega_i[2] * C_j[2] - omega_j[2] * C_j[2])) * t71 +
+        (t286 + t286) * t64 * pitch * t70));
+    jac_phi_q_v_geometry[0] = t295 - (g_i_dot_omega_i * t291 - s_j_in_joint_i_1 * t290 + (g_i_dot_omega_i * t292 -
+        r_ij_in_joint_i_1 * t290 + t293) - (g_i_dot_omega_j * t291 - s_j_in_joint_i_1 * t294));
+    jac_phi_q_v_geometry[1] = t303 + t294 * s_j_in_joint_i_0 - (t305 + t291 * f_i_dot_omega_j) - (t297 + t290 *
+        s_j_in_joint_i_0 - (t299 + t291 * f_i_dot_omega_i) + (t301 + t290 * r_ij_in_joint_i_0 - (t302 + t292 *
+        f_i_dot_omega_i)));
     jac_phi_q_v_geometry[2] = g_i_dot_omega_j * t306 - t294 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t306 - t290 *
         h_j_in_joint_i_1);
     const jg_real t307 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
@@ -959,14 +957,8 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t309 = t304 * h_j_in_joint_i_2;
     const jg_real t310 = h_i_dot_omega_i * t307;
     const jg_real t311 = t298 * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[3] = t308 + t294 * h_j_in_joint_i_0 - (t309 + f_i_dot_omega_j * t306) - (t310 + t290 *
-        h_j_in_joint_i_0 - (t311 + f_i_dot_omega_i * t306));
     const jg_real t312 = t287 * f_j_world_0 + t288 * f_j_world_1 + t289 * f_j_world_2;
     const jg_real t313 = h_i_dot_f_j * t312;
-    jac_phi_q_v_geometry[4] = v_j[0] * t287 + v_j[1] * t288 + v_j[2] * t289 - (t298 * s_j_in_joint_i_1 -
-        g_i_dot_omega_i * t296 + (t298 * r_ij_in_joint_i_1 - g_i_dot_omega_i * t300 + (v_i[0] * t287 + v_i[1] * t288
-        + v_i[2] * t289 + ((t312 * t69 - t290 + t294) * t71 + (t313 + t313) * t64 * pitch * t70))) -
-        (s_j_in_joint_i_1 * t304 - t296 * g_i_dot_omega_j));
     const jg_real t314 = A_i[4] * g_i_world_2 - A_i[5] * g_i_world_1;
     const jg_real t315 = A_i[5] * g_i_world_0 - A_i[3] * g_i_world_2;
     const jg_real t316 = A_i[3] * g_i_world_1 - A_i[4] * g_i_world_0;
@@ -975,38 +967,25 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t319 = r_ij_world_0 * t314 + r_ij_world_1 * t315 + r_ij_world_2 * t316;
     const jg_real t320 = A_i[4] * v_i[1] + A_i[3] * v_i[0] + A_i[5] * v_i[2];
     const jg_real t321 = omega_j[0] * t314 + omega_j[1] * t315 + omega_j[2] * t316;
-    const jg_real t322 = A_i[4] * v_j[1] + A_i[3] * v_j[0] + A_i[5] * v_j[2];
-    jac_phi_q_v_geometry[5] = t322 - (g_i_dot_omega_i * t318 - s_j_in_joint_i_1 * t317 + (g_i_dot_omega_i * t319 -
-        r_ij_in_joint_i_1 * t317 + t320) - (g_i_dot_omega_j * t318 - s_j_in_joint_i_1 * t321));
+    const jg_real t322 = A_i[3] * v_j[0] + A_i[4] * v_j[1] + A_i[5] * v_j[2];
     const jg_real t323 = A_i[3] * s_j_world_0 + A_i[4] * s_j_world_1 + A_i[5] * s_j_world_2;
     const jg_real t324 = t323 * h_i_dot_omega_i;
     const jg_real t325 = A_i[4] * omega_i[1] + A_i[3] * omega_i[0] + A_i[5] * omega_i[2];
     const jg_real t326 = t325 * s_j_in_joint_i_2;
-    const jg_real t327 = A_i[4] * r_ij_world_1 + A_i[3] * r_ij_world_0 + A_i[5] * r_ij_world_2;
+    const jg_real t327 = A_i[3] * r_ij_world_0 + A_i[4] * r_ij_world_1 + A_i[5] * r_ij_world_2;
     const jg_real t328 = t327 * h_i_dot_omega_i;
     const jg_real t329 = t325 * r_ij_in_joint_i_2;
     const jg_real t330 = t323 * h_i_dot_omega_j;
     const jg_real t331 = A_i[4] * omega_j[1] + A_i[3] * omega_j[0] + A_i[5] * omega_j[2];
     const jg_real t332 = t331 * s_j_in_joint_i_2;
-    jac_phi_q_v_geometry[6] = t330 + s_j_in_joint_i_0 * t321 - (t332 + t318 * f_i_dot_omega_j) - (t324 +
-        s_j_in_joint_i_0 * t317 - (t326 + f_i_dot_omega_i * t318) + (t328 + r_ij_in_joint_i_0 * t317 - (t329 +
-        f_i_dot_omega_i * t319)));
     const jg_real t333 = t314 * h_j_world_0 + t315 * h_j_world_1 + t316 * h_j_world_2;
-    jac_phi_q_v_geometry[7] = g_i_dot_omega_j * t333 - t321 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t333 - t317 *
-        h_j_in_joint_i_1);
     const jg_real t334 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     const jg_real t335 = h_i_dot_omega_j * t334;
     const jg_real t336 = t331 * h_j_in_joint_i_2;
     const jg_real t337 = h_i_dot_omega_i * t334;
     const jg_real t338 = t325 * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[8] = t335 + t321 * h_j_in_joint_i_0 - (t336 + f_i_dot_omega_j * t333) - (t337 + t317 *
-        h_j_in_joint_i_0 - (t338 + f_i_dot_omega_i * t333));
     const jg_real t339 = t314 * f_j_world_0 + t315 * f_j_world_1 + t316 * f_j_world_2;
     const jg_real t340 = h_i_dot_f_j * t339;
-    jac_phi_q_v_geometry[9] = v_j[0] * t314 + v_j[1] * t315 + v_j[2] * t316 - (t325 * s_j_in_joint_i_1 -
-        g_i_dot_omega_i * t323 + (t325 * r_ij_in_joint_i_1 - g_i_dot_omega_i * t327 + (v_i[0] * t314 + v_i[1] * t315
-        + v_i[2] * t316 + ((t339 * t69 - t317 + t321) * t71 + (t340 + t340) * t64 * pitch * t70))) -
-        (s_j_in_joint_i_1 * t331 - t323 * g_i_dot_omega_j));
     const jg_real t341 = A_i[7] * g_i_world_2 - A_i[8] * g_i_world_1;
     const jg_real t342 = A_i[8] * g_i_world_0 - A_i[6] * g_i_world_2;
     const jg_real t343 = A_i[6] * g_i_world_1 - A_i[7] * g_i_world_0;
@@ -1015,38 +994,46 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t346 = r_ij_world_0 * t341 + r_ij_world_1 * t342 + r_ij_world_2 * t343;
     const jg_real t347 = A_i[7] * v_i[1] + A_i[6] * v_i[0] + A_i[8] * v_i[2];
     const jg_real t348 = omega_j[0] * t341 + omega_j[1] * t342 + omega_j[2] * t343;
-    const jg_real t349 = A_i[7] * v_j[1] + A_i[6] * v_j[0] + A_i[8] * v_j[2];
+    const jg_real t349 = A_i[6] * v_j[0] + A_i[7] * v_j[1] + A_i[8] * v_j[2];
+    jac_phi_q_v_geometry[3] = t308 + t294 * h_j_in_joint_i_0 - (t309 + f_i_dot_omega_j * t306) - (t310 + t290 *
+        h_j_in_joint_i_0 - (t311 + f_i_dot_omega_i * t306));
+    jac_phi_q_v_geometry[4] = t287 * v_j[0] + t288 * v_j[1] + t289 * v_j[2] - (t298 * s_j_in_joint_i_1 -
+        g_i_dot_omega_i * t296 + (t298 * r_ij_in_joint_i_1 - g_i_dot_omega_i * t300 + (v_i[0] * t287 + v_i[1] * t288
+        + v_i[2] * t289 + ((t312 * t69 - t290 + t294) * t71 + (t313 + t313) * t64 * pitch * t70))) -
+        (s_j_in_joint_i_1 * t304 - t296 * g_i_dot_omega_j));
+    jac_phi_q_v_geometry[5] = t322 - (g_i_dot_omega_i * t318 - s_j_in_joint_i_1 * t317 + (g_i_dot_omega_i * t319 -
+        r_ij_in_joint_i_1 * t317 + t320) - (g_i_dot_omega_j * t318 - s_j_in_joint_i_1 * t321));
+    jac_phi_q_v_geometry[6] = t330 + t321 * s_j_in_joint_i_0 - (t332 + t318 * f_i_dot_omega_j) - (t324 + t317 *
+        s_j_in_joint_i_0 - (t326 + t318 * f_i_dot_omega_i) + (t328 + t317 * r_ij_in_joint_i_0 - (t329 + t319 *
+        f_i_dot_omega_i)));
+    jac_phi_q_v_geometry[7] = g_i_dot_omega_j * t333 - t321 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t333 - t317 *
+        h_j_in_joint_i_1);
+    jac_phi_q_v_geometry[8] = t335 + t321 * h_j_in_joint_i_0 - (t336 + f_i_dot_omega_j * t333) - (t337 + t317 *
+        h_j_in_joint_i_0 - (t338 + f_i_dot_omega_i * t333));
+    jac_phi_q_v_geometry[9] = t314 * v_j[0] + t315 * v_j[1] + t316 * v_j[2] - (t325 * s_j_in_joint_i_1 -
+        g_i_dot_omega_i * t323 + (t325 * r_ij_in_joint_i_1 - g_i_dot_omega_i * t327 + (v_i[0] * t314 + v_i[1] * t315
+        + v_i[2] * t316 + ((t339 * t69 - t317 + t321) * t71 + (t340 + t340) * t64 * pitch * t70))) -
+        (s_j_in_joint_i_1 * t331 - t323 * g_i_dot_omega_j));
     jac_phi_q_v_geometry[10] = t349 - (g_i_dot_omega_i * t345 - s_j_in_joint_i_1 * t344 + (g_i_dot_omega_i * t346 -
         r_ij_in_joint_i_1 * t344 + t347) - (g_i_dot_omega_j * t345 - s_j_in_joint_i_1 * t348));
     const jg_real t350 = A_i[6] * s_j_world_0 + A_i[7] * s_j_world_1 + A_i[8] * s_j_world_2;
     const jg_real t351 = t350 * h_i_dot_omega_i;
     const jg_real t352 = A_i[7] * omega_i[1] + A_i[6] * omega_i[0] + A_i[8] * omega_i[2];
     const jg_real t353 = t352 * s_j_in_joint_i_2;
-    const jg_real t354 = A_i[7] * r_ij_world_1 + A_i[6] * r_ij_world_0 + A_i[8] * r_ij_world_2;
+    const jg_real t354 = A_i[6] * r_ij_world_0 + A_i[7] * r_ij_world_1 + A_i[8] * r_ij_world_2;
     const jg_real t355 = t354 * h_i_dot_omega_i;
     const jg_real t356 = t352 * r_ij_in_joint_i_2;
     const jg_real t357 = t350 * h_i_dot_omega_j;
     const jg_real t358 = A_i[7] * omega_j[1] + A_i[6] * omega_j[0] + A_i[8] * omega_j[2];
     const jg_real t359 = t358 * s_j_in_joint_i_2;
-    jac_phi_q_v_geometry[11] = t357 + s_j_in_joint_i_0 * t348 - (t359 + t345 * f_i_dot_omega_j) - (t351 +
-        s_j_in_joint_i_0 * t344 - (t353 + f_i_dot_omega_i * t345) + (t355 + r_ij_in_joint_i_0 * t344 - (t356 +
-        f_i_dot_omega_i * t346)));
     const jg_real t360 = t341 * h_j_world_0 + t342 * h_j_world_1 + t343 * h_j_world_2;
-    jac_phi_q_v_geometry[12] = g_i_dot_omega_j * t360 - t348 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t360 - t344 *
-        h_j_in_joint_i_1);
     const jg_real t361 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
     const jg_real t362 = h_i_dot_omega_j * t361;
     const jg_real t363 = t358 * h_j_in_joint_i_2;
     const jg_real t364 = h_i_dot_omega_i * t361;
     const jg_real t365 = t352 * h_j_in_joint_i_2;
-    jac_phi_q_v_geometry[13] = t362 + t348 * h_j_in_joint_i_0 - (t363 + f_i_dot_omega_j * t360) - (t364 + t344 *
-        h_j_in_joint_i_0 - (t365 + f_i_dot_omega_i * t360));
     const jg_real t366 = t341 * f_j_world_0 + t342 * f_j_world_1 + t343 * f_j_world_2;
     const jg_real t367 = h_i_dot_f_j * t366;
-    jac_phi_q_v_geometry[14] = v_j[0] * t341 + v_j[1] * t342 + v_j[2] * t343 - (t352 * s_j_in_joint_i_1 -
-        g_i_dot_omega_i * t350 + (t352 * r_ij_in_joint_i_1 - g_i_dot_omega_i * t354 + (v_i[0] * t341 + v_i[1] * t342
-        + v_i[2] * t343 + ((t366 * t69 - t344 + t348) * t71 + (t367 + t367) * t64 * pitch * t70))) -
-        (s_j_in_joint_i_1 * t358 - t350 * g_i_dot_omega_j));
     const jg_real t368 = A_i[2] * f_i_world_1 - A_i[1] * f_i_world_2;
     const jg_real t369 = A_i[0] * f_i_world_2 - A_i[2] * f_i_world_0;
     const jg_real t370 = A_i[1] * f_i_world_0 - A_i[0] * f_i_world_1;
@@ -1054,22 +1041,29 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t372 = s_j_world_0 * t368 + s_j_world_1 * t369 + s_j_world_2 * t370;
     const jg_real t373 = r_ij_world_0 * t368 + r_ij_world_1 * t369 + r_ij_world_2 * t370;
     const jg_real t374 = omega_j[0] * t368 + omega_j[1] * t369 + omega_j[2] * t370;
+    const jg_real t375 = t368 * h_j_world_0 + t369 * h_j_world_1 + t370 * h_j_world_2;
+    jac_phi_q_v_geometry[11] = t357 + t348 * s_j_in_joint_i_0 - (t359 + t345 * f_i_dot_omega_j) - (t351 + t344 *
+        s_j_in_joint_i_0 - (t353 + t345 * f_i_dot_omega_i) + (t355 + t344 * r_ij_in_joint_i_0 - (t356 + t346 *
+        f_i_dot_omega_i)));
+    jac_phi_q_v_geometry[12] = g_i_dot_omega_j * t360 - t348 * h_j_in_joint_i_1 - (g_i_dot_omega_i * t360 - t344 *
+        h_j_in_joint_i_1);
+    jac_phi_q_v_geometry[13] = t362 + t348 * h_j_in_joint_i_0 - (t363 + f_i_dot_omega_j * t360) - (t364 + t344 *
+        h_j_in_joint_i_0 - (t365 + f_i_dot_omega_i * t360));
+    jac_phi_q_v_geometry[14] = t341 * v_j[0] + t342 * v_j[1] + t343 * v_j[2] - (t352 * s_j_in_joint_i_1 -
+        g_i_dot_omega_i * t350 + (t352 * r_ij_in_joint_i_1 - g_i_dot_omega_i * t354 + (v_i[0] * t341 + v_i[1] * t342
+        + v_i[2] * t343 + ((t366 * t69 - t344 + t348) * t71 + (t367 + t367) * t64 * pitch * t70))) -
+        (s_j_in_joint_i_1 * t358 - t350 * g_i_dot_omega_j));
     jac_phi_q_v_geometry[15] = g_i_dot_omega_j * t372 + t305 - (t303 + s_j_in_joint_i_1 * t374) - (t299 +
         g_i_dot_omega_i * t372 - (s_j_in_joint_i_1 * t371 + t297) + (g_i_dot_omega_i * t373 + t302 - (t301 +
         r_ij_in_joint_i_1 * t371)));
-    jac_phi_q_v_geometry[16] = t295 - (s_j_in_joint_i_0 * t371 - f_i_dot_omega_i * t372 + (r_ij_in_joint_i_0 * t371
-        - f_i_dot_omega_i * t373 + t293) - (s_j_in_joint_i_0 * t374 - t372 * f_i_dot_omega_j));
-    const jg_real t375 = t368 * h_j_world_0 + t369 * h_j_world_1 + t370 * h_j_world_2;
+    jac_phi_q_v_geometry[16] = t295 - (t371 * s_j_in_joint_i_0 - t372 * f_i_dot_omega_i + (t371 * r_ij_in_joint_i_0
+        - t373 * f_i_dot_omega_i + t293) - (t374 * s_j_in_joint_i_0 - t372 * f_i_dot_omega_j));
     jac_phi_q_v_geometry[17] = t309 + g_i_dot_omega_j * t375 - (t374 * h_j_in_joint_i_1 + t308) - (t311 +
         g_i_dot_omega_i * t375 - (t371 * h_j_in_joint_i_1 + t310));
     jac_phi_q_v_geometry[18] = t374 * h_j_in_joint_i_0 - f_i_dot_omega_j * t375 - (t371 * h_j_in_joint_i_0 -
         f_i_dot_omega_i * t375);
     const jg_real t376 = t368 * f_j_world_0 + t369 * f_j_world_1 + t370 * f_j_world_2;
     const jg_real t377 = h_i_dot_f_j * t376;
-    jac_phi_q_v_geometry[19] = v_j[0] * t368 + v_j[1] * t369 + v_j[2] * t370 - (t296 * f_i_dot_omega_i - t298 *
-        s_j_in_joint_i_0 + (t300 * f_i_dot_omega_i - t298 * r_ij_in_joint_i_0 + (v_i[0] * t368 + v_i[1] * t369 +
-        v_i[2] * t370 + ((t376 * t69 - t371 + t374) * t71 + (t377 + t377) * t64 * pitch * t70))) - (t296 *
-        f_i_dot_omega_j - t304 * s_j_in_joint_i_0));
     const jg_real t378 = A_i[5] * f_i_world_1 - A_i[4] * f_i_world_2;
     const jg_real t379 = A_i[3] * f_i_world_2 - A_i[5] * f_i_world_0;
     const jg_real t380 = A_i[4] * f_i_world_0 - A_i[3] * f_i_world_1;
@@ -1077,22 +1071,9 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t382 = s_j_world_0 * t378 + s_j_world_1 * t379 + s_j_world_2 * t380;
     const jg_real t383 = r_ij_world_0 * t378 + r_ij_world_1 * t379 + r_ij_world_2 * t380;
     const jg_real t384 = omega_j[0] * t378 + omega_j[1] * t379 + omega_j[2] * t380;
-    jac_phi_q_v_geometry[20] = g_i_dot_omega_j * t382 + t332 - (t330 + s_j_in_joint_i_1 * t384) - (t326 +
-        g_i_dot_omega_i * t382 - (s_j_in_joint_i_1 * t381 + t324) + (g_i_dot_omega_i * t383 + t329 - (t328 +
-        r_ij_in_joint_i_1 * t381)));
-    jac_phi_q_v_geometry[21] = t322 - (s_j_in_joint_i_0 * t381 - f_i_dot_omega_i * t382 + (r_ij_in_joint_i_0 * t381
-        - f_i_dot_omega_i * t383 + t320) - (s_j_in_joint_i_0 * t384 - t382 * f_i_dot_omega_j));
     const jg_real t385 = t378 * h_j_world_0 + t379 * h_j_world_1 + t380 * h_j_world_2;
-    jac_phi_q_v_geometry[22] = t336 + g_i_dot_omega_j * t385 - (t384 * h_j_in_joint_i_1 + t335) - (t338 +
-        g_i_dot_omega_i * t385 - (t381 * h_j_in_joint_i_1 + t337));
-    jac_phi_q_v_geometry[23] = t384 * h_j_in_joint_i_0 - f_i_dot_omega_j * t385 - (t381 * h_j_in_joint_i_0 -
-        f_i_dot_omega_i * t385);
     const jg_real t386 = t378 * f_j_world_0 + t379 * f_j_world_1 + t380 * f_j_world_2;
     const jg_real t387 = h_i_dot_f_j * t386;
-    jac_phi_q_v_geometry[24] = v_j[0] * t378 + v_j[1] * t379 + v_j[2] * t380 - (t323 * f_i_dot_omega_i - t325 *
-        s_j_in_joint_i_0 + (t327 * f_i_dot_omega_i - t325 * r_ij_in_joint_i_0 + (v_i[0] * t378 + v_i[1] * t379 +
-        v_i[2] * t380 + ((t386 * t69 - t381 + t384) * t71 + (t387 + t387) * t64 * pitch * t70))) - (t323 *
-        f_i_dot_omega_j - t331 * s_j_in_joint_i_0));
     const jg_real t388 = A_i[8] * f_i_world_1 - A_i[7] * f_i_world_2;
     const jg_real t389 = A_i[6] * f_i_world_2 - A_i[8] * f_i_world_0;
     const jg_real t390 = A_i[7] * f_i_world_0 - A_i[6] * f_i_world_1;
@@ -1100,70 +1081,87 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t392 = s_j_world_0 * t388 + s_j_world_1 * t389 + s_j_world_2 * t390;
     const jg_real t393 = r_ij_world_0 * t388 + r_ij_world_1 * t389 + r_ij_world_2 * t390;
     const jg_real t394 = omega_j[0] * t388 + omega_j[1] * t389 + omega_j[2] * t390;
+    jac_phi_q_v_geometry[19] = t368 * v_j[0] + t369 * v_j[1] + t370 * v_j[2] - (t296 * f_i_dot_omega_i - t298 *
+        s_j_in_joint_i_0 + (t300 * f_i_dot_omega_i - t298 * r_ij_in_joint_i_0 + (v_i[0] * t368 + v_i[1] * t369 +
+        v_i[2] * t370 + ((t376 * t69 - t371 + t374) * t71 + (t377 + t377) * t64 * pitch * t70))) - (t296 *
+        f_i_dot_omega_j - t304 * s_j_in_joint_i_0));
+    jac_phi_q_v_geometry[20] = g_i_dot_omega_j * t382 + t332 - (t330 + s_j_in_joint_i_1 * t384) - (t326 +
+        g_i_dot_omega_i * t382 - (s_j_in_joint_i_1 * t381 + t324) + (g_i_dot_omega_i * t383 + t329 - (t328 +
+        r_ij_in_joint_i_1 * t381)));
+    jac_phi_q_v_geometry[21] = t322 - (t381 * s_j_in_joint_i_0 - t382 * f_i_dot_omega_i + (t381 * r_ij_in_joint_i_0
+        - t383 * f_i_dot_omega_i + t320) - (t384 * s_j_in_joint_i_0 - t382 * f_i_dot_omega_j));
+    jac_phi_q_v_geometry[22] = t336 + g_i_dot_omega_j * t385 - (t384 * h_j_in_joint_i_1 + t335) - (t338 +
+        g_i_dot_omega_i * t385 - (t381 * h_j_in_joint_i_1 + t337));
+    jac_phi_q_v_geometry[23] = t384 * h_j_in_joint_i_0 - f_i_dot_omega_j * t385 - (t381 * h_j_in_joint_i_0 -
+        f_i_dot_omega_i * t385);
+    jac_phi_q_v_geometry[24] = t378 * v_j[0] + t379 * v_j[1] + t380 * v_j[2] - (t323 * f_i_dot_omega_i - t325 *
+        s_j_in_joint_i_0 + (t327 * f_i_dot_omega_i - t325 * r_ij_in_joint_i_0 + (v_i[0] * t378 + v_i[1] * t379 +
+        v_i[2] * t380 + ((t386 * t69 - t381 + t384) * t71 + (t387 + t387) * t64 * pitch * t70))) - (t323 *
+        f_i_dot_omega_j - t331 * s_j_in_joint_i_0));
     jac_phi_q_v_geometry[25] = g_i_dot_omega_j * t392 + t359 - (t357 + s_j_in_joint_i_1 * t394) - (t353 +
         g_i_dot_omega_i * t392 - (s_j_in_joint_i_1 * t391 + t351) + (g_i_dot_omega_i * t393 + t356 - (t355 +
         r_ij_in_joint_i_1 * t391)));
-    jac_phi_q_v_geometry[26] = t349 - (s_j_in_joint_i_0 * t391 - f_i_dot_omega_i * t392 + (r_ij_in_joint_i_0 * t391
-        - f_i_dot_omega_i * t393 + t347) - (s_j_in_joint_i_0 * t394 - t392 * f_i_dot_omega_j));
+    jac_phi_q_v_geometry[26] = t349 - (t391 * s_j_in_joint_i_0 - t392 * f_i_dot_omega_i + (t391 * r_ij_in_joint_i_0
+        - t393 * f_i_dot_omega_i + t347) - (t394 * s_j_in_joint_i_0 - t392 * f_i_dot_omega_j));
     const jg_real t395 = t388 * h_j_world_0 + t389 * h_j_world_1 + t390 * h_j_world_2;
+    const jg_real t396 = t388 * f_j_world_0 + t389 * f_j_world_1 + t390 * f_j_world_2;
+    const jg_real t397 = h_i_dot_f_j * t396;
+    const jg_real t398 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    const jg_real t399 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + g_i_world_2 * A_j[2];
+    const jg_real t400 = g_i_dot_omega_j * t398 - t399 * h_i_dot_omega_j - (g_i_dot_omega_i * t398 - t399 *
+        h_i_dot_omega_i);
+    const jg_real t401 = A_j[0] * f_i_world_0 + f_i_world_1 * A_j[1] + f_i_world_2 * A_j[2];
+    const jg_real t402 = h_i_dot_omega_j * t401 - t398 * f_i_dot_omega_j - (h_i_dot_omega_i * t401 - t398 *
+        f_i_dot_omega_i);
     jac_phi_q_v_geometry[27] = t363 + g_i_dot_omega_j * t395 - (t394 * h_j_in_joint_i_1 + t362) - (t365 +
         g_i_dot_omega_i * t395 - (t391 * h_j_in_joint_i_1 + t364));
     jac_phi_q_v_geometry[28] = t394 * h_j_in_joint_i_0 - f_i_dot_omega_j * t395 - (t391 * h_j_in_joint_i_0 -
         f_i_dot_omega_i * t395);
-    const jg_real t396 = t388 * f_j_world_0 + t389 * f_j_world_1 + t390 * f_j_world_2;
-    const jg_real t397 = h_i_dot_f_j * t396;
-    jac_phi_q_v_geometry[29] = v_j[0] * t388 + v_j[1] * t389 + v_j[2] * t390 - (t350 * f_i_dot_omega_i - t352 *
+    jac_phi_q_v_geometry[29] = t388 * v_j[0] + t389 * v_j[1] + t390 * v_j[2] - (t350 * f_i_dot_omega_i - t352 *
         s_j_in_joint_i_0 + (t354 * f_i_dot_omega_i - t352 * r_ij_in_joint_i_0 + (v_i[0] * t388 + v_i[1] * t389 +
         v_i[2] * t390 + ((t396 * t69 - t391 + t394) * t71 + (t397 + t397) * t64 * pitch * t70))) - (t350 *
         f_i_dot_omega_j - t358 * s_j_in_joint_i_0));
-    const jg_real t398 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
-    const jg_real t399 = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
-    const jg_real t400 = g_i_dot_omega_j * t398 - t399 * h_i_dot_omega_j - (g_i_dot_omega_i * t398 - t399 *
-        h_i_dot_omega_i);
     jac_phi_q_v_geometry[30] = t400;
     jac_phi_q_v_geometry[42] = t400;
-    const jg_real t401 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
-    const jg_real t402 = t401 * h_i_dot_omega_j - t398 * f_i_dot_omega_j - (t401 * h_i_dot_omega_i - f_i_dot_omega_i
-        * t398);
     jac_phi_q_v_geometry[31] = t402;
     jac_phi_q_v_geometry[43] = t402;
     jac_phi_q_v_geometry[32] = t399 * f_i_dot_omega_j - g_i_dot_omega_j * t401 - (t399 * f_i_dot_omega_i -
         g_i_dot_omega_i * t401);
     const jg_real t403 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
-    const jg_real t404 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real t404 = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + g_i_world_2 * A_j[5];
     const jg_real t405 = g_i_dot_omega_j * t403 - t404 * h_i_dot_omega_j - (g_i_dot_omega_i * t403 - t404 *
         h_i_dot_omega_i);
+    const jg_real t406 = A_j[3] * f_i_world_0 + f_i_world_1 * A_j[4] + f_i_world_2 * A_j[5];
+    const jg_real t407 = h_i_dot_omega_j * t406 - t403 * f_i_dot_omega_j - (h_i_dot_omega_i * t406 - t403 *
+        f_i_dot_omega_i);
+    const jg_real t408 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
+    const jg_real t409 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + g_i_world_2 * A_j[8];
+    const jg_real t410 = g_i_dot_omega_j * t408 - t409 * h_i_dot_omega_j - (g_i_dot_omega_i * t408 - t409 *
+        h_i_dot_omega_i);
+    const jg_real t411 = A_j[6] * f_i_world_0 + f_i_world_1 * A_j[7] + f_i_world_2 * A_j[8];
+    const jg_real t412 = h_i_dot_omega_j * t411 - t408 * f_i_dot_omega_j - (h_i_dot_omega_i * t411 - t408 *
+        f_i_dot_omega_i);
     jac_phi_q_v_geometry[33] = t405;
     jac_phi_q_v_geometry[44] = t405;
-    const jg_real t406 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
-    const jg_real t407 = t406 * h_i_dot_omega_j - t403 * f_i_dot_omega_j - (t406 * h_i_dot_omega_i - f_i_dot_omega_i
-        * t403);
     jac_phi_q_v_geometry[34] = t407;
     jac_phi_q_v_geometry[45] = t407;
     jac_phi_q_v_geometry[35] = t404 * f_i_dot_omega_j - g_i_dot_omega_j * t406 - (t404 * f_i_dot_omega_i -
         g_i_dot_omega_i * t406);
-    const jg_real t408 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
-    const jg_real t409 = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    const jg_real t410 = g_i_dot_omega_j * t408 - t409 * h_i_dot_omega_j - (g_i_dot_omega_i * t408 - t409 *
-        h_i_dot_omega_i);
     jac_phi_q_v_geometry[36] = t410;
     jac_phi_q_v_geometry[46] = t410;
-    const jg_real t411 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
-    const jg_real t412 = t411 * h_i_dot_omega_j - t408 * f_i_dot_omega_j - (t411 * h_i_dot_omega_i - f_i_dot_omega_i
-        * t408);
     jac_phi_q_v_geometry[37] = t412;
     jac_phi_q_v_geometry[47] = t412;
+    const jg_real t413 = t398 * h_i_dot_f_j;
+    const jg_real t414 = t403 * h_i_dot_f_j;
+    const jg_real t415 = t408 * h_i_dot_f_j;
     jac_phi_q_v_geometry[38] = t409 * f_i_dot_omega_j - g_i_dot_omega_j * t411 - (t409 * f_i_dot_omega_i -
         g_i_dot_omega_i * t411);
-    const jg_real t413 = t398 * h_i_dot_f_j;
     jac_phi_q_v_geometry[39] = -((t398 * t69 + h_i_dot_f_j * (A_j[0] * omega_i[0] + A_j[1] * omega_i[1] + A_j[2] *
         omega_i[2] - (A_j[0] * omega_j[0] + A_j[1] * omega_j[1] + A_j[2] * omega_j[2]))) * t71 + (t413 + t413) * t64
         * pitch * t70);
-    const jg_real t414 = t403 * h_i_dot_f_j;
     jac_phi_q_v_geometry[40] = -((t403 * t69 + h_i_dot_f_j * (A_j[3] * omega_i[0] + A_j[4] * omega_i[1] + A_j[5] *
         omega_i[2] - (A_j[3] * omega_j[0] + A_j[4] * omega_j[1] + A_j[5] * omega_j[2]))) * t71 + (t414 + t414) * t64
         * pitch * t70);
-    const jg_real t415 = t408 * h_i_dot_f_j;
     jac_phi_q_v_geometry[41] = -((t408 * t69 + h_i_dot_f_j * (A_j[6] * omega_i[0] + A_j[7] * omega_i[1] + A_j[8] *
         omega_i[2] - (A_j[6] * omega_j[0] + A_j[7] * omega_j[1] + A_j[8] * omega_j[2]))) * t71 + (t415 + t415) * t64
         * pitch * t70);
@@ -1171,52 +1169,52 @@ static void jg_screw_conventional_world_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[0] = -f_i_world_0;
     jac_phi_q_v_velocity[1] = -g_i_world_0;
     jac_phi_q_v_velocity[2] = -h_i_world_0;
+    const jg_real t416 = g_i_world_0 * s_j_in_joint_i_2 - h_i_world_0 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[3] = -f_i_world_1;
     jac_phi_q_v_velocity[4] = -g_i_world_1;
     jac_phi_q_v_velocity[5] = -h_i_world_1;
     jac_phi_q_v_velocity[6] = -f_i_world_2;
     jac_phi_q_v_velocity[7] = -g_i_world_2;
     jac_phi_q_v_velocity[8] = -h_i_world_2;
-    const jg_real t416 = g_i_world_0 * s_j_in_joint_i_2 - h_i_world_0 * s_j_in_joint_i_1;
     jac_phi_q_v_velocity[33] = t416;
     jac_phi_q_v_velocity[9] = -(g_i_world_0 * r_ij_in_joint_i_2 - h_i_world_0 * r_ij_in_joint_i_1 + t416);
     const jg_real t417 = h_i_world_0 * s_j_in_joint_i_0 - f_i_world_0 * s_j_in_joint_i_2;
-    jac_phi_q_v_velocity[34] = t417;
-    jac_phi_q_v_velocity[10] = -(h_i_world_0 * r_ij_in_joint_i_0 - f_i_world_0 * r_ij_in_joint_i_2 + t417);
     const jg_real t418 = g_i_world_0 * h_j_in_joint_i_2 - h_i_world_0 * h_j_in_joint_i_1;
-    jac_phi_q_v_velocity[35] = t418;
-    jac_phi_q_v_velocity[11] = -t418;
     const jg_real t419 = h_i_world_0 * h_j_in_joint_i_0 - f_i_world_0 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[36] = t419;
-    jac_phi_q_v_velocity[12] = -t419;
     const jg_real t420 = (f_j_world_0 * h_i_dot_f_j - h_i_world_0) * t71;
     const jg_real t421 = f_i_world_0 * s_j_in_joint_i_1 - g_i_world_0 * s_j_in_joint_i_0;
-    jac_phi_q_v_velocity[13] = -(f_i_world_0 * r_ij_in_joint_i_1 - g_i_world_0 * r_ij_in_joint_i_0 + t420 + t421);
     const jg_real t422 = g_i_world_1 * s_j_in_joint_i_2 - h_i_world_1 * s_j_in_joint_i_1;
+    jac_phi_q_v_velocity[34] = t417;
+    jac_phi_q_v_velocity[10] = -(h_i_world_0 * r_ij_in_joint_i_0 - f_i_world_0 * r_ij_in_joint_i_2 + t417);
+    jac_phi_q_v_velocity[35] = t418;
+    jac_phi_q_v_velocity[11] = -t418;
+    jac_phi_q_v_velocity[36] = t419;
+    jac_phi_q_v_velocity[12] = -t419;
+    jac_phi_q_v_velocity[13] = -(f_i_world_0 * r_ij_in_joint_i_1 - g_i_world_0 * r_ij_in_joint_i_0 + t420 + t421);
     jac_phi_q_v_velocity[38] = t422;
-    jac_phi_q_v_velocity[14] = -(g_i_world_1 * r_ij_in_joint_i_2 - h_i_world_1 * r_ij_in_joint_i_1 + t422);
     const jg_real t423 = h_i_world_1 * s_j_in_joint_i_0 - f_i_world_1 * s_j_in_joint_i_2;
-    jac_phi_q_v_velocity[39] = t423;
-    jac_phi_q_v_velocity[15] = -(h_i_world_1 * r_ij_in_joint_i_0 - f_i_world_1 * r_ij_in_joint_i_2 + t423);
     const jg_real t424 = g_i_world_1 * h_j_in_joint_i_2 - h_i_world_1 * h_j_in_joint_i_1;
-    jac_phi_q_v_velocity[40] = t424;
-    jac_phi_q_v_velocity[16] = -t424;
     const jg_real t425 = h_i_world_1 * h_j_in_joint_i_0 - f_i_world_1 * h_j_in_joint_i_2;
-    jac_phi_q_v_velocity[41] = t425;
-    jac_phi_q_v_velocity[17] = -t425;
     const jg_real t426 = (f_j_world_1 * h_i_dot_f_j - h_i_world_1) * t71;
     const jg_real t427 = f_i_world_1 * s_j_in_joint_i_1 - g_i_world_1 * s_j_in_joint_i_0;
+    jac_phi_q_v_velocity[14] = -(g_i_world_1 * r_ij_in_joint_i_2 - h_i_world_1 * r_ij_in_joint_i_1 + t422);
+    jac_phi_q_v_velocity[39] = t423;
+    jac_phi_q_v_velocity[15] = -(h_i_world_1 * r_ij_in_joint_i_0 - f_i_world_1 * r_ij_in_joint_i_2 + t423);
+    jac_phi_q_v_velocity[40] = t424;
+    jac_phi_q_v_velocity[16] = -t424;
+    jac_phi_q_v_velocity[41] = t425;
+    jac_phi_q_v_velocity[17] = -t425;
     jac_phi_q_v_velocity[18] = -(f_i_world_1 * r_ij_in_joint_i_1 - g_i_world_1 * r_ij_in_joint_i_0 + t426 + t427);
     const jg_real t428 = g_i_world_2 * s_j_in_joint_i_2 - h_i_world_2 * s_j_in_joint_i_1;
+    const jg_real t429 = h_i_world_2 * s_j_in_joint_i_0 - f_i_world_2 * s_j_in_joint_i_2;
+    const jg_real t430 = g_i_world_2 * h_j_in_joint_i_2 - h_i_world_2 * h_j_in_joint_i_1;
+    const jg_real t431 = h_i_world_2 * h_j_in_joint_i_0 - f_i_world_2 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[43] = t428;
     jac_phi_q_v_velocity[19] = -(g_i_world_2 * r_ij_in_joint_i_2 - h_i_world_2 * r_ij_in_joint_i_1 + t428);
-    const jg_real t429 = h_i_world_2 * s_j_in_joint_i_0 - f_i_world_2 * s_j_in_joint_i_2;
     jac_phi_q_v_velocity[44] = t429;
     jac_phi_q_v_velocity[20] = -(h_i_world_2 * r_ij_in_joint_i_0 - f_i_world_2 * r_ij_in_joint_i_2 + t429);
-    const jg_real t430 = g_i_world_2 * h_j_in_joint_i_2 - h_i_world_2 * h_j_in_joint_i_1;
     jac_phi_q_v_velocity[45] = t430;
     jac_phi_q_v_velocity[21] = -t430;
-    const jg_real t431 = h_i_world_2 * h_j_in_joint_i_0 - f_i_world_2 * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[46] = t431;
     jac_phi_q_v_velocity[22] = -t431;
     const jg_real t432 = (f_j_world_2 * h_i_dot_f_j - h_i_world_2) * t71;
@@ -1240,60 +1238,56 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real pitch = geometry[24];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_1 = C_i[0] * A_i[1] + C_i[1] * A_i[4] + C_i[2] * A_i[7];
-    jac_phi_q_t_lambda_lambda[7] = f_i_world_1;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
-    jac_phi_q_t_lambda_lambda[42] = h_i_world_0;
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    jac_phi_q_t_lambda_lambda[43] = h_i_world_1;
     const jg_real f_i_world_0 = C_i[0] * A_i[0] + C_i[1] * A_i[3] + C_i[2] * A_i[6];
-    jac_phi_q_t_lambda_lambda[6] = f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_2 = f_i_world_1 * h_i_world_0 - h_i_world_1 * f_i_world_0;
-    jac_phi_q_t_lambda_lambda[20] = g_i_world_2;
     const jg_real f_i_world_2 = C_i[0] * A_i[2] + C_i[1] * A_i[5] + C_i[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[8] = f_i_world_2;
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    jac_phi_q_t_lambda_lambda[44] = h_i_world_2;
     /* v_0_world = lambda_0 f_i + lambda_1 g_i + lambda_4 h_i, world axes */
     const jg_real v_0_world_2 = lambda[0] * f_i_world_2 + lambda[1] * g_i_world_2 + lambda[4] * h_i_world_2;
+    jac_phi_q_t_lambda_lambda[7] = f_i_world_1;
+    jac_phi_q_t_lambda_lambda[42] = h_i_world_0;
+    jac_phi_q_t_lambda_lambda[43] = h_i_world_1;
+    jac_phi_q_t_lambda_lambda[6] = f_i_world_0;
+    jac_phi_q_t_lambda_lambda[20] = g_i_world_2;
+    jac_phi_q_t_lambda_lambda[8] = f_i_world_2;
+    jac_phi_q_t_lambda_lambda[44] = h_i_world_2;
     jac_phi_q_t_lambda_r_i[2] = v_0_world_2;
     jac_phi_q_t_lambda_r_j[0] = v_0_world_2;
     const jg_real t8 = -v_0_world_2;
+    const jg_real g_i_world_1 = h_i_world_2 * f_i_world_0 - f_i_world_2 * h_i_world_0;
+    const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
+    const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
+    const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
     jac_phi_q_t_lambda_r_i[0] = t8;
     jac_phi_q_t_lambda_r_j[2] = t8;
-    const jg_real g_i_world_1 = h_i_world_2 * f_i_world_0 - f_i_world_2 * h_i_world_0;
     jac_phi_q_t_lambda_lambda[19] = g_i_world_1;
-    const jg_real v_0_world_1 = lambda[0] * f_i_world_1 + lambda[1] * g_i_world_1 + lambda[4] * h_i_world_1;
     jac_phi_q_t_lambda_r_i[1] = v_0_world_1;
     jac_phi_q_t_lambda_r_j[4] = v_0_world_1;
-    const jg_real g_i_world_0 = f_i_world_2 * h_i_world_1 - f_i_world_1 * h_i_world_2;
     jac_phi_q_t_lambda_lambda[18] = g_i_world_0;
-    const jg_real v_0_world_0 = lambda[0] * f_i_world_0 + lambda[1] * g_i_world_0 + lambda[4] * h_i_world_0;
     jac_phi_q_t_lambda_r_i[5] = v_0_world_0;
     jac_phi_q_t_lambda_r_j[3] = v_0_world_0;
     const jg_real t13 = -v_0_world_0;
+    const jg_real t14 = -v_0_world_1;
+    const jg_real t15 = C_i[0] * lambda[0] + C_i[6] * lambda[4];
+    const jg_real t16 = -t15;
     jac_phi_q_t_lambda_r_i[3] = t13;
     jac_phi_q_t_lambda_r_j[5] = t13;
-    const jg_real t14 = -v_0_world_1;
     jac_phi_q_t_lambda_r_i[4] = t14;
     jac_phi_q_t_lambda_r_j[1] = t14;
-    const jg_real t15 = C_i[0] * lambda[0] + C_i[6] * lambda[4];
     jac_phi_q_t_lambda_A_i[6] = t15;
     jac_phi_q_t_lambda_A_i[19] = t15;
     jac_phi_q_t_lambda_A_i[32] = t15;
-    const jg_real t16 = -t15;
     jac_phi_q_t_lambda_A_i[0] = t16;
     jac_phi_q_t_lambda_A_i[13] = t16;
     jac_phi_q_t_lambda_A_i[26] = t16;
     const jg_real t17 = C_i[6] * f_i_world_2 - C_i[0] * h_i_world_2;
     const jg_real t18 = lambda[1] * t17;
-    jac_phi_q_t_lambda_A_i[1] = t18;
-    jac_phi_q_t_lambda_A_i[18] = t18;
     const jg_real t19 = C_i[0] * h_i_world_1 - C_i[6] * f_i_world_1;
     const jg_real t20 = lambda[1] * t19;
-    jac_phi_q_t_lambda_A_i[2] = t20;
-    jac_phi_q_t_lambda_A_i[30] = t20;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
@@ -1319,101 +1313,98 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t38 = h_j_world_2 * t36;
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_2 = A_j[2] * s_j[0] + A_j[5] * s_j[1] + A_j[8] * s_j[2];
-    const jg_real t40 = s_j_world_2 * t18;
+    const jg_real t40 = t18 * s_j_world_2;
     const jg_real s_j_world_1 = A_j[1] * s_j[0] + A_j[4] * s_j[1] + A_j[7] * s_j[2];
     const jg_real t42 = s_j_world_1 * t20;
     const jg_real t43 = t35 - t38 - (t40 - t42) + (across_world_0 * t29 + (C_i[6] - f_j_world_0 * t27) * t32);
     /* r_ij_world = r_ij, world axes */
     const jg_real r_ij_world_2 = r_j[2] - r_i[2];
-    const jg_real t45 = r_ij_world_2 * t18;
+    const jg_real t45 = t18 * r_ij_world_2;
     const jg_real r_ij_world_1 = r_j[1] - r_i[1];
-    const jg_real t47 = r_ij_world_1 * t20;
-    jac_phi_q_t_lambda_A_i[3] = t43 - (t45 - t47);
+    const jg_real t47 = t20 * r_ij_world_1;
     const jg_real across_world_1 = h_i_world_1 - f_j_world_1 * h_i_dot_f_j;
     const jg_real t49 = s_j_world_2 * t15;
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real t52 = C_i[0] * lambda[2];
     const jg_real t53 = t52 * h_j_world_2;
-    const jg_real t54 = across_world_1 * t29 - t27 * f_j_world_1 * t32 - (t53 + t33 * h_j_world_0 + (t49 + t20 *
+    const jg_real t54 = across_world_1 * t29 - f_j_world_1 * t27 * t32 - (t53 + t33 * h_j_world_0 + (t49 + t20 *
         s_j_world_0));
     const jg_real r_ij_world_0 = r_j[0] - r_i[0];
     const jg_real t56 = r_ij_world_2 * t15;
-    jac_phi_q_t_lambda_A_i[4] = t54 - (t56 + r_ij_world_0 * t20);
     const jg_real across_world_2 = h_i_world_2 - f_j_world_2 * h_i_dot_f_j;
     const jg_real t58 = s_j_world_1 * t15;
     const jg_real t59 = t52 * h_j_world_1;
-    const jg_real t60 = t59 + t36 * h_j_world_0 + (t58 + t18 * s_j_world_0) + (across_world_2 * t29 - t27 *
-        f_j_world_2 * t32);
+    const jg_real t60 = t59 + t36 * h_j_world_0 + (t58 + t18 * s_j_world_0) + (across_world_2 * t29 - f_j_world_2 *
+        t27 * t32);
     const jg_real t61 = r_ij_world_1 * t15;
-    jac_phi_q_t_lambda_A_i[5] = t61 + r_ij_world_0 * t18 + t60;
     const jg_real t62 = -t18;
+    jac_phi_q_t_lambda_A_i[1] = t18;
+    jac_phi_q_t_lambda_A_i[18] = t18;
+    jac_phi_q_t_lambda_A_i[2] = t20;
+    jac_phi_q_t_lambda_A_i[30] = t20;
+    jac_phi_q_t_lambda_A_i[3] = t43 - (t45 - t47);
+    jac_phi_q_t_lambda_A_i[4] = t54 - (t56 + t20 * r_ij_world_0);
+    jac_phi_q_t_lambda_A_i[5] = t61 + t18 * r_ij_world_0 + t60;
     jac_phi_q_t_lambda_A_i[7] = t62;
     jac_phi_q_t_lambda_A_i[12] = t62;
     const jg_real t63 = -t20;
-    jac_phi_q_t_lambda_A_i[8] = t63;
-    jac_phi_q_t_lambda_A_i[24] = t63;
-    jac_phi_q_t_lambda_A_i[9] = -t43;
-    jac_phi_q_t_lambda_A_i[10] = -t54;
-    jac_phi_q_t_lambda_A_i[11] = -t60;
     const jg_real t64 = C_i[6] * f_i_world_0 - C_i[0] * h_i_world_0;
     const jg_real t65 = lambda[1] * t64;
-    jac_phi_q_t_lambda_A_i[14] = t65;
-    jac_phi_q_t_lambda_A_i[31] = t65;
     const jg_real t66 = C_i[6] * f_j_world_1;
     const jg_real t67 = t66 * h_i_dot_f_j;
     const jg_real t68 = (t67 + t67) * t26 * lambda[4] * pitch;
     const jg_real t69 = lambda[3] * t64;
     const jg_real t70 = t53 + h_j_world_1 * t69 + (t49 + s_j_world_1 * t65) + (across_world_0 * t68 - f_j_world_0 *
         t66 * t32);
-    jac_phi_q_t_lambda_A_i[15] = t56 + r_ij_world_1 * t65 + t70;
+    jac_phi_q_t_lambda_A_i[8] = t63;
+    jac_phi_q_t_lambda_A_i[24] = t63;
+    jac_phi_q_t_lambda_A_i[9] = -t43;
+    jac_phi_q_t_lambda_A_i[10] = -t54;
+    jac_phi_q_t_lambda_A_i[11] = -t60;
+    jac_phi_q_t_lambda_A_i[14] = t65;
+    jac_phi_q_t_lambda_A_i[31] = t65;
+    jac_phi_q_t_lambda_A_i[15] = r_ij_world_1 * t65 + t56 + t70;
     const jg_real t71 = t69 * h_j_world_0;
     const jg_real t72 = t65 * s_j_world_0;
     const jg_real t73 = across_world_1 * t68 + (C_i[6] - f_j_world_1 * t66) * t32 - (t38 + t71 + (t40 + t72));
-    const jg_real t74 = r_ij_world_0 * t65;
-    jac_phi_q_t_lambda_A_i[16] = t73 - (t45 + t74);
-    const jg_real t75 = s_j_world_0 * t15;
+    const jg_real t74 = t65 * r_ij_world_0;
+    const jg_real t75 = t15 * s_j_world_0;
     const jg_real t76 = t52 * h_j_world_0;
     const jg_real t77 = h_j_world_1 * t36 - t76 - (t75 - s_j_world_1 * t18) + (across_world_2 * t68 - f_j_world_2 *
         t66 * t32);
-    const jg_real t78 = r_ij_world_0 * t15;
-    jac_phi_q_t_lambda_A_i[17] = t77 - (t78 - r_ij_world_1 * t18);
+    const jg_real t78 = t15 * r_ij_world_0;
     const jg_real t79 = -t65;
+    const jg_real t80 = C_i[6] * f_j_world_2;
+    const jg_real t81 = t80 * h_i_dot_f_j;
+    const jg_real t82 = (t81 + t81) * t26 * lambda[4] * pitch;
+    const jg_real t83 = h_j_world_2 * t69 - t59 - (t58 - t65 * s_j_world_2) + (across_world_0 * t82 - f_j_world_0 *
+        t80 * t32);
+    jac_phi_q_t_lambda_A_i[16] = t73 - (t45 + t74);
+    jac_phi_q_t_lambda_A_i[17] = t77 - (t78 - t18 * r_ij_world_1);
     jac_phi_q_t_lambda_A_i[20] = t79;
     jac_phi_q_t_lambda_A_i[25] = t79;
     jac_phi_q_t_lambda_A_i[21] = -t70;
     jac_phi_q_t_lambda_A_i[22] = -t73;
     jac_phi_q_t_lambda_A_i[23] = -t77;
-    const jg_real t80 = C_i[6] * f_j_world_2;
-    const jg_real t81 = t80 * h_i_dot_f_j;
-    const jg_real t82 = (t81 + t81) * t26 * lambda[4] * pitch;
-    const jg_real t83 = h_j_world_2 * t69 - t59 - (t58 - s_j_world_2 * t65) + (across_world_0 * t82 - f_j_world_0 *
-        t80 * t32);
     jac_phi_q_t_lambda_A_i[27] = t83 - (t61 - r_ij_world_2 * t65);
-    const jg_real t84 = t76 - h_j_world_2 * t33 - (s_j_world_2 * t20 - t75) + (across_world_1 * t82 - f_j_world_1 *
+    const jg_real t84 = t76 - h_j_world_2 * t33 - (t20 * s_j_world_2 - t75) + (across_world_1 * t82 - f_j_world_1 *
         t80 * t32);
-    jac_phi_q_t_lambda_A_i[28] = t84 - (r_ij_world_2 * t20 - t78);
     const jg_real t85 = t35 - t71 - (t72 - t42) + (across_world_2 * t82 + (C_i[6] - f_j_world_2 * t80) * t32);
+    const jg_real t86 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
+    jac_phi_q_t_lambda_A_i[28] = t84 - (t20 * r_ij_world_2 - t78);
     jac_phi_q_t_lambda_A_i[29] = t85 - (t74 - t47);
     jac_phi_q_t_lambda_A_i[33] = -t83;
     jac_phi_q_t_lambda_A_i[34] = -t84;
     jac_phi_q_t_lambda_A_i[35] = -t85;
-    const jg_real t86 = C_i[1] * lambda[0] + C_i[7] * lambda[4];
     jac_phi_q_t_lambda_A_i[42] = t86;
     jac_phi_q_t_lambda_A_i[55] = t86;
     jac_phi_q_t_lambda_A_i[68] = t86;
     const jg_real t87 = -t86;
-    jac_phi_q_t_lambda_A_i[36] = t87;
-    jac_phi_q_t_lambda_A_i[49] = t87;
-    jac_phi_q_t_lambda_A_i[62] = t87;
     const jg_real t88 = C_i[7] * f_i_world_2 - C_i[1] * h_i_world_2;
     const jg_real t89 = lambda[1] * t88;
-    jac_phi_q_t_lambda_A_i[37] = t89;
-    jac_phi_q_t_lambda_A_i[54] = t89;
     const jg_real t90 = C_i[1] * h_i_world_1 - C_i[7] * f_i_world_1;
     const jg_real t91 = lambda[1] * t90;
-    jac_phi_q_t_lambda_A_i[38] = t91;
-    jac_phi_q_t_lambda_A_i[66] = t91;
     const jg_real t92 = C_i[7] * f_j_world_0;
     const jg_real t93 = t92 * h_i_dot_f_j;
     const jg_real t94 = (t93 + t93) * t26 * lambda[4] * pitch;
@@ -1421,92 +1412,97 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t96 = h_j_world_1 * t95;
     const jg_real t97 = lambda[3] * t88;
     const jg_real t98 = h_j_world_2 * t97;
-    const jg_real t99 = s_j_world_2 * t89;
+    const jg_real t99 = t89 * s_j_world_2;
     const jg_real t100 = s_j_world_1 * t91;
     const jg_real t101 = t96 - t98 - (t99 - t100) + (across_world_0 * t94 + (C_i[7] - f_j_world_0 * t92) * t32);
-    const jg_real t102 = r_ij_world_2 * t89;
-    const jg_real t103 = r_ij_world_1 * t91;
+    const jg_real t102 = t89 * r_ij_world_2;
+    const jg_real t103 = t91 * r_ij_world_1;
+    jac_phi_q_t_lambda_A_i[36] = t87;
+    jac_phi_q_t_lambda_A_i[49] = t87;
+    jac_phi_q_t_lambda_A_i[62] = t87;
+    jac_phi_q_t_lambda_A_i[37] = t89;
+    jac_phi_q_t_lambda_A_i[54] = t89;
+    jac_phi_q_t_lambda_A_i[38] = t91;
+    jac_phi_q_t_lambda_A_i[66] = t91;
     jac_phi_q_t_lambda_A_i[39] = t101 - (t102 - t103);
     const jg_real t104 = s_j_world_2 * t86;
     const jg_real t105 = C_i[1] * lambda[2];
     const jg_real t106 = t105 * h_j_world_2;
-    const jg_real t107 = across_world_1 * t94 - t92 * f_j_world_1 * t32 - (t106 + t95 * h_j_world_0 + (t104 + t91 *
+    const jg_real t107 = across_world_1 * t94 - f_j_world_1 * t92 * t32 - (t106 + t95 * h_j_world_0 + (t104 + t91 *
         s_j_world_0));
     const jg_real t108 = r_ij_world_2 * t86;
-    jac_phi_q_t_lambda_A_i[40] = t107 - (t108 + r_ij_world_0 * t91);
     const jg_real t109 = s_j_world_1 * t86;
     const jg_real t110 = t105 * h_j_world_1;
-    const jg_real t111 = t110 + t97 * h_j_world_0 + (t109 + t89 * s_j_world_0) + (across_world_2 * t94 - t92 *
-        f_j_world_2 * t32);
+    const jg_real t111 = t110 + t97 * h_j_world_0 + (t109 + t89 * s_j_world_0) + (across_world_2 * t94 - f_j_world_2
+        * t92 * t32);
     const jg_real t112 = r_ij_world_1 * t86;
-    jac_phi_q_t_lambda_A_i[41] = t112 + r_ij_world_0 * t89 + t111;
     const jg_real t113 = -t89;
+    const jg_real t114 = -t91;
+    jac_phi_q_t_lambda_A_i[40] = t107 - (t108 + t91 * r_ij_world_0);
+    jac_phi_q_t_lambda_A_i[41] = t112 + t89 * r_ij_world_0 + t111;
     jac_phi_q_t_lambda_A_i[43] = t113;
     jac_phi_q_t_lambda_A_i[48] = t113;
-    const jg_real t114 = -t91;
     jac_phi_q_t_lambda_A_i[44] = t114;
     jac_phi_q_t_lambda_A_i[60] = t114;
     jac_phi_q_t_lambda_A_i[45] = -t101;
     jac_phi_q_t_lambda_A_i[46] = -t107;
-    jac_phi_q_t_lambda_A_i[47] = -t111;
     const jg_real t115 = C_i[7] * f_i_world_0 - C_i[1] * h_i_world_0;
     const jg_real t116 = lambda[1] * t115;
-    jac_phi_q_t_lambda_A_i[50] = t116;
-    jac_phi_q_t_lambda_A_i[67] = t116;
     const jg_real t117 = C_i[7] * f_j_world_1;
     const jg_real t118 = t117 * h_i_dot_f_j;
     const jg_real t119 = (t118 + t118) * t26 * lambda[4] * pitch;
     const jg_real t120 = lambda[3] * t115;
     const jg_real t121 = t106 + h_j_world_1 * t120 + (t104 + s_j_world_1 * t116) + (across_world_0 * t119 -
         f_j_world_0 * t117 * t32);
-    jac_phi_q_t_lambda_A_i[51] = t108 + r_ij_world_1 * t116 + t121;
     const jg_real t122 = t120 * h_j_world_0;
     const jg_real t123 = t116 * s_j_world_0;
     const jg_real t124 = across_world_1 * t119 + (C_i[7] - f_j_world_1 * t117) * t32 - (t98 + t122 + (t99 + t123));
-    const jg_real t125 = r_ij_world_0 * t116;
-    jac_phi_q_t_lambda_A_i[52] = t124 - (t102 + t125);
-    const jg_real t126 = s_j_world_0 * t86;
+    const jg_real t125 = t116 * r_ij_world_0;
+    const jg_real t126 = t86 * s_j_world_0;
     const jg_real t127 = t105 * h_j_world_0;
     const jg_real t128 = h_j_world_1 * t97 - t127 - (t126 - s_j_world_1 * t89) + (across_world_2 * t119 -
         f_j_world_2 * t117 * t32);
-    const jg_real t129 = r_ij_world_0 * t86;
-    jac_phi_q_t_lambda_A_i[53] = t128 - (t129 - r_ij_world_1 * t89);
+    const jg_real t129 = t86 * r_ij_world_0;
     const jg_real t130 = -t116;
+    jac_phi_q_t_lambda_A_i[47] = -t111;
+    jac_phi_q_t_lambda_A_i[50] = t116;
+    jac_phi_q_t_lambda_A_i[67] = t116;
+    jac_phi_q_t_lambda_A_i[51] = r_ij_world_1 * t116 + t108 + t121;
+    jac_phi_q_t_lambda_A_i[52] = t124 - (t102 + t125);
+    jac_phi_q_t_lambda_A_i[53] = t128 - (t129 - t89 * r_ij_world_1);
     jac_phi_q_t_lambda_A_i[56] = t130;
     jac_phi_q_t_lambda_A_i[61] = t130;
-    jac_phi_q_t_lambda_A_i[57] = -t121;
-    jac_phi_q_t_lambda_A_i[58] = -t124;
-    jac_phi_q_t_lambda_A_i[59] = -t128;
     const jg_real t131 = C_i[7] * f_j_world_2;
     const jg_real t132 = t131 * h_i_dot_f_j;
     const jg_real t133 = (t132 + t132) * t26 * lambda[4] * pitch;
-    const jg_real t134 = h_j_world_2 * t120 - t110 - (t109 - s_j_world_2 * t116) + (across_world_0 * t133 -
+    const jg_real t134 = h_j_world_2 * t120 - t110 - (t109 - t116 * s_j_world_2) + (across_world_0 * t133 -
         f_j_world_0 * t131 * t32);
-    jac_phi_q_t_lambda_A_i[63] = t134 - (t112 - r_ij_world_2 * t116);
-    const jg_real t135 = t127 - h_j_world_2 * t95 - (s_j_world_2 * t91 - t126) + (across_world_1 * t133 -
+    const jg_real t135 = t127 - h_j_world_2 * t95 - (t91 * s_j_world_2 - t126) + (across_world_1 * t133 -
         f_j_world_1 * t131 * t32);
-    jac_phi_q_t_lambda_A_i[64] = t135 - (r_ij_world_2 * t91 - t129);
     const jg_real t136 = t96 - t122 - (t123 - t100) + (across_world_2 * t133 + (C_i[7] - f_j_world_2 * t131) * t32);
+    jac_phi_q_t_lambda_A_i[57] = -t121;
+    jac_phi_q_t_lambda_A_i[58] = -t124;
+    jac_phi_q_t_lambda_A_i[59] = -t128;
+    jac_phi_q_t_lambda_A_i[63] = t134 - (t112 - r_ij_world_2 * t116);
+    jac_phi_q_t_lambda_A_i[64] = t135 - (t91 * r_ij_world_2 - t129);
     jac_phi_q_t_lambda_A_i[65] = t136 - (t125 - t103);
     jac_phi_q_t_lambda_A_i[69] = -t134;
     jac_phi_q_t_lambda_A_i[70] = -t135;
-    jac_phi_q_t_lambda_A_i[71] = -t136;
     const jg_real t137 = C_i[2] * lambda[0] + C_i[8] * lambda[4];
+    const jg_real t138 = -t137;
+    const jg_real t139 = C_i[8] * f_i_world_2 - C_i[2] * h_i_world_2;
+    const jg_real t140 = lambda[1] * t139;
+    jac_phi_q_t_lambda_A_i[71] = -t136;
     jac_phi_q_t_lambda_A_i[78] = t137;
     jac_phi_q_t_lambda_A_i[91] = t137;
     jac_phi_q_t_lambda_A_i[104] = t137;
-    const jg_real t138 = -t137;
     jac_phi_q_t_lambda_A_i[72] = t138;
     jac_phi_q_t_lambda_A_i[85] = t138;
     jac_phi_q_t_lambda_A_i[98] = t138;
-    const jg_real t139 = C_i[8] * f_i_world_2 - C_i[2] * h_i_world_2;
-    const jg_real t140 = lambda[1] * t139;
     jac_phi_q_t_lambda_A_i[73] = t140;
     jac_phi_q_t_lambda_A_i[90] = t140;
     const jg_real t141 = C_i[2] * h_i_world_1 - C_i[8] * f_i_world_1;
     const jg_real t142 = lambda[1] * t141;
-    jac_phi_q_t_lambda_A_i[74] = t142;
-    jac_phi_q_t_lambda_A_i[102] = t142;
     const jg_real t143 = C_i[8] * f_j_world_0;
     const jg_real t144 = t143 * h_i_dot_f_j;
     const jg_real t145 = (t144 + t144) * t26 * lambda[4] * pitch;
@@ -1514,287 +1510,286 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t147 = h_j_world_1 * t146;
     const jg_real t148 = lambda[3] * t139;
     const jg_real t149 = h_j_world_2 * t148;
-    const jg_real t150 = s_j_world_2 * t140;
+    const jg_real t150 = t140 * s_j_world_2;
     const jg_real t151 = s_j_world_1 * t142;
     const jg_real t152 = t147 - t149 - (t150 - t151) + (across_world_0 * t145 + (C_i[8] - f_j_world_0 * t143) *
         t32);
-    const jg_real t153 = r_ij_world_2 * t140;
-    const jg_real t154 = r_ij_world_1 * t142;
-    jac_phi_q_t_lambda_A_i[75] = t152 - (t153 - t154);
+    const jg_real t153 = t140 * r_ij_world_2;
+    const jg_real t154 = t142 * r_ij_world_1;
     const jg_real t155 = s_j_world_2 * t137;
     const jg_real t156 = C_i[2] * lambda[2];
     const jg_real t157 = t156 * h_j_world_2;
-    const jg_real t158 = across_world_1 * t145 - t143 * f_j_world_1 * t32 - (t157 + t146 * h_j_world_0 + (t155 +
+    const jg_real t158 = across_world_1 * t145 - f_j_world_1 * t143 * t32 - (t157 + t146 * h_j_world_0 + (t155 +
         t142 * s_j_world_0));
     const jg_real t159 = r_ij_world_2 * t137;
-    jac_phi_q_t_lambda_A_i[76] = t158 - (t159 + r_ij_world_0 * t142);
     const jg_real t160 = s_j_world_1 * t137;
     const jg_real t161 = t156 * h_j_world_1;
-    const jg_real t162 = t161 + t148 * h_j_world_0 + (t160 + t140 * s_j_world_0) + (across_world_2 * t145 - t143 *
-        f_j_world_2 * t32);
+    const jg_real t162 = t161 + t148 * h_j_world_0 + (t160 + t140 * s_j_world_0) + (across_world_2 * t145 -
+        f_j_world_2 * t143 * t32);
     const jg_real t163 = r_ij_world_1 * t137;
-    jac_phi_q_t_lambda_A_i[77] = t163 + r_ij_world_0 * t140 + t162;
     const jg_real t164 = -t140;
+    const jg_real t165 = -t142;
+    jac_phi_q_t_lambda_A_i[74] = t142;
+    jac_phi_q_t_lambda_A_i[102] = t142;
+    jac_phi_q_t_lambda_A_i[75] = t152 - (t153 - t154);
+    jac_phi_q_t_lambda_A_i[76] = t158 - (t159 + t142 * r_ij_world_0);
+    jac_phi_q_t_lambda_A_i[77] = t163 + t140 * r_ij_world_0 + t162;
     jac_phi_q_t_lambda_A_i[79] = t164;
     jac_phi_q_t_lambda_A_i[84] = t164;
-    const jg_real t165 = -t142;
     jac_phi_q_t_lambda_A_i[80] = t165;
     jac_phi_q_t_lambda_A_i[96] = t165;
-    jac_phi_q_t_lambda_A_i[81] = -t152;
-    jac_phi_q_t_lambda_A_i[82] = -t158;
-    jac_phi_q_t_lambda_A_i[83] = -t162;
     const jg_real t166 = C_i[8] * f_i_world_0 - C_i[2] * h_i_world_0;
     const jg_real t167 = lambda[1] * t166;
-    jac_phi_q_t_lambda_A_i[86] = t167;
-    jac_phi_q_t_lambda_A_i[103] = t167;
     const jg_real t168 = C_i[8] * f_j_world_1;
     const jg_real t169 = t168 * h_i_dot_f_j;
     const jg_real t170 = (t169 + t169) * t26 * lambda[4] * pitch;
     const jg_real t171 = lambda[3] * t166;
     const jg_real t172 = t157 + h_j_world_1 * t171 + (t155 + s_j_world_1 * t167) + (across_world_0 * t170 -
         f_j_world_0 * t168 * t32);
-    jac_phi_q_t_lambda_A_i[87] = t159 + r_ij_world_1 * t167 + t172;
     const jg_real t173 = t171 * h_j_world_0;
     const jg_real t174 = t167 * s_j_world_0;
     const jg_real t175 = across_world_1 * t170 + (C_i[8] - f_j_world_1 * t168) * t32 - (t149 + t173 + (t150 +
         t174));
-    const jg_real t176 = r_ij_world_0 * t167;
-    jac_phi_q_t_lambda_A_i[88] = t175 - (t153 + t176);
-    const jg_real t177 = s_j_world_0 * t137;
+    const jg_real t176 = t167 * r_ij_world_0;
+    const jg_real t177 = t137 * s_j_world_0;
     const jg_real t178 = t156 * h_j_world_0;
     const jg_real t179 = h_j_world_1 * t148 - t178 - (t177 - s_j_world_1 * t140) + (across_world_2 * t170 -
         f_j_world_2 * t168 * t32);
-    const jg_real t180 = r_ij_world_0 * t137;
-    jac_phi_q_t_lambda_A_i[89] = t179 - (t180 - r_ij_world_1 * t140);
+    const jg_real t180 = t137 * r_ij_world_0;
+    jac_phi_q_t_lambda_A_i[81] = -t152;
+    jac_phi_q_t_lambda_A_i[82] = -t158;
+    jac_phi_q_t_lambda_A_i[83] = -t162;
+    jac_phi_q_t_lambda_A_i[86] = t167;
+    jac_phi_q_t_lambda_A_i[103] = t167;
+    jac_phi_q_t_lambda_A_i[87] = r_ij_world_1 * t167 + t159 + t172;
+    jac_phi_q_t_lambda_A_i[88] = t175 - (t153 + t176);
+    jac_phi_q_t_lambda_A_i[89] = t179 - (t180 - t140 * r_ij_world_1);
     const jg_real t181 = -t167;
+    const jg_real t182 = C_i[8] * f_j_world_2;
+    const jg_real t183 = t182 * h_i_dot_f_j;
+    const jg_real t184 = (t183 + t183) * t26 * lambda[4] * pitch;
+    const jg_real t185 = h_j_world_2 * t171 - t161 - (t160 - t167 * s_j_world_2) + (across_world_0 * t184 -
+        f_j_world_0 * t182 * t32);
+    const jg_real t186 = t178 - h_j_world_2 * t146 - (t142 * s_j_world_2 - t177) + (across_world_1 * t184 -
+        f_j_world_1 * t182 * t32);
+    const jg_real t187 = t147 - t173 - (t174 - t151) + (across_world_2 * t184 + (C_i[8] - f_j_world_2 * t182) *
+        t32);
     jac_phi_q_t_lambda_A_i[92] = t181;
     jac_phi_q_t_lambda_A_i[97] = t181;
     jac_phi_q_t_lambda_A_i[93] = -t172;
     jac_phi_q_t_lambda_A_i[94] = -t175;
     jac_phi_q_t_lambda_A_i[95] = -t179;
-    const jg_real t182 = C_i[8] * f_j_world_2;
-    const jg_real t183 = t182 * h_i_dot_f_j;
-    const jg_real t184 = (t183 + t183) * t26 * lambda[4] * pitch;
-    const jg_real t185 = h_j_world_2 * t171 - t161 - (t160 - s_j_world_2 * t167) + (across_world_0 * t184 -
-        f_j_world_0 * t182 * t32);
     jac_phi_q_t_lambda_A_i[99] = t185 - (t163 - r_ij_world_2 * t167);
-    const jg_real t186 = t178 - h_j_world_2 * t146 - (s_j_world_2 * t142 - t177) + (across_world_1 * t184 -
-        f_j_world_1 * t182 * t32);
-    jac_phi_q_t_lambda_A_i[100] = t186 - (r_ij_world_2 * t142 - t180);
-    const jg_real t187 = t147 - t173 - (t174 - t151) + (across_world_2 * t184 + (C_i[8] - f_j_world_2 * t182) *
-        t32);
+    jac_phi_q_t_lambda_A_i[100] = t186 - (t142 * r_ij_world_2 - t180);
     jac_phi_q_t_lambda_A_i[101] = t187 - (t176 - t154);
-    jac_phi_q_t_lambda_A_i[105] = -t185;
-    jac_phi_q_t_lambda_A_i[106] = -t186;
-    jac_phi_q_t_lambda_A_i[107] = -t187;
-    const jg_real t188 = C_j[0] * h_i_world_0;
+    const jg_real t188 = h_i_world_0 * C_j[0];
     const jg_real t189 = t188 * h_i_dot_f_j;
     const jg_real t190 = (t189 + t189) * t26 * lambda[4] * pitch;
     const jg_real t191 = C_j[0] * h_i_dot_f_j;
     const jg_real t192 = across_world_0 * t190 - (t191 + f_j_world_0 * t188) * t32;
-    jac_phi_q_t_lambda_A_j[0] = t192;
     /* v_2_world = lambda_2 f_i + lambda_3 g_i, world axes */
     const jg_real v_2_world_2 = lambda[2] * f_i_world_2 + lambda[3] * g_i_world_2;
     const jg_real t194 = C_j[6] * v_2_world_2 + s_j[0] * v_0_world_2;
-    const jg_real t195 = across_world_1 * t190 - t188 * f_j_world_1 * t32 + t194;
-    jac_phi_q_t_lambda_A_j[1] = t195;
+    const jg_real t195 = across_world_1 * t190 - f_j_world_1 * t188 * t32 + t194;
     const jg_real v_2_world_1 = lambda[2] * f_i_world_1 + lambda[3] * g_i_world_1;
     const jg_real t197 = C_j[6] * v_2_world_1 + s_j[0] * v_0_world_1;
-    const jg_real t198 = across_world_2 * t190 - t188 * f_j_world_2 * t32 - t197;
+    const jg_real t198 = across_world_2 * t190 - f_j_world_2 * t188 * t32 - t197;
+    jac_phi_q_t_lambda_A_i[105] = -t185;
+    jac_phi_q_t_lambda_A_i[106] = -t186;
+    jac_phi_q_t_lambda_A_i[107] = -t187;
+    jac_phi_q_t_lambda_A_j[0] = t192;
+    jac_phi_q_t_lambda_A_j[1] = t195;
     jac_phi_q_t_lambda_A_j[2] = t198;
     jac_phi_q_t_lambda_A_j[3] = -t192;
     jac_phi_q_t_lambda_A_j[4] = -t195;
-    jac_phi_q_t_lambda_A_j[5] = -t198;
     const jg_real t199 = h_i_world_1 * C_j[0];
     const jg_real t200 = t199 * h_i_dot_f_j;
     const jg_real t201 = (t200 + t200) * t26 * lambda[4] * pitch;
     const jg_real t202 = across_world_0 * t201 - f_j_world_0 * t199 * t32 - t194;
-    jac_phi_q_t_lambda_A_j[6] = t202;
     const jg_real t203 = across_world_1 * t201 - (t191 + f_j_world_1 * t199) * t32;
-    jac_phi_q_t_lambda_A_j[7] = t203;
-    const jg_real v_2_world_0 = lambda[2] * f_i_world_0 + lambda[3] * g_i_world_0;
-    const jg_real t205 = C_j[6] * v_2_world_0 + s_j[0] * v_0_world_0;
+    const jg_real v_2_world_0 = lambda[3] * g_i_world_0 + lambda[2] * f_i_world_0;
+    const jg_real t205 = s_j[0] * v_0_world_0 + C_j[6] * v_2_world_0;
     const jg_real t206 = across_world_2 * t201 - f_j_world_2 * t199 * t32 + t205;
+    const jg_real t207 = h_i_world_2 * C_j[0];
+    const jg_real t208 = t207 * h_i_dot_f_j;
+    const jg_real t209 = (t208 + t208) * t26 * lambda[4] * pitch;
+    const jg_real t210 = across_world_0 * t209 - f_j_world_0 * t207 * t32 + t197;
+    jac_phi_q_t_lambda_A_j[5] = -t198;
+    jac_phi_q_t_lambda_A_j[6] = t202;
+    jac_phi_q_t_lambda_A_j[7] = t203;
     jac_phi_q_t_lambda_A_j[8] = t206;
     jac_phi_q_t_lambda_A_j[9] = -t202;
     jac_phi_q_t_lambda_A_j[10] = -t203;
     jac_phi_q_t_lambda_A_j[11] = -t206;
-    const jg_real t207 = C_j[0] * h_i_world_2;
-    const jg_real t208 = t207 * h_i_dot_f_j;
-    const jg_real t209 = (t208 + t208) * t26 * lambda[4] * pitch;
-    const jg_real t210 = across_world_0 * t209 - f_j_world_0 * t207 * t32 + t197;
     jac_phi_q_t_lambda_A_j[12] = t210;
     const jg_real t211 = across_world_1 * t209 - f_j_world_1 * t207 * t32 - t205;
-    jac_phi_q_t_lambda_A_j[13] = t211;
     const jg_real t212 = across_world_2 * t209 - (t191 + f_j_world_2 * t207) * t32;
-    jac_phi_q_t_lambda_A_j[14] = t212;
-    jac_phi_q_t_lambda_A_j[15] = -t210;
-    jac_phi_q_t_lambda_A_j[16] = -t211;
-    jac_phi_q_t_lambda_A_j[17] = -t212;
-    const jg_real t213 = C_j[1] * h_i_world_0;
+    const jg_real t213 = h_i_world_0 * C_j[1];
     const jg_real t214 = t213 * h_i_dot_f_j;
     const jg_real t215 = (t214 + t214) * t26 * lambda[4] * pitch;
     const jg_real t216 = C_j[1] * h_i_dot_f_j;
     const jg_real t217 = across_world_0 * t215 - (t216 + f_j_world_0 * t213) * t32;
-    jac_phi_q_t_lambda_A_j[18] = t217;
     const jg_real t218 = C_j[7] * v_2_world_2 + s_j[1] * v_0_world_2;
-    const jg_real t219 = across_world_1 * t215 - t213 * f_j_world_1 * t32 + t218;
-    jac_phi_q_t_lambda_A_j[19] = t219;
+    const jg_real t219 = across_world_1 * t215 - f_j_world_1 * t213 * t32 + t218;
     const jg_real t220 = C_j[7] * v_2_world_1 + s_j[1] * v_0_world_1;
-    const jg_real t221 = across_world_2 * t215 - t213 * f_j_world_2 * t32 - t220;
+    const jg_real t221 = across_world_2 * t215 - f_j_world_2 * t213 * t32 - t220;
+    jac_phi_q_t_lambda_A_j[13] = t211;
+    jac_phi_q_t_lambda_A_j[14] = t212;
+    jac_phi_q_t_lambda_A_j[15] = -t210;
+    jac_phi_q_t_lambda_A_j[16] = -t211;
+    jac_phi_q_t_lambda_A_j[17] = -t212;
+    jac_phi_q_t_lambda_A_j[18] = t217;
+    jac_phi_q_t_lambda_A_j[19] = t219;
     jac_phi_q_t_lambda_A_j[20] = t221;
-    jac_phi_q_t_lambda_A_j[21] = -t217;
-    jac_phi_q_t_lambda_A_j[22] = -t219;
-    jac_phi_q_t_lambda_A_j[23] = -t221;
     const jg_real t222 = h_i_world_1 * C_j[1];
     const jg_real t223 = t222 * h_i_dot_f_j;
     const jg_real t224 = (t223 + t223) * t26 * lambda[4] * pitch;
     const jg_real t225 = across_world_0 * t224 - f_j_world_0 * t222 * t32 - t218;
-    jac_phi_q_t_lambda_A_j[24] = t225;
     const jg_real t226 = across_world_1 * t224 - (t216 + f_j_world_1 * t222) * t32;
-    jac_phi_q_t_lambda_A_j[25] = t226;
-    const jg_real t227 = C_j[7] * v_2_world_0 + s_j[1] * v_0_world_0;
+    const jg_real t227 = s_j[1] * v_0_world_0 + C_j[7] * v_2_world_0;
     const jg_real t228 = across_world_2 * t224 - f_j_world_2 * t222 * t32 + t227;
+    jac_phi_q_t_lambda_A_j[21] = -t217;
+    jac_phi_q_t_lambda_A_j[22] = -t219;
+    jac_phi_q_t_lambda_A_j[23] = -t221;
+    jac_phi_q_t_lambda_A_j[24] = t225;
+    jac_phi_q_t_lambda_A_j[25] = t226;
     jac_phi_q_t_lambda_A_j[26] = t228;
     jac_phi_q_t_lambda_A_j[27] = -t225;
     jac_phi_q_t_lambda_A_j[28] = -t226;
-    jac_phi_q_t_lambda_A_j[29] = -t228;
     const jg_real t229 = h_i_world_2 * C_j[1];
     const jg_real t230 = t229 * h_i_dot_f_j;
     const jg_real t231 = (t230 + t230) * t26 * lambda[4] * pitch;
     const jg_real t232 = across_world_0 * t231 - f_j_world_0 * t229 * t32 + t220;
-    jac_phi_q_t_lambda_A_j[30] = t232;
     const jg_real t233 = across_world_1 * t231 - f_j_world_1 * t229 * t32 - t227;
-    jac_phi_q_t_lambda_A_j[31] = t233;
     const jg_real t234 = across_world_2 * t231 - (t216 + f_j_world_2 * t229) * t32;
-    jac_phi_q_t_lambda_A_j[32] = t234;
-    jac_phi_q_t_lambda_A_j[33] = -t232;
-    jac_phi_q_t_lambda_A_j[34] = -t233;
-    jac_phi_q_t_lambda_A_j[35] = -t234;
-    const jg_real t235 = C_j[2] * h_i_world_0;
+    const jg_real t235 = h_i_world_0 * C_j[2];
     const jg_real t236 = t235 * h_i_dot_f_j;
     const jg_real t237 = (t236 + t236) * t26 * lambda[4] * pitch;
     const jg_real t238 = C_j[2] * h_i_dot_f_j;
     const jg_real t239 = across_world_0 * t237 - (t238 + f_j_world_0 * t235) * t32;
+    jac_phi_q_t_lambda_A_j[29] = -t228;
+    jac_phi_q_t_lambda_A_j[30] = t232;
+    jac_phi_q_t_lambda_A_j[31] = t233;
+    jac_phi_q_t_lambda_A_j[32] = t234;
+    jac_phi_q_t_lambda_A_j[33] = -t232;
+    jac_phi_q_t_lambda_A_j[34] = -t233;
+    jac_phi_q_t_lambda_A_j[35] = -t234;
     jac_phi_q_t_lambda_A_j[36] = t239;
     const jg_real t240 = C_j[8] * v_2_world_2 + s_j[2] * v_0_world_2;
-    const jg_real t241 = across_world_1 * t237 - t235 * f_j_world_1 * t32 + t240;
-    jac_phi_q_t_lambda_A_j[37] = t241;
+    const jg_real t241 = across_world_1 * t237 - f_j_world_1 * t235 * t32 + t240;
     const jg_real t242 = C_j[8] * v_2_world_1 + s_j[2] * v_0_world_1;
-    const jg_real t243 = across_world_2 * t237 - t235 * f_j_world_2 * t32 - t242;
-    jac_phi_q_t_lambda_A_j[38] = t243;
-    jac_phi_q_t_lambda_A_j[39] = -t239;
-    jac_phi_q_t_lambda_A_j[40] = -t241;
-    jac_phi_q_t_lambda_A_j[41] = -t243;
+    const jg_real t243 = across_world_2 * t237 - f_j_world_2 * t235 * t32 - t242;
     const jg_real t244 = h_i_world_1 * C_j[2];
     const jg_real t245 = t244 * h_i_dot_f_j;
     const jg_real t246 = (t245 + t245) * t26 * lambda[4] * pitch;
     const jg_real t247 = across_world_0 * t246 - f_j_world_0 * t244 * t32 - t240;
-    jac_phi_q_t_lambda_A_j[42] = t247;
     const jg_real t248 = across_world_1 * t246 - (t238 + f_j_world_1 * t244) * t32;
-    jac_phi_q_t_lambda_A_j[43] = t248;
-    const jg_real t249 = C_j[8] * v_2_world_0 + s_j[2] * v_0_world_0;
+    const jg_real t249 = s_j[2] * v_0_world_0 + C_j[8] * v_2_world_0;
     const jg_real t250 = across_world_2 * t246 - f_j_world_2 * t244 * t32 + t249;
+    jac_phi_q_t_lambda_A_j[37] = t241;
+    jac_phi_q_t_lambda_A_j[38] = t243;
+    jac_phi_q_t_lambda_A_j[39] = -t239;
+    jac_phi_q_t_lambda_A_j[40] = -t241;
+    jac_phi_q_t_lambda_A_j[41] = -t243;
+    jac_phi_q_t_lambda_A_j[42] = t247;
+    jac_phi_q_t_lambda_A_j[43] = t248;
     jac_phi_q_t_lambda_A_j[44] = t250;
-    jac_phi_q_t_lambda_A_j[45] = -t247;
-    jac_phi_q_t_lambda_A_j[46] = -t248;
-    jac_phi_q_t_lambda_A_j[47] = -t250;
     const jg_real t251 = h_i_world_2 * C_j[2];
     const jg_real t252 = t251 * h_i_dot_f_j;
     const jg_real t253 = (t252 + t252) * t26 * lambda[4] * pitch;
     const jg_real t254 = across_world_0 * t253 - f_j_world_0 * t251 * t32 + t242;
-    jac_phi_q_t_lambda_A_j[48] = t254;
     const jg_real t255 = across_world_1 * t253 - f_j_world_1 * t251 * t32 - t249;
-    jac_phi_q_t_lambda_A_j[49] = t255;
     const jg_real t256 = across_world_2 * t253 - (t238 + f_j_world_2 * t251) * t32;
+    jac_phi_q_t_lambda_A_j[45] = -t247;
+    jac_phi_q_t_lambda_A_j[46] = -t248;
+    jac_phi_q_t_lambda_A_j[47] = -t250;
+    jac_phi_q_t_lambda_A_j[48] = t254;
+    jac_phi_q_t_lambda_A_j[49] = t255;
     jac_phi_q_t_lambda_A_j[50] = t256;
     jac_phi_q_t_lambda_A_j[51] = -t254;
     jac_phi_q_t_lambda_A_j[52] = -t255;
-    jac_phi_q_t_lambda_A_j[53] = -t256;
     const jg_real t257 = A_i[2] * h_i_world_1 - A_i[1] * h_i_world_2;
     const jg_real t258 = A_i[0] * lambda[0] + lambda[1] * t257;
-    jac_phi_q_t_lambda_geometry[6] = t258;
-    jac_phi_q_t_lambda_geometry[0] = -t258;
     const jg_real t259 = A_i[0] * h_i_world_2 - A_i[2] * h_i_world_0;
     const jg_real t260 = A_i[1] * lambda[0] + lambda[1] * t259;
-    jac_phi_q_t_lambda_geometry[7] = t260;
-    jac_phi_q_t_lambda_geometry[1] = -t260;
     const jg_real t261 = A_i[1] * h_i_world_0 - A_i[0] * h_i_world_1;
     const jg_real t262 = A_i[2] * lambda[0] + lambda[1] * t261;
-    jac_phi_q_t_lambda_geometry[8] = t262;
-    jac_phi_q_t_lambda_geometry[2] = -t262;
     const jg_real t263 = A_i[1] * lambda[2] + lambda[3] * t259;
     const jg_real t264 = A_i[2] * lambda[2] + lambda[3] * t261;
     const jg_real t265 = h_j_world_2 * t263 - h_j_world_1 * t264 - (s_j_world_1 * t262 - s_j_world_2 * t260);
+    jac_phi_q_t_lambda_A_j[53] = -t256;
+    jac_phi_q_t_lambda_geometry[6] = t258;
+    jac_phi_q_t_lambda_geometry[0] = -t258;
+    jac_phi_q_t_lambda_geometry[7] = t260;
+    jac_phi_q_t_lambda_geometry[1] = -t260;
+    jac_phi_q_t_lambda_geometry[8] = t262;
+    jac_phi_q_t_lambda_geometry[2] = -t262;
     jac_phi_q_t_lambda_geometry[3] = t265 - (r_ij_world_1 * t262 - r_ij_world_2 * t260);
-    const jg_real t266 = A_i[0] * lambda[2] + lambda[3] * t257;
-    const jg_real t267 = h_j_world_0 * t264 - h_j_world_2 * t266 - (s_j_world_2 * t258 - t262 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[4] = t267 - (r_ij_world_2 * t258 - r_ij_world_0 * t262);
-    const jg_real t268 = h_j_world_1 * t266 - h_j_world_0 * t263 - (t260 * s_j_world_0 - s_j_world_1 * t258);
-    jac_phi_q_t_lambda_geometry[5] = t268 - (r_ij_world_0 * t260 - r_ij_world_1 * t258);
+    const jg_real t266 = lambda[3] * t257 + A_i[0] * lambda[2];
+    const jg_real t267 = t264 * h_j_world_0 - h_j_world_2 * t266 - (t258 * s_j_world_2 - t262 * s_j_world_0);
+    const jg_real t268 = h_j_world_1 * t266 - t263 * h_j_world_0 - (t260 * s_j_world_0 - s_j_world_1 * t258);
+    const jg_real t269 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
+    const jg_real t270 = A_i[3] * lambda[0] + lambda[1] * t269;
+    const jg_real t271 = A_i[3] * h_i_world_2 - A_i[5] * h_i_world_0;
+    const jg_real t272 = A_i[4] * lambda[0] + lambda[1] * t271;
+    jac_phi_q_t_lambda_geometry[4] = t267 - (r_ij_world_2 * t258 - t262 * r_ij_world_0);
+    jac_phi_q_t_lambda_geometry[5] = t268 - (t260 * r_ij_world_0 - r_ij_world_1 * t258);
     jac_phi_q_t_lambda_geometry[9] = -t265;
     jac_phi_q_t_lambda_geometry[10] = -t267;
     jac_phi_q_t_lambda_geometry[11] = -t268;
-    const jg_real t269 = A_i[5] * h_i_world_1 - A_i[4] * h_i_world_2;
-    const jg_real t270 = A_i[3] * lambda[0] + lambda[1] * t269;
     jac_phi_q_t_lambda_geometry[18] = t270;
     jac_phi_q_t_lambda_geometry[12] = -t270;
-    const jg_real t271 = A_i[3] * h_i_world_2 - A_i[5] * h_i_world_0;
-    const jg_real t272 = A_i[4] * lambda[0] + lambda[1] * t271;
     jac_phi_q_t_lambda_geometry[19] = t272;
-    jac_phi_q_t_lambda_geometry[13] = -t272;
     const jg_real t273 = A_i[4] * h_i_world_0 - A_i[3] * h_i_world_1;
     const jg_real t274 = A_i[5] * lambda[0] + lambda[1] * t273;
-    jac_phi_q_t_lambda_geometry[20] = t274;
-    jac_phi_q_t_lambda_geometry[14] = -t274;
     const jg_real t275 = A_i[4] * lambda[2] + lambda[3] * t271;
     const jg_real t276 = A_i[5] * lambda[2] + lambda[3] * t273;
     const jg_real t277 = h_j_world_2 * t275 - h_j_world_1 * t276 - (s_j_world_1 * t274 - s_j_world_2 * t272);
+    const jg_real t278 = lambda[3] * t269 + A_i[3] * lambda[2];
+    const jg_real t279 = t276 * h_j_world_0 - h_j_world_2 * t278 - (t270 * s_j_world_2 - t274 * s_j_world_0);
+    const jg_real t280 = h_j_world_1 * t278 - t275 * h_j_world_0 - (t272 * s_j_world_0 - s_j_world_1 * t270);
+    jac_phi_q_t_lambda_geometry[13] = -t272;
+    jac_phi_q_t_lambda_geometry[20] = t274;
+    jac_phi_q_t_lambda_geometry[14] = -t274;
     jac_phi_q_t_lambda_geometry[15] = t277 - (r_ij_world_1 * t274 - r_ij_world_2 * t272);
-    const jg_real t278 = A_i[3] * lambda[2] + lambda[3] * t269;
-    const jg_real t279 = h_j_world_0 * t276 - h_j_world_2 * t278 - (s_j_world_2 * t270 - t274 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[16] = t279 - (r_ij_world_2 * t270 - r_ij_world_0 * t274);
-    const jg_real t280 = h_j_world_1 * t278 - h_j_world_0 * t275 - (t272 * s_j_world_0 - s_j_world_1 * t270);
-    jac_phi_q_t_lambda_geometry[17] = t280 - (r_ij_world_0 * t272 - r_ij_world_1 * t270);
+    jac_phi_q_t_lambda_geometry[16] = t279 - (r_ij_world_2 * t270 - t274 * r_ij_world_0);
+    jac_phi_q_t_lambda_geometry[17] = t280 - (t272 * r_ij_world_0 - r_ij_world_1 * t270);
     jac_phi_q_t_lambda_geometry[21] = -t277;
     jac_phi_q_t_lambda_geometry[22] = -t279;
-    jac_phi_q_t_lambda_geometry[23] = -t280;
     const jg_real t281 = A_i[8] * h_i_world_1 - A_i[7] * h_i_world_2;
     const jg_real t282 = A_i[6] * lambda[0] + lambda[1] * t281;
-    jac_phi_q_t_lambda_geometry[30] = t282;
-    jac_phi_q_t_lambda_geometry[24] = -t282;
     const jg_real t283 = A_i[6] * h_i_world_2 - A_i[8] * h_i_world_0;
     const jg_real t284 = A_i[7] * lambda[0] + lambda[1] * t283;
-    jac_phi_q_t_lambda_geometry[31] = t284;
-    jac_phi_q_t_lambda_geometry[25] = -t284;
     const jg_real t285 = A_i[7] * h_i_world_0 - A_i[6] * h_i_world_1;
     const jg_real t286 = A_i[8] * lambda[0] + lambda[1] * t285;
-    jac_phi_q_t_lambda_geometry[32] = t286;
-    jac_phi_q_t_lambda_geometry[26] = -t286;
     const jg_real t287 = A_i[7] * lambda[2] + lambda[3] * t283;
     const jg_real t288 = A_i[8] * lambda[2] + lambda[3] * t285;
     const jg_real t289 = h_j_world_2 * t287 - h_j_world_1 * t288 - (s_j_world_1 * t286 - s_j_world_2 * t284);
+    jac_phi_q_t_lambda_geometry[23] = -t280;
+    jac_phi_q_t_lambda_geometry[30] = t282;
+    jac_phi_q_t_lambda_geometry[24] = -t282;
+    jac_phi_q_t_lambda_geometry[31] = t284;
+    jac_phi_q_t_lambda_geometry[25] = -t284;
+    jac_phi_q_t_lambda_geometry[32] = t286;
+    jac_phi_q_t_lambda_geometry[26] = -t286;
     jac_phi_q_t_lambda_geometry[27] = t289 - (r_ij_world_1 * t286 - r_ij_world_2 * t284);
-    const jg_real t290 = A_i[6] * lambda[2] + lambda[3] * t281;
-    const jg_real t291 = h_j_world_0 * t288 - h_j_world_2 * t290 - (s_j_world_2 * t282 - t286 * s_j_world_0);
-    jac_phi_q_t_lambda_geometry[28] = t291 - (r_ij_world_2 * t282 - r_ij_world_0 * t286);
-    const jg_real t292 = h_j_world_1 * t290 - h_j_world_0 * t287 - (t284 * s_j_world_0 - s_j_world_1 * t282);
-    jac_phi_q_t_lambda_geometry[29] = t292 - (r_ij_world_0 * t284 - r_ij_world_1 * t282);
+    const jg_real t290 = lambda[3] * t281 + A_i[6] * lambda[2];
+    const jg_real t291 = t288 * h_j_world_0 - h_j_world_2 * t290 - (t282 * s_j_world_2 - t286 * s_j_world_0);
+    const jg_real t292 = h_j_world_1 * t290 - t287 * h_j_world_0 - (t284 * s_j_world_0 - s_j_world_1 * t282);
+    const jg_real t293 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
+    const jg_real t294 = A_i[0] * lambda[4] + lambda[1] * t293;
+    const jg_real t295 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
+    const jg_real t296 = A_i[1] * lambda[4] + lambda[1] * t295;
+    jac_phi_q_t_lambda_geometry[28] = t291 - (r_ij_world_2 * t282 - t286 * r_ij_world_0);
+    jac_phi_q_t_lambda_geometry[29] = t292 - (t284 * r_ij_world_0 - r_ij_world_1 * t282);
     jac_phi_q_t_lambda_geometry[33] = -t289;
     jac_phi_q_t_lambda_geometry[34] = -t291;
     jac_phi_q_t_lambda_geometry[35] = -t292;
-    const jg_real t293 = A_i[1] * f_i_world_2 - A_i[2] * f_i_world_1;
-    const jg_real t294 = A_i[0] * lambda[4] + lambda[1] * t293;
     jac_phi_q_t_lambda_geometry[42] = t294;
     jac_phi_q_t_lambda_geometry[36] = -t294;
-    const jg_real t295 = A_i[2] * f_i_world_0 - A_i[0] * f_i_world_2;
-    const jg_real t296 = A_i[1] * lambda[4] + lambda[1] * t295;
     jac_phi_q_t_lambda_geometry[43] = t296;
-    jac_phi_q_t_lambda_geometry[37] = -t296;
     const jg_real t297 = A_i[0] * f_i_world_1 - A_i[1] * f_i_world_0;
     const jg_real t298 = A_i[2] * lambda[4] + lambda[1] * t297;
-    jac_phi_q_t_lambda_geometry[44] = t298;
-    jac_phi_q_t_lambda_geometry[38] = -t298;
     const jg_real t299 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
     const jg_real t300 = h_i_dot_f_j * t299;
     const jg_real t301 = (t300 + t300) * t26 * lambda[4] * pitch;
@@ -1802,29 +1797,25 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t303 = lambda[3] * t297;
     const jg_real t304 = h_j_world_2 * t302 - h_j_world_1 * t303 - (s_j_world_1 * t298 - s_j_world_2 * t296) +
         (across_world_0 * t301 + (A_i[0] - f_j_world_0 * t299) * t32);
-    jac_phi_q_t_lambda_geometry[39] = t304 - (r_ij_world_1 * t298 - r_ij_world_2 * t296);
     const jg_real t305 = lambda[3] * t293;
-    const jg_real t306 = t303 * h_j_world_0 - h_j_world_2 * t305 - (s_j_world_2 * t294 - s_j_world_0 * t298) +
+    const jg_real t306 = t303 * h_j_world_0 - h_j_world_2 * t305 - (s_j_world_2 * t294 - t298 * s_j_world_0) +
         (across_world_1 * t301 + (A_i[1] - f_j_world_1 * t299) * t32);
-    jac_phi_q_t_lambda_geometry[40] = t306 - (r_ij_world_2 * t294 - r_ij_world_0 * t298);
-    const jg_real t307 = h_j_world_1 * t305 - t302 * h_j_world_0 - (s_j_world_0 * t296 - s_j_world_1 * t294) +
+    const jg_real t307 = h_j_world_1 * t305 - t302 * h_j_world_0 - (t296 * s_j_world_0 - s_j_world_1 * t294) +
         (across_world_2 * t301 + (A_i[2] - f_j_world_2 * t299) * t32);
-    jac_phi_q_t_lambda_geometry[41] = t307 - (r_ij_world_0 * t296 - r_ij_world_1 * t294);
+    jac_phi_q_t_lambda_geometry[37] = -t296;
+    jac_phi_q_t_lambda_geometry[44] = t298;
+    jac_phi_q_t_lambda_geometry[38] = -t298;
+    jac_phi_q_t_lambda_geometry[39] = t304 - (r_ij_world_1 * t298 - r_ij_world_2 * t296);
+    jac_phi_q_t_lambda_geometry[40] = t306 - (r_ij_world_2 * t294 - t298 * r_ij_world_0);
+    jac_phi_q_t_lambda_geometry[41] = t307 - (t296 * r_ij_world_0 - r_ij_world_1 * t294);
     jac_phi_q_t_lambda_geometry[45] = -t304;
     jac_phi_q_t_lambda_geometry[46] = -t306;
-    jac_phi_q_t_lambda_geometry[47] = -t307;
     const jg_real t308 = A_i[4] * f_i_world_2 - A_i[5] * f_i_world_1;
     const jg_real t309 = A_i[3] * lambda[4] + lambda[1] * t308;
-    jac_phi_q_t_lambda_geometry[54] = t309;
-    jac_phi_q_t_lambda_geometry[48] = -t309;
     const jg_real t310 = A_i[5] * f_i_world_0 - A_i[3] * f_i_world_2;
     const jg_real t311 = A_i[4] * lambda[4] + lambda[1] * t310;
-    jac_phi_q_t_lambda_geometry[55] = t311;
-    jac_phi_q_t_lambda_geometry[49] = -t311;
     const jg_real t312 = A_i[3] * f_i_world_1 - A_i[4] * f_i_world_0;
     const jg_real t313 = A_i[5] * lambda[4] + lambda[1] * t312;
-    jac_phi_q_t_lambda_geometry[56] = t313;
-    jac_phi_q_t_lambda_geometry[50] = -t313;
     const jg_real t314 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     const jg_real t315 = h_i_dot_f_j * t314;
     const jg_real t316 = (t315 + t315) * t26 * lambda[4] * pitch;
@@ -1832,29 +1823,33 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t318 = lambda[3] * t312;
     const jg_real t319 = h_j_world_2 * t317 - h_j_world_1 * t318 - (s_j_world_1 * t313 - s_j_world_2 * t311) +
         (across_world_0 * t316 + (A_i[3] - f_j_world_0 * t314) * t32);
+    jac_phi_q_t_lambda_geometry[47] = -t307;
+    jac_phi_q_t_lambda_geometry[54] = t309;
+    jac_phi_q_t_lambda_geometry[48] = -t309;
+    jac_phi_q_t_lambda_geometry[55] = t311;
+    jac_phi_q_t_lambda_geometry[49] = -t311;
+    jac_phi_q_t_lambda_geometry[56] = t313;
+    jac_phi_q_t_lambda_geometry[50] = -t313;
     jac_phi_q_t_lambda_geometry[51] = t319 - (r_ij_world_1 * t313 - r_ij_world_2 * t311);
     const jg_real t320 = lambda[3] * t308;
-    const jg_real t321 = t318 * h_j_world_0 - h_j_world_2 * t320 - (s_j_world_2 * t309 - s_j_world_0 * t313) +
+    const jg_real t321 = t318 * h_j_world_0 - h_j_world_2 * t320 - (s_j_world_2 * t309 - t313 * s_j_world_0) +
         (across_world_1 * t316 + (A_i[4] - f_j_world_1 * t314) * t32);
-    jac_phi_q_t_lambda_geometry[52] = t321 - (r_ij_world_2 * t309 - r_ij_world_0 * t313);
-    const jg_real t322 = h_j_world_1 * t320 - t317 * h_j_world_0 - (s_j_world_0 * t311 - s_j_world_1 * t309) +
+    const jg_real t322 = h_j_world_1 * t320 - t317 * h_j_world_0 - (t311 * s_j_world_0 - s_j_world_1 * t309) +
         (across_world_2 * t316 + (A_i[5] - f_j_world_2 * t314) * t32);
-    jac_phi_q_t_lambda_geometry[53] = t322 - (r_ij_world_0 * t311 - r_ij_world_1 * t309);
+    const jg_real t323 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
+    const jg_real t324 = A_i[6] * lambda[4] + lambda[1] * t323;
+    const jg_real t325 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
+    const jg_real t326 = A_i[7] * lambda[4] + lambda[1] * t325;
+    jac_phi_q_t_lambda_geometry[52] = t321 - (r_ij_world_2 * t309 - t313 * r_ij_world_0);
+    jac_phi_q_t_lambda_geometry[53] = t322 - (t311 * r_ij_world_0 - r_ij_world_1 * t309);
     jac_phi_q_t_lambda_geometry[57] = -t319;
     jac_phi_q_t_lambda_geometry[58] = -t321;
     jac_phi_q_t_lambda_geometry[59] = -t322;
-    const jg_real t323 = A_i[7] * f_i_world_2 - A_i[8] * f_i_world_1;
-    const jg_real t324 = A_i[6] * lambda[4] + lambda[1] * t323;
     jac_phi_q_t_lambda_geometry[66] = t324;
     jac_phi_q_t_lambda_geometry[60] = -t324;
-    const jg_real t325 = A_i[8] * f_i_world_0 - A_i[6] * f_i_world_2;
-    const jg_real t326 = A_i[7] * lambda[4] + lambda[1] * t325;
     jac_phi_q_t_lambda_geometry[67] = t326;
-    jac_phi_q_t_lambda_geometry[61] = -t326;
     const jg_real t327 = A_i[6] * f_i_world_1 - A_i[7] * f_i_world_0;
     const jg_real t328 = A_i[8] * lambda[4] + lambda[1] * t327;
-    jac_phi_q_t_lambda_geometry[68] = t328;
-    jac_phi_q_t_lambda_geometry[62] = -t328;
     const jg_real t329 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     const jg_real t330 = h_i_dot_f_j * t329;
     const jg_real t331 = (t330 + t330) * t26 * lambda[4] * pitch;
@@ -1862,112 +1857,115 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t333 = lambda[3] * t327;
     const jg_real t334 = h_j_world_2 * t332 - h_j_world_1 * t333 - (s_j_world_1 * t328 - s_j_world_2 * t326) +
         (across_world_0 * t331 + (A_i[6] - f_j_world_0 * t329) * t32);
-    jac_phi_q_t_lambda_geometry[63] = t334 - (r_ij_world_1 * t328 - r_ij_world_2 * t326);
     const jg_real t335 = lambda[3] * t323;
-    const jg_real t336 = t333 * h_j_world_0 - h_j_world_2 * t335 - (s_j_world_2 * t324 - s_j_world_0 * t328) +
+    const jg_real t336 = t333 * h_j_world_0 - h_j_world_2 * t335 - (s_j_world_2 * t324 - t328 * s_j_world_0) +
         (across_world_1 * t331 + (A_i[7] - f_j_world_1 * t329) * t32);
-    jac_phi_q_t_lambda_geometry[64] = t336 - (r_ij_world_2 * t324 - r_ij_world_0 * t328);
-    const jg_real t337 = h_j_world_1 * t335 - t332 * h_j_world_0 - (s_j_world_0 * t326 - s_j_world_1 * t324) +
+    const jg_real t337 = h_j_world_1 * t335 - t332 * h_j_world_0 - (t326 * s_j_world_0 - s_j_world_1 * t324) +
         (across_world_2 * t331 + (A_i[8] - f_j_world_2 * t329) * t32);
-    jac_phi_q_t_lambda_geometry[65] = t337 - (r_ij_world_0 * t326 - r_ij_world_1 * t324);
+    jac_phi_q_t_lambda_geometry[61] = -t326;
+    jac_phi_q_t_lambda_geometry[68] = t328;
+    jac_phi_q_t_lambda_geometry[62] = -t328;
+    jac_phi_q_t_lambda_geometry[63] = t334 - (r_ij_world_1 * t328 - r_ij_world_2 * t326);
+    jac_phi_q_t_lambda_geometry[64] = t336 - (r_ij_world_2 * t324 - t328 * r_ij_world_0);
+    jac_phi_q_t_lambda_geometry[65] = t337 - (t326 * r_ij_world_0 - r_ij_world_1 * t324);
     jac_phi_q_t_lambda_geometry[69] = -t334;
     jac_phi_q_t_lambda_geometry[70] = -t336;
-    jac_phi_q_t_lambda_geometry[71] = -t337;
     const jg_real t338 = A_j[1] * v_0_world_2 - A_j[2] * v_0_world_1;
+    const jg_real t339 = A_j[2] * v_0_world_0 - A_j[0] * v_0_world_2;
+    const jg_real t340 = A_j[0] * v_0_world_1 - A_j[1] * v_0_world_0;
+    const jg_real t341 = A_j[4] * v_0_world_2 - A_j[5] * v_0_world_1;
+    jac_phi_q_t_lambda_geometry[71] = -t337;
     jac_phi_q_t_lambda_geometry[75] = t338;
     jac_phi_q_t_lambda_geometry[72] = -t338;
-    const jg_real t339 = A_j[2] * v_0_world_0 - A_j[0] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[76] = t339;
     jac_phi_q_t_lambda_geometry[73] = -t339;
-    const jg_real t340 = A_j[0] * v_0_world_1 - A_j[1] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[77] = t340;
     jac_phi_q_t_lambda_geometry[74] = -t340;
-    const jg_real t341 = A_j[4] * v_0_world_2 - A_j[5] * v_0_world_1;
     jac_phi_q_t_lambda_geometry[81] = t341;
-    jac_phi_q_t_lambda_geometry[78] = -t341;
     const jg_real t342 = A_j[5] * v_0_world_0 - A_j[3] * v_0_world_2;
+    const jg_real t343 = A_j[3] * v_0_world_1 - A_j[4] * v_0_world_0;
+    const jg_real t344 = A_j[7] * v_0_world_2 - A_j[8] * v_0_world_1;
+    const jg_real t345 = A_j[8] * v_0_world_0 - A_j[6] * v_0_world_2;
+    jac_phi_q_t_lambda_geometry[78] = -t341;
     jac_phi_q_t_lambda_geometry[82] = t342;
     jac_phi_q_t_lambda_geometry[79] = -t342;
-    const jg_real t343 = A_j[3] * v_0_world_1 - A_j[4] * v_0_world_0;
     jac_phi_q_t_lambda_geometry[83] = t343;
     jac_phi_q_t_lambda_geometry[80] = -t343;
-    const jg_real t344 = A_j[7] * v_0_world_2 - A_j[8] * v_0_world_1;
     jac_phi_q_t_lambda_geometry[87] = t344;
     jac_phi_q_t_lambda_geometry[84] = -t344;
-    const jg_real t345 = A_j[8] * v_0_world_0 - A_j[6] * v_0_world_2;
     jac_phi_q_t_lambda_geometry[88] = t345;
-    jac_phi_q_t_lambda_geometry[85] = -t345;
     const jg_real t346 = A_j[6] * v_0_world_1 - A_j[7] * v_0_world_0;
-    jac_phi_q_t_lambda_geometry[89] = t346;
-    jac_phi_q_t_lambda_geometry[86] = -t346;
-    const jg_real t347 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    const jg_real t347 = h_i_world_0 * A_j[0] + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     const jg_real t348 = h_i_dot_f_j * t347;
     const jg_real t349 = (t348 + t348) * t26 * lambda[4] * pitch;
     const jg_real t350 = across_world_0 * t349 - (A_j[0] * h_i_dot_f_j + f_j_world_0 * t347) * t32;
-    jac_phi_q_t_lambda_geometry[90] = t350;
     const jg_real t351 = across_world_1 * t349 - (A_j[1] * h_i_dot_f_j + f_j_world_1 * t347) * t32;
-    jac_phi_q_t_lambda_geometry[91] = t351;
     const jg_real t352 = across_world_2 * t349 - (A_j[2] * h_i_dot_f_j + f_j_world_2 * t347) * t32;
+    jac_phi_q_t_lambda_geometry[85] = -t345;
+    jac_phi_q_t_lambda_geometry[89] = t346;
+    jac_phi_q_t_lambda_geometry[86] = -t346;
+    jac_phi_q_t_lambda_geometry[90] = t350;
+    jac_phi_q_t_lambda_geometry[91] = t351;
     jac_phi_q_t_lambda_geometry[92] = t352;
     jac_phi_q_t_lambda_geometry[93] = -t350;
     jac_phi_q_t_lambda_geometry[94] = -t351;
-    jac_phi_q_t_lambda_geometry[95] = -t352;
-    const jg_real t353 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
+    const jg_real t353 = h_i_world_0 * A_j[3] + h_i_world_1 * A_j[4] + A_j[5] * h_i_world_2;
     const jg_real t354 = h_i_dot_f_j * t353;
     const jg_real t355 = (t354 + t354) * t26 * lambda[4] * pitch;
     const jg_real t356 = across_world_0 * t355 - (A_j[3] * h_i_dot_f_j + f_j_world_0 * t353) * t32;
-    jac_phi_q_t_lambda_geometry[96] = t356;
     const jg_real t357 = across_world_1 * t355 - (A_j[4] * h_i_dot_f_j + f_j_world_1 * t353) * t32;
-    jac_phi_q_t_lambda_geometry[97] = t357;
     const jg_real t358 = across_world_2 * t355 - (A_j[5] * h_i_dot_f_j + f_j_world_2 * t353) * t32;
+    const jg_real t359 = h_i_world_0 * A_j[6] + h_i_world_1 * A_j[7] + A_j[8] * h_i_world_2;
+    const jg_real t360 = h_i_dot_f_j * t359;
+    const jg_real t361 = (t360 + t360) * t26 * lambda[4] * pitch;
+    const jg_real t362 = across_world_0 * t361 - (A_j[6] * h_i_dot_f_j + f_j_world_0 * t359) * t32;
+    jac_phi_q_t_lambda_geometry[95] = -t352;
+    jac_phi_q_t_lambda_geometry[96] = t356;
+    jac_phi_q_t_lambda_geometry[97] = t357;
     jac_phi_q_t_lambda_geometry[98] = t358;
     jac_phi_q_t_lambda_geometry[99] = -t356;
     jac_phi_q_t_lambda_geometry[100] = -t357;
     jac_phi_q_t_lambda_geometry[101] = -t358;
-    const jg_real t359 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
-    const jg_real t360 = h_i_dot_f_j * t359;
-    const jg_real t361 = (t360 + t360) * t26 * lambda[4] * pitch;
-    const jg_real t362 = across_world_0 * t361 - (A_j[6] * h_i_dot_f_j + f_j_world_0 * t359) * t32;
     jac_phi_q_t_lambda_geometry[102] = t362;
     const jg_real t363 = across_world_1 * t361 - (A_j[7] * h_i_dot_f_j + f_j_world_1 * t359) * t32;
-    jac_phi_q_t_lambda_geometry[103] = t363;
     const jg_real t364 = across_world_2 * t361 - (A_j[8] * h_i_dot_f_j + f_j_world_2 * t359) * t32;
+    const jg_real t365 = A_j[2] * v_2_world_1 - A_j[1] * v_2_world_2;
+    const jg_real t366 = A_j[0] * v_2_world_2 - A_j[2] * v_2_world_0;
+    const jg_real t367 = A_j[1] * v_2_world_0 - A_j[0] * v_2_world_1;
+    jac_phi_q_t_lambda_geometry[103] = t363;
     jac_phi_q_t_lambda_geometry[104] = t364;
     jac_phi_q_t_lambda_geometry[105] = -t362;
     jac_phi_q_t_lambda_geometry[106] = -t363;
     jac_phi_q_t_lambda_geometry[107] = -t364;
-    const jg_real t365 = A_j[2] * v_2_world_1 - A_j[1] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[108] = t365;
-    const jg_real t366 = A_j[0] * v_2_world_2 - A_j[2] * v_2_world_0;
     jac_phi_q_t_lambda_geometry[109] = t366;
-    const jg_real t367 = A_j[1] * v_2_world_0 - A_j[0] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[110] = t367;
+    const jg_real t368 = A_j[5] * v_2_world_1 - A_j[4] * v_2_world_2;
+    const jg_real t369 = A_j[3] * v_2_world_2 - A_j[5] * v_2_world_0;
+    const jg_real t370 = A_j[4] * v_2_world_0 - A_j[3] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[111] = -t365;
     jac_phi_q_t_lambda_geometry[112] = -t366;
     jac_phi_q_t_lambda_geometry[113] = -t367;
-    const jg_real t368 = A_j[5] * v_2_world_1 - A_j[4] * v_2_world_2;
     jac_phi_q_t_lambda_geometry[114] = t368;
-    const jg_real t369 = A_j[3] * v_2_world_2 - A_j[5] * v_2_world_0;
     jac_phi_q_t_lambda_geometry[115] = t369;
-    const jg_real t370 = A_j[4] * v_2_world_0 - A_j[3] * v_2_world_1;
     jac_phi_q_t_lambda_geometry[116] = t370;
     jac_phi_q_t_lambda_geometry[117] = -t368;
     jac_phi_q_t_lambda_geometry[118] = -t369;
-    jac_phi_q_t_lambda_geometry[119] = -t370;
     const jg_real t371 = A_j[8] * v_2_world_1 - A_j[7] * v_2_world_2;
-    jac_phi_q_t_lambda_geometry[120] = t371;
     const jg_real t372 = A_j[6] * v_2_world_2 - A_j[8] * v_2_world_0;
-    jac_phi_q_t_lambda_geometry[121] = t372;
     const jg_real t373 = A_j[7] * v_2_world_0 - A_j[6] * v_2_world_1;
+    const jg_real t374 = across_world_0 * t31;
+    jac_phi_q_t_lambda_geometry[119] = -t370;
+    jac_phi_q_t_lambda_geometry[120] = t371;
+    jac_phi_q_t_lambda_geometry[121] = t372;
     jac_phi_q_t_lambda_geometry[122] = t373;
     jac_phi_q_t_lambda_geometry[123] = -t371;
     jac_phi_q_t_lambda_geometry[124] = -t372;
     jac_phi_q_t_lambda_geometry[125] = -t373;
-    const jg_real t374 = across_world_0 * t31;
     jac_phi_q_t_lambda_geometry[126] = t374;
     const jg_real t375 = across_world_1 * t31;
-    jac_phi_q_t_lambda_geometry[127] = t375;
     const jg_real t376 = across_world_2 * t31;
+    jac_phi_q_t_lambda_geometry[127] = t375;
     jac_phi_q_t_lambda_geometry[128] = t376;
     jac_phi_q_t_lambda_geometry[129] = -t374;
     jac_phi_q_t_lambda_geometry[130] = -t375;
@@ -1976,51 +1974,51 @@ static void jg_screw_conventional_world_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_lambda[1] = -f_i_world_1;
     jac_phi_q_t_lambda_lambda[2] = -f_i_world_2;
     const jg_real t377 = f_i_world_2 * s_j_world_1 - f_i_world_1 * s_j_world_2;
+    const jg_real t378 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
+    const jg_real t379 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
     jac_phi_q_t_lambda_lambda[9] = t377;
     jac_phi_q_t_lambda_lambda[3] = -(f_i_world_2 * r_ij_world_1 - f_i_world_1 * r_ij_world_2 + t377);
-    const jg_real t378 = f_i_world_0 * s_j_world_2 - f_i_world_2 * s_j_world_0;
     jac_phi_q_t_lambda_lambda[10] = t378;
     jac_phi_q_t_lambda_lambda[4] = -(f_i_world_0 * r_ij_world_2 - f_i_world_2 * r_ij_world_0 + t378);
-    const jg_real t379 = f_i_world_1 * s_j_world_0 - f_i_world_0 * s_j_world_1;
     jac_phi_q_t_lambda_lambda[11] = t379;
     jac_phi_q_t_lambda_lambda[5] = -(f_i_world_1 * r_ij_world_0 - f_i_world_0 * r_ij_world_1 + t379);
     jac_phi_q_t_lambda_lambda[12] = -g_i_world_0;
     jac_phi_q_t_lambda_lambda[13] = -g_i_world_1;
+    const jg_real t380 = s_j_world_1 * g_i_world_2 - g_i_world_1 * s_j_world_2;
+    const jg_real t381 = g_i_world_0 * s_j_world_2 - g_i_world_2 * s_j_world_0;
+    const jg_real t382 = g_i_world_1 * s_j_world_0 - g_i_world_0 * s_j_world_1;
+    const jg_real t383 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
     jac_phi_q_t_lambda_lambda[14] = -g_i_world_2;
-    const jg_real t380 = s_j_world_1 * g_i_world_2 - s_j_world_2 * g_i_world_1;
     jac_phi_q_t_lambda_lambda[21] = t380;
-    jac_phi_q_t_lambda_lambda[15] = -(r_ij_world_1 * g_i_world_2 - r_ij_world_2 * g_i_world_1 + t380);
-    const jg_real t381 = s_j_world_2 * g_i_world_0 - g_i_world_2 * s_j_world_0;
+    jac_phi_q_t_lambda_lambda[15] = -(g_i_world_2 * r_ij_world_1 - g_i_world_1 * r_ij_world_2 + t380);
     jac_phi_q_t_lambda_lambda[22] = t381;
     jac_phi_q_t_lambda_lambda[16] = -(g_i_world_0 * r_ij_world_2 - g_i_world_2 * r_ij_world_0 + t381);
-    const jg_real t382 = g_i_world_1 * s_j_world_0 - s_j_world_1 * g_i_world_0;
     jac_phi_q_t_lambda_lambda[23] = t382;
     jac_phi_q_t_lambda_lambda[17] = -(g_i_world_1 * r_ij_world_0 - g_i_world_0 * r_ij_world_1 + t382);
-    const jg_real t383 = f_i_world_1 * h_j_world_2 - f_i_world_2 * h_j_world_1;
     jac_phi_q_t_lambda_lambda[24] = t383;
     const jg_real t384 = f_i_world_2 * h_j_world_0 - f_i_world_0 * h_j_world_2;
-    jac_phi_q_t_lambda_lambda[25] = t384;
     const jg_real t385 = f_i_world_0 * h_j_world_1 - f_i_world_1 * h_j_world_0;
+    const jg_real t386 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
+    const jg_real t387 = g_i_world_2 * h_j_world_0 - h_j_world_2 * g_i_world_0;
+    const jg_real t388 = h_j_world_1 * g_i_world_0 - g_i_world_1 * h_j_world_0;
+    jac_phi_q_t_lambda_lambda[25] = t384;
     jac_phi_q_t_lambda_lambda[26] = t385;
     jac_phi_q_t_lambda_lambda[27] = -t383;
     jac_phi_q_t_lambda_lambda[28] = -t384;
     jac_phi_q_t_lambda_lambda[29] = -t385;
-    const jg_real t386 = h_j_world_2 * g_i_world_1 - h_j_world_1 * g_i_world_2;
     jac_phi_q_t_lambda_lambda[30] = t386;
-    const jg_real t387 = g_i_world_2 * h_j_world_0 - h_j_world_2 * g_i_world_0;
     jac_phi_q_t_lambda_lambda[31] = t387;
-    const jg_real t388 = h_j_world_1 * g_i_world_0 - g_i_world_1 * h_j_world_0;
     jac_phi_q_t_lambda_lambda[32] = t388;
+    const jg_real t389 = pitch * spread;
+    const jg_real t390 = across_world_0 * t389 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
+    const jg_real t391 = across_world_1 * t389 - (h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0);
     jac_phi_q_t_lambda_lambda[33] = -t386;
     jac_phi_q_t_lambda_lambda[34] = -t387;
     jac_phi_q_t_lambda_lambda[35] = -t388;
     jac_phi_q_t_lambda_lambda[36] = -h_i_world_0;
     jac_phi_q_t_lambda_lambda[37] = -h_i_world_1;
     jac_phi_q_t_lambda_lambda[38] = -h_i_world_2;
-    const jg_real t389 = pitch * spread;
-    const jg_real t390 = across_world_0 * t389 - (h_i_world_2 * s_j_world_1 - h_i_world_1 * s_j_world_2);
     jac_phi_q_t_lambda_lambda[39] = t390 - (h_i_world_2 * r_ij_world_1 - h_i_world_1 * r_ij_world_2);
-    const jg_real t391 = across_world_1 * t389 - (h_i_world_0 * s_j_world_2 - h_i_world_2 * s_j_world_0);
     jac_phi_q_t_lambda_lambda[40] = t391 - (h_i_world_0 * r_ij_world_2 - h_i_world_2 * r_ij_world_0);
     const jg_real t392 = across_world_2 * t389 - (h_i_world_1 * s_j_world_0 - h_i_world_0 * s_j_world_1);
     jac_phi_q_t_lambda_lambda[41] = t392 - (h_i_world_1 * r_ij_world_0 - h_i_world_0 * r_ij_world_1);

@@ -21,11 +21,9 @@
 #define JG_EXPORT
 #endif
 
-static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, jg_real *JG_RESTRICT jac_phi_r_i, jg_real *JG_RESTRICT jac_phi_A_i,
-    jg_real *JG_RESTRICT jac_phi_r_j, jg_real *JG_RESTRICT jac_phi_A_j, jg_real *JG_RESTRICT jac_phi_alpha,
-    jg_real *JG_RESTRICT jac_phi_geometry)
+static void jg_screw_parametric_phi_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, jg_real *jac_phi_r_i, jg_real *jac_phi_A_i,
+    jg_real *jac_phi_r_j, jg_real *jac_phi_A_j, jg_real *jac_phi_alpha, jg_real *jac_phi_geometry)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -49,17 +47,12 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
@@ -72,7 +65,6 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[20] = f_j_in_i_2;
     const jg_real t11 = f_j_world_0 * g_j_in_i_2 - g_j_world_0 * f_j_in_i_2;
     jg_real sine_0;
     jg_real cosine_0;
@@ -80,88 +72,94 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[18] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
     const jg_real t17 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_geometry[20] = f_j_in_i_2;
+    jac_phi_geometry[18] = f_j_in_i_1;
     jac_phi_A_i[1] = -(t11 * g_star_in_i_1 + t17 * g_star_in_i_2);
-    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
+    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
+    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
+    jac_phi_A_i[3] = g_j_world_0 * f_star_in_i_0;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
-    const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(t23 * g_star_in_i_1 + t24 * g_star_in_i_2);
     jac_phi_A_i[6] = C_i[6] * f_j_world_1;
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
-    jac_phi_A_i[8] = e_ij_world_2;
-    jac_phi_A_i[20] = e_ij_world_2;
-    jac_phi_A_i[32] = e_ij_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
     const jg_real t29 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
-    jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
-    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
-    jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[16] = f_j_in_i_0;
     const jg_real t33 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
+    jac_phi_A_i[8] = e_ij_world_2;
+    jac_phi_A_i[20] = e_ij_world_2;
+    jac_phi_A_i[32] = e_ij_world_2;
+    jac_phi_A_i[9] = -(t28 * g_star_in_i_1 + t29 * g_star_in_i_2);
+    jac_phi_A_i[10] = C_i[6] * f_j_world_2;
+    jac_phi_A_i[11] = g_j_world_2 * f_star_in_i_0;
+    jac_phi_geometry[16] = f_j_in_i_0;
     jac_phi_A_i[13] = t11 * g_star_in_i_0 - t33 * g_star_in_i_2;
-    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
     const jg_real f_star_in_i_1 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     const jg_real t35 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
+    const jg_real t36 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
+    jac_phi_A_i[14] = C_i[7] * f_j_world_0;
+    jac_phi_A_i[15] = g_j_world_0 * f_star_in_i_1;
     jac_phi_A_i[17] = t23 * g_star_in_i_0 - t35 * g_star_in_i_2;
     jac_phi_A_i[18] = C_i[7] * f_j_world_1;
     jac_phi_A_i[19] = g_j_world_1 * f_star_in_i_1;
-    const jg_real t36 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
     jac_phi_A_i[21] = t28 * g_star_in_i_0 - t36 * g_star_in_i_2;
     jac_phi_A_i[22] = C_i[7] * f_j_world_2;
     jac_phi_A_i[23] = g_j_world_2 * f_star_in_i_1;
+    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[25] = t17 * g_star_in_i_0 + t33 * g_star_in_i_1;
     jac_phi_A_i[26] = C_i[8] * f_j_world_0;
-    const jg_real f_star_in_i_2 = C_i[5] * sine_0 + C_i[2] * cosine_0;
     jac_phi_A_i[27] = g_j_world_0 * f_star_in_i_2;
     jac_phi_A_i[29] = t24 * g_star_in_i_0 + t35 * g_star_in_i_1;
     jac_phi_A_i[30] = C_i[8] * f_j_world_1;
     jac_phi_A_i[31] = g_j_world_1 * f_star_in_i_2;
     jac_phi_A_i[33] = t29 * g_star_in_i_0 + t36 * g_star_in_i_1;
     jac_phi_A_i[34] = C_i[8] * f_j_world_2;
-    jac_phi_A_i[35] = g_j_world_2 * f_star_in_i_2;
-    jac_phi_A_j[0] = s_j[0] * A_i[0];
-    jac_phi_A_j[1] = s_j[0] * A_i[3];
-    jac_phi_A_j[2] = s_j[0] * A_i[6];
     const jg_real t38 = A_i[3] * C_j[0];
     const jg_real t39 = A_i[6] * C_j[3];
     const jg_real t40 = A_i[6] * C_j[0];
     const jg_real t41 = A_i[3] * C_j[3];
     const jg_real t42 = A_i[0] * C_j[3];
     const jg_real t43 = A_i[0] * C_j[0];
+    jac_phi_A_i[35] = g_j_world_2 * f_star_in_i_2;
+    jac_phi_A_j[0] = s_j[0] * A_i[0];
+    jac_phi_A_j[1] = s_j[0] * A_i[3];
+    jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = (t38 * g_j_in_i_2 + t39 * f_j_in_i_1 - (t40 * g_j_in_i_1 + t41 * f_j_in_i_2)) * g_star_in_i_0 +
         (t40 * g_j_in_i_0 + t42 * f_j_in_i_2 - (t43 * g_j_in_i_2 + t39 * f_j_in_i_0)) * g_star_in_i_1 + (t43 *
         g_j_in_i_1 + t41 * f_j_in_i_0 - (t38 * g_j_in_i_0 + t42 * f_j_in_i_1)) * g_star_in_i_2;
     jac_phi_A_j[4] = C_i[7] * t38 + C_i[6] * t43 + C_i[8] * t40;
     jac_phi_A_j[5] = t42 * f_star_in_i_0 + t41 * f_star_in_i_1 + t39 * f_star_in_i_2;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
-    jac_phi_A_j[7] = s_j[0] * A_i[4];
-    jac_phi_A_j[8] = s_j[0] * A_i[7];
     const jg_real t44 = A_i[4] * C_j[0];
     const jg_real t45 = A_i[7] * C_j[3];
     const jg_real t46 = A_i[7] * C_j[0];
     const jg_real t47 = A_i[4] * C_j[3];
     const jg_real t48 = A_i[1] * C_j[3];
     const jg_real t49 = A_i[1] * C_j[0];
-    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + t45 * f_j_in_i_1 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
+    jac_phi_A_j[7] = s_j[0] * A_i[4];
+    jac_phi_A_j[8] = s_j[0] * A_i[7];
+    jac_phi_A_j[9] = (t44 * g_j_in_i_2 + f_j_in_i_1 * t45 - (t46 * g_j_in_i_1 + t47 * f_j_in_i_2)) * g_star_in_i_0 +
         (t46 * g_j_in_i_0 + t48 * f_j_in_i_2 - (t49 * g_j_in_i_2 + t45 * f_j_in_i_0)) * g_star_in_i_1 + (t49 *
         g_j_in_i_1 + t47 * f_j_in_i_0 - (t44 * g_j_in_i_0 + f_j_in_i_1 * t48)) * g_star_in_i_2;
     jac_phi_A_j[10] = C_i[7] * t44 + C_i[6] * t49 + C_i[8] * t46;
@@ -175,7 +173,13 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     const jg_real t53 = A_i[5] * C_j[3];
     const jg_real t54 = A_i[2] * C_j[3];
     const jg_real t55 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + t51 * f_j_in_i_1 - (t52 * g_j_in_i_1 + t53 * f_j_in_i_2)) * g_star_in_i_0
+    const jg_real t56 = A_i[3] * C_j[1];
+    const jg_real t57 = A_i[6] * C_j[4];
+    const jg_real t58 = A_i[6] * C_j[1];
+    const jg_real t59 = A_i[3] * C_j[4];
+    const jg_real t60 = A_i[0] * C_j[4];
+    const jg_real t61 = A_i[0] * C_j[1];
+    jac_phi_A_j[15] = (t50 * g_j_in_i_2 + f_j_in_i_1 * t51 - (t52 * g_j_in_i_1 + t53 * f_j_in_i_2)) * g_star_in_i_0
         + (t52 * g_j_in_i_0 + t54 * f_j_in_i_2 - (t55 * g_j_in_i_2 + t51 * f_j_in_i_0)) * g_star_in_i_1 + (t55 *
         g_j_in_i_1 + t53 * f_j_in_i_0 - (t50 * g_j_in_i_0 + f_j_in_i_1 * t54)) * g_star_in_i_2;
     jac_phi_A_j[16] = C_i[7] * t50 + C_i[6] * t55 + C_i[8] * t52;
@@ -183,41 +187,35 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    const jg_real t56 = A_i[3] * C_j[1];
-    const jg_real t57 = A_i[6] * C_j[4];
-    const jg_real t58 = A_i[6] * C_j[1];
-    const jg_real t59 = A_i[3] * C_j[4];
-    const jg_real t60 = A_i[0] * C_j[4];
-    const jg_real t61 = A_i[0] * C_j[1];
     jac_phi_A_j[21] = (t56 * g_j_in_i_2 + t57 * f_j_in_i_1 - (t58 * g_j_in_i_1 + t59 * f_j_in_i_2)) * g_star_in_i_0
         + (t58 * g_j_in_i_0 + t60 * f_j_in_i_2 - (t61 * g_j_in_i_2 + t57 * f_j_in_i_0)) * g_star_in_i_1 + (t61 *
         g_j_in_i_1 + t59 * f_j_in_i_0 - (t56 * g_j_in_i_0 + t60 * f_j_in_i_1)) * g_star_in_i_2;
     jac_phi_A_j[22] = C_i[7] * t56 + C_i[6] * t61 + C_i[8] * t58;
-    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
-    jac_phi_A_j[24] = s_j[1] * A_i[1];
-    jac_phi_A_j[25] = s_j[1] * A_i[4];
-    jac_phi_A_j[26] = s_j[1] * A_i[7];
     const jg_real t62 = A_i[4] * C_j[1];
     const jg_real t63 = A_i[7] * C_j[4];
     const jg_real t64 = A_i[7] * C_j[1];
     const jg_real t65 = A_i[4] * C_j[4];
     const jg_real t66 = A_i[1] * C_j[4];
     const jg_real t67 = A_i[1] * C_j[1];
-    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + t63 * f_j_in_i_1 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
+    jac_phi_A_j[23] = t60 * f_star_in_i_0 + t59 * f_star_in_i_1 + t57 * f_star_in_i_2;
+    jac_phi_A_j[24] = s_j[1] * A_i[1];
+    jac_phi_A_j[25] = s_j[1] * A_i[4];
+    jac_phi_A_j[26] = s_j[1] * A_i[7];
+    jac_phi_A_j[27] = (t62 * g_j_in_i_2 + f_j_in_i_1 * t63 - (t64 * g_j_in_i_1 + t65 * f_j_in_i_2)) * g_star_in_i_0
         + (t64 * g_j_in_i_0 + t66 * f_j_in_i_2 - (t67 * g_j_in_i_2 + t63 * f_j_in_i_0)) * g_star_in_i_1 + (t67 *
         g_j_in_i_1 + t65 * f_j_in_i_0 - (t62 * g_j_in_i_0 + f_j_in_i_1 * t66)) * g_star_in_i_2;
     jac_phi_A_j[28] = C_i[7] * t62 + C_i[6] * t67 + C_i[8] * t64;
     jac_phi_A_j[29] = t66 * f_star_in_i_0 + t65 * f_star_in_i_1 + t63 * f_star_in_i_2;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
-    jac_phi_A_j[31] = s_j[1] * A_i[5];
-    jac_phi_A_j[32] = s_j[1] * A_i[8];
     const jg_real t68 = A_i[5] * C_j[1];
     const jg_real t69 = A_i[8] * C_j[4];
     const jg_real t70 = A_i[8] * C_j[1];
     const jg_real t71 = A_i[5] * C_j[4];
     const jg_real t72 = A_i[2] * C_j[4];
     const jg_real t73 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + t69 * f_j_in_i_1 - (t70 * g_j_in_i_1 + t71 * f_j_in_i_2)) * g_star_in_i_0
+    jac_phi_A_j[31] = s_j[1] * A_i[5];
+    jac_phi_A_j[32] = s_j[1] * A_i[8];
+    jac_phi_A_j[33] = (t68 * g_j_in_i_2 + f_j_in_i_1 * t69 - (t70 * g_j_in_i_1 + t71 * f_j_in_i_2)) * g_star_in_i_0
         + (t70 * g_j_in_i_0 + t72 * f_j_in_i_2 - (t73 * g_j_in_i_2 + t69 * f_j_in_i_0)) * g_star_in_i_1 + (t73 *
         g_j_in_i_1 + t71 * f_j_in_i_0 - (t68 * g_j_in_i_0 + f_j_in_i_1 * t72)) * g_star_in_i_2;
     jac_phi_A_j[34] = C_i[7] * t68 + C_i[6] * t73 + C_i[8] * t70;
@@ -231,6 +229,12 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     const jg_real t77 = A_i[3] * C_j[5];
     const jg_real t78 = A_i[0] * C_j[5];
     const jg_real t79 = A_i[0] * C_j[2];
+    const jg_real t80 = A_i[4] * C_j[2];
+    const jg_real t81 = A_i[7] * C_j[5];
+    const jg_real t82 = A_i[7] * C_j[2];
+    const jg_real t83 = A_i[4] * C_j[5];
+    const jg_real t84 = A_i[1] * C_j[5];
+    const jg_real t85 = A_i[1] * C_j[2];
     jac_phi_A_j[39] = (t74 * g_j_in_i_2 + t75 * f_j_in_i_1 - (t76 * g_j_in_i_1 + t77 * f_j_in_i_2)) * g_star_in_i_0
         + (t76 * g_j_in_i_0 + t78 * f_j_in_i_2 - (t79 * g_j_in_i_2 + t75 * f_j_in_i_0)) * g_star_in_i_1 + (t79 *
         g_j_in_i_1 + t77 * f_j_in_i_0 - (t74 * g_j_in_i_0 + t78 * f_j_in_i_1)) * g_star_in_i_2;
@@ -239,44 +243,38 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
     jac_phi_A_j[44] = s_j[2] * A_i[7];
-    const jg_real t80 = A_i[4] * C_j[2];
-    const jg_real t81 = A_i[7] * C_j[5];
-    const jg_real t82 = A_i[7] * C_j[2];
-    const jg_real t83 = A_i[4] * C_j[5];
-    const jg_real t84 = A_i[1] * C_j[5];
-    const jg_real t85 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + t81 * f_j_in_i_1 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
+    jac_phi_A_j[45] = (t80 * g_j_in_i_2 + f_j_in_i_1 * t81 - (t82 * g_j_in_i_1 + t83 * f_j_in_i_2)) * g_star_in_i_0
         + (t82 * g_j_in_i_0 + t84 * f_j_in_i_2 - (t85 * g_j_in_i_2 + t81 * f_j_in_i_0)) * g_star_in_i_1 + (t85 *
         g_j_in_i_1 + t83 * f_j_in_i_0 - (t80 * g_j_in_i_0 + f_j_in_i_1 * t84)) * g_star_in_i_2;
     jac_phi_A_j[46] = C_i[7] * t80 + C_i[6] * t85 + C_i[8] * t82;
-    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
-    jac_phi_A_j[48] = s_j[2] * A_i[2];
-    jac_phi_A_j[49] = s_j[2] * A_i[5];
-    jac_phi_A_j[50] = s_j[2] * A_i[8];
     const jg_real t86 = A_i[5] * C_j[2];
     const jg_real t87 = A_i[8] * C_j[5];
     const jg_real t88 = A_i[8] * C_j[2];
     const jg_real t89 = A_i[5] * C_j[5];
     const jg_real t90 = A_i[2] * C_j[5];
     const jg_real t91 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + t87 * f_j_in_i_1 - (t88 * g_j_in_i_1 + t89 * f_j_in_i_2)) * g_star_in_i_0
+    const jg_real t92 = -(pitch * C_i[6]);
+    jac_phi_A_j[47] = t84 * f_star_in_i_0 + t83 * f_star_in_i_1 + t81 * f_star_in_i_2;
+    jac_phi_A_j[48] = s_j[2] * A_i[2];
+    jac_phi_A_j[49] = s_j[2] * A_i[5];
+    jac_phi_A_j[50] = s_j[2] * A_i[8];
+    jac_phi_A_j[51] = (t86 * g_j_in_i_2 + f_j_in_i_1 * t87 - (t88 * g_j_in_i_1 + t89 * f_j_in_i_2)) * g_star_in_i_0
         + (t88 * g_j_in_i_0 + t90 * f_j_in_i_2 - (t91 * g_j_in_i_2 + t87 * f_j_in_i_0)) * g_star_in_i_1 + (t91 *
         g_j_in_i_1 + t89 * f_j_in_i_0 - (t86 * g_j_in_i_0 + f_j_in_i_1 * t90)) * g_star_in_i_2;
     jac_phi_A_j[52] = C_i[7] * t86 + C_i[6] * t91 + C_i[8] * t88;
     jac_phi_A_j[53] = t90 * f_star_in_i_0 + t89 * f_star_in_i_1 + t87 * f_star_in_i_2;
-    const jg_real t92 = -(pitch * C_i[6]);
     jac_phi_alpha[0] = t92;
     jac_phi_geometry[45] = t92;
     const jg_real t93 = -(pitch * C_i[7]);
-    jac_phi_alpha[1] = t93;
-    jac_phi_geometry[46] = t93;
     const jg_real t94 = -(pitch * C_i[8]);
-    jac_phi_alpha[2] = t94;
-    jac_phi_geometry[47] = t94;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
     const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
+    jac_phi_alpha[1] = t93;
+    jac_phi_geometry[46] = t93;
+    jac_phi_alpha[2] = t94;
+    jac_phi_geometry[47] = t94;
     jac_phi_alpha[3] = -(h_j_in_i_0 * f_star_in_i_0 + h_j_in_i_1 * f_star_in_i_1 + h_j_in_i_2 * f_star_in_i_2);
     jac_phi_alpha[4] = g_j_in_i_0 * g_star_in_i_0 + g_j_in_i_1 * g_star_in_i_1 + g_j_in_i_2 * g_star_in_i_2;
     jac_phi_geometry[0] = JG_REAL(-1.0);
@@ -290,32 +288,32 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_geometry[8] = g_j_in_i_2 * cosine_0;
     jac_phi_geometry[9] = h_j_in_i_0 * cosine_0;
     jac_phi_geometry[10] = g_j_in_i_0 * sine_0;
+    const jg_real t98 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
+    const jg_real t99 = -(pitch * t98);
+    const jg_real t100 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[11] = h_j_in_i_1 * cosine_0;
     jac_phi_geometry[12] = g_j_in_i_1 * sine_0;
     jac_phi_geometry[13] = h_j_in_i_2 * cosine_0;
     jac_phi_geometry[14] = g_j_in_i_2 * sine_0;
-    const jg_real t98 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
-    const jg_real t99 = -(pitch * t98);
     jac_phi_geometry[15] = t99;
     jac_phi_geometry[17] = t99;
     jac_phi_geometry[19] = t99;
-    const jg_real t100 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[21] = t100;
     const jg_real t101 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_geometry[22] = t101;
     const jg_real t102 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[23] = t102;
     const jg_real t103 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    jac_phi_geometry[24] = t103;
     const jg_real t104 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_geometry[25] = t104;
     const jg_real t105 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[26] = t105;
     const jg_real t106 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_geometry[27] = t106;
     const jg_real t107 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[28] = t107;
     const jg_real t108 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[22] = t101;
+    jac_phi_geometry[23] = t102;
+    jac_phi_geometry[24] = t103;
+    jac_phi_geometry[25] = t104;
+    jac_phi_geometry[26] = t105;
+    jac_phi_geometry[27] = t106;
+    jac_phi_geometry[28] = t107;
     jac_phi_geometry[29] = t108;
     jac_phi_geometry[30] = (t101 * g_j_in_i_2 - t102 * g_j_in_i_1) * g_star_in_i_0 + (t102 * g_j_in_i_0 - t100 *
         g_j_in_i_2) * g_star_in_i_1 + (t100 * g_j_in_i_1 - t101 * g_j_in_i_0) * g_star_in_i_2;
@@ -326,30 +324,28 @@ static void jg_screw_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, con
     jac_phi_geometry[34] = (t107 * g_j_in_i_2 - t108 * g_j_in_i_1) * g_star_in_i_0 + (t108 * g_j_in_i_0 - t106 *
         g_j_in_i_2) * g_star_in_i_1 + (t106 * g_j_in_i_1 - t107 * g_j_in_i_0) * g_star_in_i_2;
     jac_phi_geometry[35] = C_i[7] * t107 + C_i[6] * t106 + C_i[8] * t108;
-    jac_phi_geometry[36] = (f_j_in_i_1 * t102 - t101 * f_j_in_i_2) * g_star_in_i_0 + (t100 * f_j_in_i_2 - t102 *
-        f_j_in_i_0) * g_star_in_i_1 + (t101 * f_j_in_i_0 - f_j_in_i_1 * t100) * g_star_in_i_2;
+    jac_phi_geometry[36] = (t102 * f_j_in_i_1 - t101 * f_j_in_i_2) * g_star_in_i_0 + (t100 * f_j_in_i_2 - t102 *
+        f_j_in_i_0) * g_star_in_i_1 + (t101 * f_j_in_i_0 - t100 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[37] = t100 * f_star_in_i_0 + t101 * f_star_in_i_1 + t102 * f_star_in_i_2;
-    jac_phi_geometry[38] = (f_j_in_i_1 * t105 - t104 * f_j_in_i_2) * g_star_in_i_0 + (t103 * f_j_in_i_2 - t105 *
-        f_j_in_i_0) * g_star_in_i_1 + (t104 * f_j_in_i_0 - f_j_in_i_1 * t103) * g_star_in_i_2;
+    const jg_real t109 = JG_REAL(6.283185307179586) * pitch;
+    jac_phi_geometry[38] = (t105 * f_j_in_i_1 - t104 * f_j_in_i_2) * g_star_in_i_0 + (t103 * f_j_in_i_2 - t105 *
+        f_j_in_i_0) * g_star_in_i_1 + (t104 * f_j_in_i_0 - t103 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[39] = t103 * f_star_in_i_0 + t104 * f_star_in_i_1 + t105 * f_star_in_i_2;
-    jac_phi_geometry[40] = (f_j_in_i_1 * t108 - t107 * f_j_in_i_2) * g_star_in_i_0 + (t106 * f_j_in_i_2 - t108 *
-        f_j_in_i_0) * g_star_in_i_1 + (t107 * f_j_in_i_0 - f_j_in_i_1 * t106) * g_star_in_i_2;
+    jac_phi_geometry[40] = (t108 * f_j_in_i_1 - t107 * f_j_in_i_2) * g_star_in_i_0 + (t106 * f_j_in_i_2 - t108 *
+        f_j_in_i_0) * g_star_in_i_1 + (t107 * f_j_in_i_0 - t106 * f_j_in_i_1) * g_star_in_i_2;
     jac_phi_geometry[41] = t106 * f_star_in_i_0 + t107 * f_star_in_i_1 + t108 * f_star_in_i_2;
     jac_phi_geometry[42] = -(C_i[6] * t98);
     jac_phi_geometry[43] = -(C_i[7] * t98);
     jac_phi_geometry[44] = -(C_i[8] * t98);
-    const jg_real t109 = JG_REAL(6.283185307179586) * pitch;
     jac_phi_geometry[48] = -(C_i[6] * t109);
     jac_phi_geometry[49] = -(C_i[7] * t109);
     jac_phi_geometry[50] = -(C_i[8] * t109);
 }
 
-static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
-    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_alpha,
-    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *jac_phi_q_v_r_i, jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j,
+    jg_real *jac_phi_q_v_alpha, jg_real *jac_phi_q_v_geometry, jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -362,63 +358,60 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real alphadot = velocity[12];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
+    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -434,7 +427,7 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[0] * A_ji_0 + v_i[1] * A_ji_3 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
@@ -448,27 +441,23 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[0] * A_ji_1 + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real t56 = A_j[3] * v_3_in_j_1;
     const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - e_ij_in_j_0 * t44 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
     const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = e_ij_in_j_0 * t46 - e_ij_in_j_1 * t57 - (A_j[6] * v_i[0] + v_i[1] * t43);
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
+    const jg_real h_star_in_j_2 = A_ji_5 * C_i[7] + A_ji_2 * C_i[6] + A_ji_8 * C_i[8];
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -479,14 +468,14 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = A_ji_4 * g_star_in_i_1 + A_ji_1 * g_star_in_i_0 + A_ji_7 * g_star_in_i_2;
-    const jg_real t74 = A_j[6] * C_i[6] + t43 * C_i[7];
-    const jg_real h_star_in_j_1 = A_ji_1 * C_i[6] + C_i[7] * A_ji_4 + A_ji_7 * C_i[8];
+    const jg_real t74 = t43 * C_i[7] + A_j[6] * C_i[6];
+    const jg_real h_star_in_j_1 = A_ji_4 * C_i[7] + A_ji_1 * C_i[6] + A_ji_7 * C_i[8];
     const jg_real t76 = t43 * g_star_in_i_1 + A_j[6] * g_star_in_i_0;
     const jg_real g_star_in_j_2 = A_ji_5 * g_star_in_i_1 + A_ji_2 * g_star_in_i_0 + A_ji_8 * g_star_in_i_2;
-    const jg_real t78 = A_j[3] * C_i[6] + C_i[7] * t45;
+    const jg_real t78 = t45 * C_i[7] + A_j[3] * C_i[6];
     const jg_real t79 = h_star_in_j_2 * t71 + t74 * g_star_in_j_1 - (h_star_in_j_1 * t76 + t78 * g_star_in_j_2);
-    const jg_real h_star_in_j_0 = A_ji_0 * C_i[6] + C_i[7] * A_ji_3 + A_ji_6 * C_i[8];
-    const jg_real t81 = A_j[0] * C_i[6] + C_i[7] * t47;
+    const jg_real h_star_in_j_0 = A_ji_3 * C_i[7] + A_ji_0 * C_i[6] + A_ji_6 * C_i[8];
+    const jg_real t81 = t47 * C_i[7] + A_j[0] * C_i[6];
     const jg_real t82 = t47 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
     const jg_real g_star_in_j_0 = A_ji_3 * g_star_in_i_1 + A_ji_0 * g_star_in_i_0 + A_ji_6 * g_star_in_i_2;
     const jg_real t84 = h_star_in_j_0 * t76 + t81 * g_star_in_j_2 - (h_star_in_j_2 * t82 + t74 * g_star_in_j_0);
@@ -498,16 +487,23 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t89 = C_j[6] * t76 - C_j[8] * t82;
     const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
     const jg_real t91 = C_j[7] * t82 - C_j[6] * t71;
+    /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
+    const jg_real h_star_cross_f_j_in_j_0 = C_j[2] * h_star_in_j_1 - h_star_in_j_2 * C_j[1];
+    const jg_real t93 = t78 * C_j[2] - t74 * C_j[1];
+    const jg_real h_star_cross_f_j_in_j_1 = h_star_in_j_2 * C_j[0] - C_j[2] * h_star_in_j_0;
+    const jg_real t95 = t74 * C_j[0] - C_j[2] * t81;
+    const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - C_j[0] * h_star_in_j_1;
+    const jg_real t97 = C_j[1] * t81 - t78 * C_j[0];
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
+    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
+        A_ji_4 * t58));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
     jac_phi_q_v_A_i[3] = -(omega_j[0] * t87 + omega_j[1] * t89 + omega_j[2] * t91 + (alphadot * (C_j[6] * t79 +
         C_j[7] * t84 + C_j[8] * t85) - (t44 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t91 + (t57 *
         g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t87 + (t46 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t89)))));
-    /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
-    const jg_real h_star_cross_f_j_in_j_0 = C_j[2] * h_star_in_j_1 - C_j[1] * h_star_in_j_2;
-    const jg_real t93 = C_j[2] * t78 - C_j[1] * t74;
-    const jg_real h_star_cross_f_j_in_j_1 = C_j[0] * h_star_in_j_2 - C_j[2] * h_star_in_j_0;
-    const jg_real t95 = C_j[0] * t74 - C_j[2] * t81;
-    const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - C_j[0] * h_star_in_j_1;
-    const jg_real t97 = C_j[1] * t81 - C_j[0] * t78;
     jac_phi_q_v_A_i[4] = t44 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t97 + (t57 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t93 + (t46 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t95)) - (omega_j[0] * t93 +
         omega_j[1] * t95 + omega_j[2] * t97);
@@ -522,9 +518,6 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t104 = C_j[3] * t85 - C_j[5] * t79;
     const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
     const jg_real t106 = C_j[4] * t79 - C_j[3] * t84;
-    jac_phi_q_v_A_i[5] = t44 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t106 + (t57 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t101 + (t46 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t104)) + alphadot * (C_j[3] * t82
-        + C_j[4] * t71 + C_j[5] * t76) - (omega_j[0] * t101 + omega_j[1] * t104 + omega_j[2] * t106);
     const jg_real t107 = A_j[1] * v_3_in_j_0;
     const jg_real t108 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t109 = A_j[7] * omega_i[0] + omega_i[1] * t108;
@@ -534,20 +527,16 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t113 = e_ij_in_j_1 * t109 - e_ij_in_j_2 * t111 - (A_j[1] * v_i[0] + v_i[1] * t112);
     const jg_real t114 = A_j[4] * v_3_in_j_1;
     const jg_real t115 = A_j[1] * omega_i[0] + omega_i[1] * t112;
-    const jg_real t116 = e_ij_in_j_2 * t115 - e_ij_in_j_0 * t109 - (A_j[4] * v_i[0] + v_i[1] * t110);
+    const jg_real t116 = e_ij_in_j_2 * t115 - t109 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t110);
     const jg_real t117 = A_j[7] * v_3_in_j_2;
-    const jg_real t118 = e_ij_in_j_0 * t111 - e_ij_in_j_1 * t115 - (A_j[7] * v_i[0] + v_i[1] * t108);
-    jac_phi_q_v_A_i[6] = t117 + A_ji_2 * t118 + (t107 + A_ji_0 * t113 + (t114 + A_ji_1 * t116));
-    jac_phi_q_v_A_i[7] = t108 * v_3_in_j_2 + A_ji_5 * t118 + (t112 * v_3_in_j_0 + A_ji_3 * t113 + (t110 * v_3_in_j_1
-        + A_ji_4 * t116));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t113 + A_ji_7 * t116 + A_ji_8 * t118;
+    const jg_real t118 = t111 * e_ij_in_j_0 - e_ij_in_j_1 * t115 - (v_i[1] * t108 + A_j[7] * v_i[0]);
     const jg_real t119 = t110 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
-    const jg_real t120 = A_j[7] * C_i[6] + t108 * C_i[7];
+    const jg_real t120 = t108 * C_i[7] + A_j[7] * C_i[6];
     const jg_real t121 = t108 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
-    const jg_real t122 = A_j[4] * C_i[6] + C_i[7] * t110;
+    const jg_real t122 = t110 * C_i[7] + A_j[4] * C_i[6];
     const jg_real t123 = h_star_in_j_2 * t119 + t120 * g_star_in_j_1 - (h_star_in_j_1 * t121 + t122 *
         g_star_in_j_2);
-    const jg_real t124 = A_j[1] * C_i[6] + C_i[7] * t112;
+    const jg_real t124 = t112 * C_i[7] + A_j[1] * C_i[6];
     const jg_real t125 = t112 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
     const jg_real t126 = h_star_in_j_0 * t121 + t124 * g_star_in_j_2 - (h_star_in_j_2 * t125 + t120 *
         g_star_in_j_0);
@@ -556,22 +545,12 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t128 = C_j[8] * t119 - C_j[7] * t121;
     const jg_real t129 = C_j[6] * t121 - C_j[8] * t125;
     const jg_real t130 = C_j[7] * t125 - C_j[6] * t119;
-    jac_phi_q_v_A_i[9] = -(omega_j[0] * t128 + omega_j[1] * t129 + omega_j[2] * t130 + (alphadot * (C_j[6] * t123 +
-        C_j[7] * t126 + C_j[8] * t127) - (t109 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t130 + (t115 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t128 + (t111 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t129)))));
-    const jg_real t131 = C_j[2] * t122 - C_j[1] * t120;
-    const jg_real t132 = C_j[0] * t120 - C_j[2] * t124;
-    const jg_real t133 = C_j[1] * t124 - C_j[0] * t122;
-    jac_phi_q_v_A_i[10] = t109 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t133 + (t115 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t131 + (t111 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t132)) - (omega_j[0] * t131 +
-        omega_j[1] * t132 + omega_j[2] * t133);
+    const jg_real t131 = t122 * C_j[2] - t120 * C_j[1];
+    const jg_real t132 = t120 * C_j[0] - C_j[2] * t124;
+    const jg_real t133 = C_j[1] * t124 - t122 * C_j[0];
     const jg_real t134 = C_j[5] * t126 - C_j[4] * t127;
     const jg_real t135 = C_j[3] * t127 - C_j[5] * t123;
     const jg_real t136 = C_j[4] * t123 - C_j[3] * t126;
-    jac_phi_q_v_A_i[11] = t109 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t136 + (t115 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t134 + (t111 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t135)) + alphadot * (C_j[3] *
-        t125 + C_j[4] * t119 + C_j[5] * t121) - (omega_j[0] * t134 + omega_j[1] * t135 + omega_j[2] * t136);
     const jg_real t137 = A_j[2] * v_3_in_j_0;
     const jg_real t138 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t139 = A_j[8] * omega_i[0] + omega_i[1] * t138;
@@ -581,20 +560,34 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t143 = e_ij_in_j_1 * t139 - e_ij_in_j_2 * t141 - (A_j[2] * v_i[0] + v_i[1] * t142);
     const jg_real t144 = A_j[5] * v_3_in_j_1;
     const jg_real t145 = A_j[2] * omega_i[0] + omega_i[1] * t142;
-    const jg_real t146 = e_ij_in_j_2 * t145 - e_ij_in_j_0 * t139 - (A_j[5] * v_i[0] + v_i[1] * t140);
+    const jg_real t146 = e_ij_in_j_2 * t145 - t139 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t140);
     const jg_real t147 = A_j[8] * v_3_in_j_2;
-    const jg_real t148 = e_ij_in_j_0 * t141 - e_ij_in_j_1 * t145 - (A_j[8] * v_i[0] + v_i[1] * t138);
+    const jg_real t148 = t141 * e_ij_in_j_0 - e_ij_in_j_1 * t145 - (v_i[1] * t138 + A_j[8] * v_i[0]);
+    jac_phi_q_v_A_i[5] = t44 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t106 + (t57 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t101 + (t46 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t104)) + alphadot * (C_j[3] * t82
+        + C_j[4] * t71 + C_j[5] * t76) - (omega_j[0] * t101 + omega_j[1] * t104 + omega_j[2] * t106);
+    jac_phi_q_v_A_i[6] = t117 + A_ji_2 * t118 + (t107 + A_ji_0 * t113 + (t114 + A_ji_1 * t116));
+    jac_phi_q_v_A_i[7] = t108 * v_3_in_j_2 + A_ji_5 * t118 + (t112 * v_3_in_j_0 + A_ji_3 * t113 + (t110 * v_3_in_j_1
+        + A_ji_4 * t116));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t113 + A_ji_7 * t116 + A_ji_8 * t118;
+    jac_phi_q_v_A_i[9] = -(omega_j[0] * t128 + omega_j[1] * t129 + omega_j[2] * t130 + (alphadot * (C_j[6] * t123 +
+        C_j[7] * t126 + C_j[8] * t127) - (t109 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t130 + (t115 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t128 + (t111 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t129)))));
+    jac_phi_q_v_A_i[10] = t109 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t133 + (t115 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t131 + (t111 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t132)) - (omega_j[0] * t131 +
+        omega_j[1] * t132 + omega_j[2] * t133);
+    jac_phi_q_v_A_i[11] = t109 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t136 + (t115 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t134 + (t111 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t135)) + alphadot * (C_j[3] *
+        t125 + C_j[4] * t119 + C_j[5] * t121) - (omega_j[0] * t134 + omega_j[1] * t135 + omega_j[2] * t136);
     jac_phi_q_v_A_i[12] = t147 + A_ji_2 * t148 + (t137 + A_ji_0 * t143 + (t144 + A_ji_1 * t146));
-    jac_phi_q_v_A_i[13] = t138 * v_3_in_j_2 + A_ji_5 * t148 + (t142 * v_3_in_j_0 + A_ji_3 * t143 + (t140 *
-        v_3_in_j_1 + A_ji_4 * t146));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t143 + A_ji_7 * t146 + A_ji_8 * t148;
     const jg_real t149 = t140 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
-    const jg_real t150 = A_j[8] * C_i[6] + t138 * C_i[7];
+    const jg_real t150 = t138 * C_i[7] + A_j[8] * C_i[6];
     const jg_real t151 = t138 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
-    const jg_real t152 = A_j[5] * C_i[6] + C_i[7] * t140;
+    const jg_real t152 = t140 * C_i[7] + A_j[5] * C_i[6];
     const jg_real t153 = h_star_in_j_2 * t149 + t150 * g_star_in_j_1 - (h_star_in_j_1 * t151 + t152 *
         g_star_in_j_2);
-    const jg_real t154 = A_j[2] * C_i[6] + C_i[7] * t142;
+    const jg_real t154 = t142 * C_i[7] + A_j[2] * C_i[6];
     const jg_real t155 = t142 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
     const jg_real t156 = h_star_in_j_0 * t151 + t154 * g_star_in_j_2 - (h_star_in_j_2 * t155 + t150 *
         g_star_in_j_0);
@@ -603,22 +596,12 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t158 = C_j[8] * t149 - C_j[7] * t151;
     const jg_real t159 = C_j[6] * t151 - C_j[8] * t155;
     const jg_real t160 = C_j[7] * t155 - C_j[6] * t149;
-    jac_phi_q_v_A_i[15] = -(omega_j[0] * t158 + omega_j[1] * t159 + omega_j[2] * t160 + (alphadot * (C_j[6] * t153 +
-        C_j[7] * t156 + C_j[8] * t157) - (t139 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t160 + (t145 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t158 + (t141 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t159)))));
-    const jg_real t161 = C_j[2] * t152 - C_j[1] * t150;
-    const jg_real t162 = C_j[0] * t150 - C_j[2] * t154;
-    const jg_real t163 = C_j[1] * t154 - C_j[0] * t152;
-    jac_phi_q_v_A_i[16] = t139 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t163 + (t145 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t161 + (t141 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t162)) - (omega_j[0] * t161 +
-        omega_j[1] * t162 + omega_j[2] * t163);
+    const jg_real t161 = t152 * C_j[2] - t150 * C_j[1];
+    const jg_real t162 = t150 * C_j[0] - C_j[2] * t154;
+    const jg_real t163 = C_j[1] * t154 - t152 * C_j[0];
     const jg_real t164 = C_j[5] * t156 - C_j[4] * t157;
     const jg_real t165 = C_j[3] * t157 - C_j[5] * t153;
     const jg_real t166 = C_j[4] * t153 - C_j[3] * t156;
-    jac_phi_q_v_A_i[17] = t139 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t166 + (t145 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t164 + (t141 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t165)) + alphadot * (C_j[3] *
-        t155 + C_j[4] * t149 + C_j[5] * t151) - (omega_j[0] * t164 + omega_j[1] * t165 + omega_j[2] * t166);
     const jg_real t167 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t168 = A_j[6] * omega_i[2] + omega_i[1] * t167;
     const jg_real t169 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
@@ -626,19 +609,32 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t171 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t172 = e_ij_in_j_1 * t168 - e_ij_in_j_2 * t170 - (A_j[0] * v_i[2] + v_i[1] * t171);
     const jg_real t173 = A_j[0] * omega_i[2] + omega_i[1] * t171;
-    const jg_real t174 = e_ij_in_j_2 * t173 - e_ij_in_j_0 * t168 - (A_j[3] * v_i[2] + v_i[1] * t169);
-    const jg_real t175 = e_ij_in_j_0 * t170 - e_ij_in_j_1 * t173 - (A_j[6] * v_i[2] + v_i[1] * t167);
+    const jg_real t174 = e_ij_in_j_2 * t173 - t168 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t169);
+    const jg_real t175 = e_ij_in_j_0 * t170 - e_ij_in_j_1 * t173 - (v_i[1] * t167 + A_j[6] * v_i[2]);
+    jac_phi_q_v_A_i[13] = t138 * v_3_in_j_2 + A_ji_5 * t148 + (t142 * v_3_in_j_0 + A_ji_3 * t143 + (t140 *
+        v_3_in_j_1 + A_ji_4 * t146));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t143 + A_ji_7 * t146 + A_ji_8 * t148;
+    jac_phi_q_v_A_i[15] = -(omega_j[0] * t158 + omega_j[1] * t159 + omega_j[2] * t160 + (alphadot * (C_j[6] * t153 +
+        C_j[7] * t156 + C_j[8] * t157) - (t139 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t160 + (t145 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t158 + (t141 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t159)))));
+    jac_phi_q_v_A_i[16] = t139 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t163 + (t145 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t161 + (t141 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t162)) - (omega_j[0] * t161 +
+        omega_j[1] * t162 + omega_j[2] * t163);
+    jac_phi_q_v_A_i[17] = t139 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t166 + (t145 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t164 + (t141 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t165)) + alphadot * (C_j[3] *
+        t155 + C_j[4] * t149 + C_j[5] * t151) - (omega_j[0] * t164 + omega_j[1] * t165 + omega_j[2] * t166);
     jac_phi_q_v_A_i[18] = A_ji_0 * t172 + A_ji_1 * t174 + A_ji_2 * t175;
     jac_phi_q_v_A_i[19] = t167 * v_3_in_j_2 + A_ji_5 * t175 + (t171 * v_3_in_j_0 + A_ji_3 * t172 + (t169 *
         v_3_in_j_1 + A_ji_4 * t174));
     jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t175 + (t42 + A_ji_6 * t172 + (t56 + A_ji_7 * t174));
     const jg_real t176 = t169 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
-    const jg_real t177 = A_j[6] * C_i[8] + t167 * C_i[7];
+    const jg_real t177 = t167 * C_i[7] + A_j[6] * C_i[8];
     const jg_real t178 = t167 * g_star_in_i_1 + A_j[6] * g_star_in_i_2;
-    const jg_real t179 = A_j[3] * C_i[8] + C_i[7] * t169;
+    const jg_real t179 = t169 * C_i[7] + A_j[3] * C_i[8];
     const jg_real t180 = h_star_in_j_2 * t176 + t177 * g_star_in_j_1 - (h_star_in_j_1 * t178 + t179 *
         g_star_in_j_2);
-    const jg_real t181 = A_j[0] * C_i[8] + C_i[7] * t171;
+    const jg_real t181 = t171 * C_i[7] + A_j[0] * C_i[8];
     const jg_real t182 = t171 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
     const jg_real t183 = h_star_in_j_0 * t178 + t181 * g_star_in_j_2 - (h_star_in_j_2 * t182 + t177 *
         g_star_in_j_0);
@@ -647,22 +643,12 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t185 = C_j[8] * t176 - C_j[7] * t178;
     const jg_real t186 = C_j[6] * t178 - C_j[8] * t182;
     const jg_real t187 = C_j[7] * t182 - C_j[6] * t176;
-    jac_phi_q_v_A_i[21] = -(omega_j[0] * t185 + omega_j[1] * t186 + omega_j[2] * t187 + (alphadot * (C_j[6] * t180 +
-        C_j[7] * t183 + C_j[8] * t184) - (t168 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t187 + (t173 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t185 + (t170 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t186)))));
-    const jg_real t188 = C_j[2] * t179 - C_j[1] * t177;
-    const jg_real t189 = C_j[0] * t177 - C_j[2] * t181;
+    const jg_real t188 = C_j[2] * t179 - t177 * C_j[1];
+    const jg_real t189 = t177 * C_j[0] - C_j[2] * t181;
     const jg_real t190 = C_j[1] * t181 - C_j[0] * t179;
-    jac_phi_q_v_A_i[22] = t168 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t190 + (t173 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t188 + (t170 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t189)) - (omega_j[0] * t188 +
-        omega_j[1] * t189 + omega_j[2] * t190);
     const jg_real t191 = C_j[5] * t183 - C_j[4] * t184;
     const jg_real t192 = C_j[3] * t184 - C_j[5] * t180;
     const jg_real t193 = C_j[4] * t180 - C_j[3] * t183;
-    jac_phi_q_v_A_i[23] = t168 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t193 + (t173 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t191 + (t170 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t192)) + alphadot * (C_j[3] *
-        t182 + C_j[4] * t176 + C_j[5] * t178) - (omega_j[0] * t191 + omega_j[1] * t192 + omega_j[2] * t193);
     const jg_real t194 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t195 = A_j[7] * omega_i[2] + omega_i[1] * t194;
     const jg_real t196 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
@@ -670,19 +656,15 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t198 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t199 = e_ij_in_j_1 * t195 - e_ij_in_j_2 * t197 - (A_j[1] * v_i[2] + v_i[1] * t198);
     const jg_real t200 = A_j[1] * omega_i[2] + omega_i[1] * t198;
-    const jg_real t201 = e_ij_in_j_2 * t200 - e_ij_in_j_0 * t195 - (A_j[4] * v_i[2] + v_i[1] * t196);
-    const jg_real t202 = e_ij_in_j_0 * t197 - e_ij_in_j_1 * t200 - (A_j[7] * v_i[2] + v_i[1] * t194);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t199 + A_ji_1 * t201 + A_ji_2 * t202;
-    jac_phi_q_v_A_i[25] = t194 * v_3_in_j_2 + A_ji_5 * t202 + (t198 * v_3_in_j_0 + A_ji_3 * t199 + (t196 *
-        v_3_in_j_1 + A_ji_4 * t201));
-    jac_phi_q_v_A_i[26] = t117 + A_ji_8 * t202 + (t107 + A_ji_6 * t199 + (t114 + A_ji_7 * t201));
+    const jg_real t201 = e_ij_in_j_2 * t200 - t195 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t196);
+    const jg_real t202 = e_ij_in_j_0 * t197 - e_ij_in_j_1 * t200 - (v_i[1] * t194 + A_j[7] * v_i[2]);
     const jg_real t203 = t196 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
-    const jg_real t204 = A_j[7] * C_i[8] + t194 * C_i[7];
+    const jg_real t204 = t194 * C_i[7] + A_j[7] * C_i[8];
     const jg_real t205 = t194 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
-    const jg_real t206 = A_j[4] * C_i[8] + C_i[7] * t196;
+    const jg_real t206 = t196 * C_i[7] + A_j[4] * C_i[8];
     const jg_real t207 = h_star_in_j_2 * t203 + t204 * g_star_in_j_1 - (h_star_in_j_1 * t205 + t206 *
         g_star_in_j_2);
-    const jg_real t208 = A_j[1] * C_i[8] + C_i[7] * t198;
+    const jg_real t208 = t198 * C_i[7] + A_j[1] * C_i[8];
     const jg_real t209 = t198 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
     const jg_real t210 = h_star_in_j_0 * t205 + t208 * g_star_in_j_2 - (h_star_in_j_2 * t209 + t204 *
         g_star_in_j_0);
@@ -691,22 +673,33 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t212 = C_j[8] * t203 - C_j[7] * t205;
     const jg_real t213 = C_j[6] * t205 - C_j[8] * t209;
     const jg_real t214 = C_j[7] * t209 - C_j[6] * t203;
+    const jg_real t215 = C_j[2] * t206 - t204 * C_j[1];
+    const jg_real t216 = t204 * C_j[0] - C_j[2] * t208;
+    const jg_real t217 = C_j[1] * t208 - C_j[0] * t206;
+    jac_phi_q_v_A_i[21] = -(omega_j[0] * t185 + omega_j[1] * t186 + omega_j[2] * t187 + (alphadot * (C_j[6] * t180 +
+        C_j[7] * t183 + C_j[8] * t184) - (t168 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t187 + (t173 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t185 + (t170 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t186)))));
+    jac_phi_q_v_A_i[22] = t168 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t190 + (t173 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t188 + (t170 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t189)) - (omega_j[0] * t188 +
+        omega_j[1] * t189 + omega_j[2] * t190);
+    jac_phi_q_v_A_i[23] = t168 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t193 + (t173 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t191 + (t170 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t192)) + alphadot * (C_j[3] *
+        t182 + C_j[4] * t176 + C_j[5] * t178) - (omega_j[0] * t191 + omega_j[1] * t192 + omega_j[2] * t193);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t199 + A_ji_1 * t201 + A_ji_2 * t202;
+    jac_phi_q_v_A_i[25] = t194 * v_3_in_j_2 + A_ji_5 * t202 + (t198 * v_3_in_j_0 + A_ji_3 * t199 + (t196 *
+        v_3_in_j_1 + A_ji_4 * t201));
+    jac_phi_q_v_A_i[26] = t117 + A_ji_8 * t202 + (t107 + A_ji_6 * t199 + (t114 + A_ji_7 * t201));
     jac_phi_q_v_A_i[27] = -(omega_j[0] * t212 + omega_j[1] * t213 + omega_j[2] * t214 + (alphadot * (C_j[6] * t207 +
         C_j[7] * t210 + C_j[8] * t211) - (t195 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t214 + (t200 *
         g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t212 + (t197 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
         t213)))));
-    const jg_real t215 = C_j[2] * t206 - C_j[1] * t204;
-    const jg_real t216 = C_j[0] * t204 - C_j[2] * t208;
-    const jg_real t217 = C_j[1] * t208 - C_j[0] * t206;
     jac_phi_q_v_A_i[28] = t195 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t217 + (t200 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t215 + (t197 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t216)) - (omega_j[0] * t215 +
         omega_j[1] * t216 + omega_j[2] * t217);
     const jg_real t218 = C_j[5] * t210 - C_j[4] * t211;
     const jg_real t219 = C_j[3] * t211 - C_j[5] * t207;
     const jg_real t220 = C_j[4] * t207 - C_j[3] * t210;
-    jac_phi_q_v_A_i[29] = t195 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t220 + (t200 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t218 + (t197 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t219)) + alphadot * (C_j[3] *
-        t209 + C_j[4] * t203 + C_j[5] * t205) - (omega_j[0] * t218 + omega_j[1] * t219 + omega_j[2] * t220);
     const jg_real t221 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t222 = A_j[8] * omega_i[2] + omega_i[1] * t221;
     const jg_real t223 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
@@ -714,19 +707,15 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t225 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t226 = e_ij_in_j_1 * t222 - e_ij_in_j_2 * t224 - (A_j[2] * v_i[2] + v_i[1] * t225);
     const jg_real t227 = A_j[2] * omega_i[2] + omega_i[1] * t225;
-    const jg_real t228 = e_ij_in_j_2 * t227 - e_ij_in_j_0 * t222 - (A_j[5] * v_i[2] + v_i[1] * t223);
-    const jg_real t229 = e_ij_in_j_0 * t224 - e_ij_in_j_1 * t227 - (A_j[8] * v_i[2] + v_i[1] * t221);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t226 + A_ji_1 * t228 + A_ji_2 * t229;
-    jac_phi_q_v_A_i[31] = t221 * v_3_in_j_2 + A_ji_5 * t229 + (t225 * v_3_in_j_0 + A_ji_3 * t226 + (t223 *
-        v_3_in_j_1 + A_ji_4 * t228));
-    jac_phi_q_v_A_i[32] = t147 + A_ji_8 * t229 + (t137 + A_ji_6 * t226 + (t144 + A_ji_7 * t228));
+    const jg_real t228 = e_ij_in_j_2 * t227 - t222 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t223);
+    const jg_real t229 = e_ij_in_j_0 * t224 - e_ij_in_j_1 * t227 - (v_i[1] * t221 + A_j[8] * v_i[2]);
     const jg_real t230 = t223 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
-    const jg_real t231 = A_j[8] * C_i[8] + t221 * C_i[7];
+    const jg_real t231 = t221 * C_i[7] + A_j[8] * C_i[8];
     const jg_real t232 = t221 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
-    const jg_real t233 = A_j[5] * C_i[8] + C_i[7] * t223;
+    const jg_real t233 = t223 * C_i[7] + A_j[5] * C_i[8];
     const jg_real t234 = h_star_in_j_2 * t230 + t231 * g_star_in_j_1 - (h_star_in_j_1 * t232 + t233 *
         g_star_in_j_2);
-    const jg_real t235 = A_j[2] * C_i[8] + C_i[7] * t225;
+    const jg_real t235 = t225 * C_i[7] + A_j[2] * C_i[8];
     const jg_real t236 = t225 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
     const jg_real t237 = h_star_in_j_0 * t232 + t235 * g_star_in_j_2 - (h_star_in_j_2 * t236 + t231 *
         g_star_in_j_0);
@@ -735,29 +724,19 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t239 = C_j[8] * t230 - C_j[7] * t232;
     const jg_real t240 = C_j[6] * t232 - C_j[8] * t236;
     const jg_real t241 = C_j[7] * t236 - C_j[6] * t230;
-    jac_phi_q_v_A_i[33] = -(omega_j[0] * t239 + omega_j[1] * t240 + omega_j[2] * t241 + (alphadot * (C_j[6] * t234 +
-        C_j[7] * t237 + C_j[8] * t238) - (t222 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t241 + (t227 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t239 + (t224 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t240)))));
-    const jg_real t242 = C_j[2] * t233 - C_j[1] * t231;
-    const jg_real t243 = C_j[0] * t231 - C_j[2] * t235;
+    const jg_real t242 = C_j[2] * t233 - t231 * C_j[1];
+    const jg_real t243 = t231 * C_j[0] - C_j[2] * t235;
     const jg_real t244 = C_j[1] * t235 - C_j[0] * t233;
-    jac_phi_q_v_A_i[34] = t222 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t244 + (t227 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t242 + (t224 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t243)) - (omega_j[0] * t242 +
-        omega_j[1] * t243 + omega_j[2] * t244);
     const jg_real t245 = C_j[5] * t237 - C_j[4] * t238;
     const jg_real t246 = C_j[3] * t238 - C_j[5] * t234;
     const jg_real t247 = C_j[4] * t234 - C_j[3] * t237;
-    jac_phi_q_v_A_i[35] = t222 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t247 + (t227 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t245 + (t224 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t246)) + alphadot * (C_j[3] *
-        t236 + C_j[4] * t230 + C_j[5] * t232) - (omega_j[0] * t245 + omega_j[1] * t246 + omega_j[2] * t247);
     const jg_real t248 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
     const jg_real t249 = omega_i[1] * t248;
-    const jg_real t250 = e_ij_in_j_1 * t249;
+    const jg_real t250 = t249 * e_ij_in_j_1;
     const jg_real t251 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t252 = omega_i[1] * t251;
     const jg_real t253 = e_ij_in_j_2 * t252;
-    const jg_real t254 = A_i[6] * v_i[2] + A_i[0] * v_i[0];
+    const jg_real t254 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
     const jg_real t255 = t250 - t253 - t254;
     const jg_real t256 = v_0_world_0 * omega_i_in_j_2;
     const jg_real t257 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
@@ -768,16 +747,31 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t262 = e_ij_in_j_1 * t257;
     const jg_real t263 = v_i[1] * t248;
     const jg_real t264 = t261 + t252 * e_ij_in_j_0 - t262 - t263;
+    jac_phi_q_v_A_i[29] = t195 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t220 + (t200 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t218 + (t197 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t219)) + alphadot * (C_j[3] *
+        t209 + C_j[4] * t203 + C_j[5] * t205) - (omega_j[0] * t218 + omega_j[1] * t219 + omega_j[2] * t220);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t226 + A_ji_1 * t228 + A_ji_2 * t229;
+    jac_phi_q_v_A_i[31] = t221 * v_3_in_j_2 + A_ji_5 * t229 + (t225 * v_3_in_j_0 + A_ji_3 * t226 + (t223 *
+        v_3_in_j_1 + A_ji_4 * t228));
+    jac_phi_q_v_A_i[32] = t147 + A_ji_8 * t229 + (t137 + A_ji_6 * t226 + (t144 + A_ji_7 * t228));
+    jac_phi_q_v_A_i[33] = -(omega_j[0] * t239 + omega_j[1] * t240 + omega_j[2] * t241 + (alphadot * (C_j[6] * t234 +
+        C_j[7] * t237 + C_j[8] * t238) - (t222 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t241 + (t227 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t239 + (t224 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t240)))));
+    jac_phi_q_v_A_i[34] = t222 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t244 + (t227 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t242 + (t224 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t243)) - (omega_j[0] * t242 +
+        omega_j[1] * t243 + omega_j[2] * t244);
+    jac_phi_q_v_A_i[35] = t222 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t247 + (t227 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t245 + (t224 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t246)) + alphadot * (C_j[3] *
+        t236 + C_j[4] * t230 + C_j[5] * t232) - (omega_j[0] * t245 + omega_j[1] * t246 + omega_j[2] * t247);
     jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t255 + A_ji_1 * t260 + A_ji_2 * t264;
-    jac_phi_q_v_A_j[1] = t248 * v_3_in_j_2 + A_ji_5 * t264 + (t251 * v_3_in_j_1 + A_ji_4 * t260 + A_ji_3 * t255);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t255 + A_ji_7 * t260 + A_ji_8 * t264;
     const jg_real t265 = t251 * g_star_in_i_1;
     const jg_real t266 = h_star_in_j_2 * t265;
     const jg_real t267 = t248 * C_i[7];
     const jg_real t268 = t267 * g_star_in_j_1;
     const jg_real t269 = t248 * g_star_in_i_1;
     const jg_real t270 = h_star_in_j_1 * t269;
-    const jg_real t271 = C_i[7] * t251;
+    const jg_real t271 = t251 * C_i[7];
     const jg_real t272 = t271 * g_star_in_j_2;
     const jg_real t273 = t266 + t268 - (t270 + t272);
     const jg_real t274 = A_i[0] * C_i[6] + A_i[6] * C_i[8];
@@ -795,33 +789,23 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t286 = C_j[6] * t269 - t285;
     const jg_real t287 = C_j[7] * t276;
     const jg_real t288 = t287 - C_j[6] * t265;
-    jac_phi_q_v_A_j[3] = -(omega_j[0] * t284 + omega_j[1] * t286 + omega_j[2] * t288 + (alphadot * (C_j[6] * t273 +
-        C_j[7] * t278 + C_j[8] * t281) - (t249 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t288 + (t257 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t284 + (t252 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t286)))));
-    const jg_real t289 = C_j[2] * t271;
+    const jg_real t289 = t271 * C_j[2];
     const jg_real t290 = t267 * C_j[1];
     const jg_real t291 = t289 - t290;
-    const jg_real t292 = C_j[2] * t274;
+    const jg_real t292 = t274 * C_j[2];
     const jg_real t293 = t267 * C_j[0] - t292;
-    const jg_real t294 = C_j[1] * t274;
-    const jg_real t295 = t294 - C_j[0] * t271;
-    jac_phi_q_v_A_j[4] = t249 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t295 + (t257 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t291 + (t252 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t291 +
-        omega_j[1] * t293 + omega_j[2] * t295);
+    const jg_real t294 = t274 * C_j[1];
+    const jg_real t295 = t294 - t271 * C_j[0];
     const jg_real t296 = C_j[5] * t278 - C_j[4] * t281;
     const jg_real t297 = C_j[3] * t281 - C_j[5] * t273;
     const jg_real t298 = C_j[4] * t273 - C_j[3] * t278;
-    jac_phi_q_v_A_j[5] = t249 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t298 + (t257 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t296 + (t252 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t297)) + alphadot * (C_j[3] *
-        t276 + C_j[4] * t265 + C_j[5] * t269) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
     const jg_real t299 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t300 = omega_i[1] * t299;
-    const jg_real t301 = e_ij_in_j_1 * t300;
+    const jg_real t301 = t300 * e_ij_in_j_1;
     const jg_real t302 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
     const jg_real t303 = omega_i[1] * t302;
     const jg_real t304 = e_ij_in_j_2 * t303;
-    const jg_real t305 = A_i[7] * v_i[2] + A_i[1] * v_i[0];
+    const jg_real t305 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
     const jg_real t306 = t301 - t304 - t305;
     const jg_real t307 = v_0_world_1 * omega_i_in_j_2;
     const jg_real t308 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
@@ -832,6 +816,18 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t313 = e_ij_in_j_1 * t308;
     const jg_real t314 = v_i[1] * t299;
     const jg_real t315 = t312 + t303 * e_ij_in_j_0 - t313 - t314;
+    jac_phi_q_v_A_j[1] = t248 * v_3_in_j_2 + A_ji_5 * t264 + (t251 * v_3_in_j_1 + A_ji_4 * t260 + A_ji_3 * t255);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t255 + A_ji_7 * t260 + A_ji_8 * t264;
+    jac_phi_q_v_A_j[3] = -(omega_j[0] * t284 + omega_j[1] * t286 + omega_j[2] * t288 + (alphadot * (C_j[6] * t273 +
+        C_j[7] * t278 + C_j[8] * t281) - (t249 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t288 + (t257 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t284 + (t252 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t286)))));
+    jac_phi_q_v_A_j[4] = t249 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t295 + (t257 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t291 + (t252 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t291 +
+        omega_j[1] * t293 + omega_j[2] * t295);
+    jac_phi_q_v_A_j[5] = t249 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t298 + (t257 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t296 + (t252 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t297)) + alphadot * (C_j[3] *
+        t276 + C_j[4] * t265 + C_j[5] * t269) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
     jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t306 + A_ji_1 * t311 + A_ji_2 * t315;
     jac_phi_q_v_A_j[7] = t299 * v_3_in_j_2 + A_ji_5 * t315 + (t302 * v_3_in_j_1 + A_ji_4 * t311 + A_ji_3 * t306);
     jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t306 + A_ji_7 * t311 + A_ji_8 * t315;
@@ -841,7 +837,7 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t319 = t318 * g_star_in_j_1;
     const jg_real t320 = t299 * g_star_in_i_1;
     const jg_real t321 = h_star_in_j_1 * t320;
-    const jg_real t322 = C_i[7] * t302;
+    const jg_real t322 = t302 * C_i[7];
     const jg_real t323 = t322 * g_star_in_j_2;
     const jg_real t324 = t317 + t319 - (t321 + t323);
     const jg_real t325 = A_i[1] * C_i[6] + A_i[7] * C_i[8];
@@ -859,33 +855,23 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t337 = C_j[6] * t320 - t336;
     const jg_real t338 = C_j[7] * t327;
     const jg_real t339 = t338 - C_j[6] * t316;
-    jac_phi_q_v_A_j[9] = -(omega_j[0] * t335 + omega_j[1] * t337 + omega_j[2] * t339 + (alphadot * (C_j[6] * t324 +
-        C_j[7] * t329 + C_j[8] * t332) - (t300 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t339 + (t308 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t335 + (t303 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t337)))));
-    const jg_real t340 = C_j[2] * t322;
+    const jg_real t340 = t322 * C_j[2];
     const jg_real t341 = t318 * C_j[1];
     const jg_real t342 = t340 - t341;
-    const jg_real t343 = C_j[2] * t325;
+    const jg_real t343 = t325 * C_j[2];
     const jg_real t344 = t318 * C_j[0] - t343;
-    const jg_real t345 = C_j[1] * t325;
-    const jg_real t346 = t345 - C_j[0] * t322;
-    jac_phi_q_v_A_j[10] = t300 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t308 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t342 + (t303 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
-        omega_j[1] * t344 + omega_j[2] * t346);
+    const jg_real t345 = t325 * C_j[1];
+    const jg_real t346 = t345 - t322 * C_j[0];
     const jg_real t347 = C_j[5] * t329 - C_j[4] * t332;
     const jg_real t348 = C_j[3] * t332 - C_j[5] * t324;
     const jg_real t349 = C_j[4] * t324 - C_j[3] * t329;
-    jac_phi_q_v_A_j[11] = t300 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t349 + (t308 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t347 + (t303 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t348)) + alphadot * (C_j[3] *
-        t327 + C_j[4] * t316 + C_j[5] * t320) - (omega_j[0] * t347 + omega_j[1] * t348 + omega_j[2] * t349);
     const jg_real t350 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t351 = omega_i[1] * t350;
-    const jg_real t352 = e_ij_in_j_1 * t351;
+    const jg_real t352 = t351 * e_ij_in_j_1;
     const jg_real t353 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
     const jg_real t354 = omega_i[1] * t353;
     const jg_real t355 = e_ij_in_j_2 * t354;
-    const jg_real t356 = A_i[8] * v_i[2] + A_i[2] * v_i[0];
+    const jg_real t356 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
     const jg_real t357 = t352 - t355 - t356;
     const jg_real t358 = v_0_world_2 * omega_i_in_j_2;
     const jg_real t359 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
@@ -896,16 +882,13 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t364 = e_ij_in_j_1 * t359;
     const jg_real t365 = v_i[1] * t350;
     const jg_real t366 = t363 + t354 * e_ij_in_j_0 - t364 - t365;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t357 + A_ji_1 * t362 + A_ji_2 * t366;
-    jac_phi_q_v_A_j[13] = t350 * v_3_in_j_2 + A_ji_5 * t366 + (t353 * v_3_in_j_1 + A_ji_4 * t362 + A_ji_3 * t357);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t357 + A_ji_7 * t362 + A_ji_8 * t366;
     const jg_real t367 = t353 * g_star_in_i_1;
     const jg_real t368 = h_star_in_j_2 * t367;
     const jg_real t369 = t350 * C_i[7];
     const jg_real t370 = t369 * g_star_in_j_1;
     const jg_real t371 = t350 * g_star_in_i_1;
     const jg_real t372 = h_star_in_j_1 * t371;
-    const jg_real t373 = C_i[7] * t353;
+    const jg_real t373 = t353 * C_i[7];
     const jg_real t374 = t373 * g_star_in_j_2;
     const jg_real t375 = t368 + t370 - (t372 + t374);
     const jg_real t376 = A_i[2] * C_i[6] + A_i[8] * C_i[8];
@@ -923,38 +906,45 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t388 = C_j[6] * t371 - t387;
     const jg_real t389 = C_j[7] * t378;
     const jg_real t390 = t389 - C_j[6] * t367;
+    const jg_real t391 = t373 * C_j[2];
+    const jg_real t392 = t369 * C_j[1];
+    const jg_real t393 = t391 - t392;
+    const jg_real t394 = t376 * C_j[2];
+    const jg_real t395 = t369 * C_j[0] - t394;
+    const jg_real t396 = t376 * C_j[1];
+    const jg_real t397 = t396 - t373 * C_j[0];
+    jac_phi_q_v_A_j[9] = -(omega_j[0] * t335 + omega_j[1] * t337 + omega_j[2] * t339 + (alphadot * (C_j[6] * t324 +
+        C_j[7] * t329 + C_j[8] * t332) - (t300 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t339 + (t308 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t335 + (t303 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t337)))));
+    jac_phi_q_v_A_j[10] = t300 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t308 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t342 + (t303 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
+        omega_j[1] * t344 + omega_j[2] * t346);
+    jac_phi_q_v_A_j[11] = t300 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t349 + (t308 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t347 + (t303 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t348)) + alphadot * (C_j[3] *
+        t327 + C_j[4] * t316 + C_j[5] * t320) - (omega_j[0] * t347 + omega_j[1] * t348 + omega_j[2] * t349);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t357 + A_ji_1 * t362 + A_ji_2 * t366;
+    jac_phi_q_v_A_j[13] = t350 * v_3_in_j_2 + A_ji_5 * t366 + (t353 * v_3_in_j_1 + A_ji_4 * t362 + A_ji_3 * t357);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t357 + A_ji_7 * t362 + A_ji_8 * t366;
     jac_phi_q_v_A_j[15] = -(omega_j[0] * t386 + omega_j[1] * t388 + omega_j[2] * t390 + (alphadot * (C_j[6] * t375 +
         C_j[7] * t380 + C_j[8] * t383) - (t351 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t390 + (t359 *
         g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t386 + (t354 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
         t388)))));
-    const jg_real t391 = C_j[2] * t373;
-    const jg_real t392 = t369 * C_j[1];
-    const jg_real t393 = t391 - t392;
-    const jg_real t394 = C_j[2] * t376;
-    const jg_real t395 = t369 * C_j[0] - t394;
-    const jg_real t396 = C_j[1] * t376;
-    const jg_real t397 = t396 - C_j[0] * t373;
     jac_phi_q_v_A_j[16] = t351 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t397 + (t359 * h_star_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t393 + (t354 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t395)) - (omega_j[0] * t393 +
         omega_j[1] * t395 + omega_j[2] * t397);
     const jg_real t398 = C_j[5] * t380 - C_j[4] * t383;
     const jg_real t399 = C_j[3] * t383 - C_j[5] * t375;
     const jg_real t400 = C_j[4] * t375 - C_j[3] * t380;
-    jac_phi_q_v_A_j[17] = t351 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t400 + (t359 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t398 + (t354 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t399)) + alphadot * (C_j[3] *
-        t378 + C_j[4] * t367 + C_j[5] * t371) - (omega_j[0] * t398 + omega_j[1] * t399 + omega_j[2] * t400);
     const jg_real t401 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
     const jg_real t402 = omega_i[1] * t401;
     const jg_real t403 = t402 * e_ij_in_j_0;
     const jg_real t404 = t403 + t253 + t254;
-    const jg_real t405 = e_ij_in_j_1 * t402 + t256 - t258 + t259;
+    const jg_real t405 = t402 * e_ij_in_j_1 + t256 - t258 + t259;
     const jg_real t406 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t407 = e_ij_in_j_0 * t257;
+    const jg_real t407 = t257 * e_ij_in_j_0;
     const jg_real t408 = v_i[1] * t401;
     const jg_real t409 = t407 - (t406 - e_ij_in_j_1 * t252) - t408;
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t404 + A_ji_0 * t405 + A_ji_2 * t409;
-    jac_phi_q_v_A_j[19] = t401 * v_3_in_j_2 + A_ji_5 * t409 + (A_ji_3 * t405 - t251 * v_3_in_j_0 - A_ji_4 * t404);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t404 + A_ji_6 * t405 + A_ji_8 * t409;
     const jg_real t410 = t401 * C_i[7];
     const jg_real t411 = t401 * g_star_in_i_1;
     const jg_real t412 = t277 + t410 * g_star_in_j_1 - (h_star_in_j_1 * t411 + t275);
@@ -969,35 +959,39 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t421 = t282 + t420;
     const jg_real t422 = C_j[6] * t276;
     const jg_real t423 = t422 + C_j[7] * t265;
-    jac_phi_q_v_A_j[21] = -(omega_j[0] * t419 + omega_j[1] * t421 - omega_j[2] * t423 + (alphadot * (C_j[6] * t412 +
-        C_j[7] * t415 + C_j[8] * t418) - (t402 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t423 + (omega_i_in_j_0 *
-        t419 - t252 * g_star_cross_h_j_in_j_0 + (t257 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t421)))));
     const jg_real t424 = t410 * C_j[0];
     const jg_real t425 = t424 + t289;
     const jg_real t426 = t292 - t410 * C_j[1];
-    const jg_real t427 = C_j[0] * t274;
-    const jg_real t428 = t427 + C_j[1] * t271;
-    jac_phi_q_v_A_j[22] = t402 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t428 + (omega_i_in_j_0 * t426 - t252 *
-        h_star_cross_f_j_in_j_0 + (t257 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t425)) - (omega_j[0] * t426 +
-        omega_j[1] * t425 - omega_j[2] * t428);
+    const jg_real t427 = t274 * C_j[0];
+    const jg_real t428 = t427 + t271 * C_j[1];
     const jg_real t429 = C_j[5] * t415 - C_j[4] * t418;
     const jg_real t430 = C_j[3] * t418 - C_j[5] * t412;
     const jg_real t431 = C_j[4] * t412 - C_j[3] * t415;
-    jac_phi_q_v_A_j[23] = t402 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (omega_i_in_j_0 * t429 - t252 *
-        f_star_cross_g_j_in_j_0 + (t257 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t430)) + alphadot * (C_j[4] *
-        t276 - C_j[3] * t265 + C_j[5] * t411) - (omega_j[0] * t429 + omega_j[1] * t430 + omega_j[2] * t431);
     const jg_real t432 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
     const jg_real t433 = omega_i[1] * t432;
     const jg_real t434 = t433 * e_ij_in_j_0;
     const jg_real t435 = t434 + t304 + t305;
-    const jg_real t436 = e_ij_in_j_1 * t433 + t307 - t309 + t310;
+    const jg_real t436 = t433 * e_ij_in_j_1 + t307 - t309 + t310;
     const jg_real t437 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t438 = e_ij_in_j_0 * t308;
+    const jg_real t438 = t308 * e_ij_in_j_0;
     const jg_real t439 = v_i[1] * t432;
     const jg_real t440 = t438 - (t437 - e_ij_in_j_1 * t303) - t439;
+    jac_phi_q_v_A_j[17] = t351 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t400 + (t359 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t398 + (t354 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t399)) + alphadot * (C_j[3] *
+        t378 + C_j[4] * t367 + C_j[5] * t371) - (omega_j[0] * t398 + omega_j[1] * t399 + omega_j[2] * t400);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t404 + A_ji_0 * t405 + A_ji_2 * t409;
+    jac_phi_q_v_A_j[19] = t401 * v_3_in_j_2 + A_ji_5 * t409 + (A_ji_3 * t405 - t251 * v_3_in_j_0 - A_ji_4 * t404);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t404 + A_ji_6 * t405 + A_ji_8 * t409;
+    jac_phi_q_v_A_j[21] = -(omega_j[0] * t419 + omega_j[1] * t421 - omega_j[2] * t423 + (alphadot * (C_j[6] * t412 +
+        C_j[7] * t415 + C_j[8] * t418) - (t402 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t423 + (omega_i_in_j_0 *
+        t419 - t252 * g_star_cross_h_j_in_j_0 + (t257 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t421)))));
+    jac_phi_q_v_A_j[22] = t402 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t428 + (omega_i_in_j_0 * t426 - t252 *
+        h_star_cross_f_j_in_j_0 + (t257 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t425)) - (omega_j[0] * t426 +
+        omega_j[1] * t425 - omega_j[2] * t428);
+    jac_phi_q_v_A_j[23] = t402 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (omega_i_in_j_0 * t429 - t252 *
+        f_star_cross_g_j_in_j_0 + (t257 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t430)) + alphadot * (C_j[4] *
+        t276 - C_j[3] * t265 + C_j[5] * t411) - (omega_j[0] * t429 + omega_j[1] * t430 + omega_j[2] * t431);
     jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t435 + A_ji_0 * t436 + A_ji_2 * t440;
-    jac_phi_q_v_A_j[25] = t432 * v_3_in_j_2 + A_ji_5 * t440 + (A_ji_3 * t436 - t302 * v_3_in_j_0 - A_ji_4 * t435);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t435 + A_ji_6 * t436 + A_ji_8 * t440;
     const jg_real t441 = t432 * C_i[7];
     const jg_real t442 = t432 * g_star_in_i_1;
     const jg_real t443 = t328 + t441 * g_star_in_j_1 - (h_star_in_j_1 * t442 + t326);
@@ -1012,32 +1006,34 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t452 = t333 + t451;
     const jg_real t453 = C_j[6] * t327;
     const jg_real t454 = t453 + C_j[7] * t316;
-    jac_phi_q_v_A_j[27] = -(omega_j[0] * t450 + omega_j[1] * t452 - omega_j[2] * t454 + (alphadot * (C_j[6] * t443 +
-        C_j[7] * t446 + C_j[8] * t449) - (t433 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t454 + (omega_i_in_j_0 *
-        t450 - t303 * g_star_cross_h_j_in_j_0 + (t308 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t452)))));
     const jg_real t455 = t441 * C_j[0];
     const jg_real t456 = t455 + t340;
     const jg_real t457 = t343 - t441 * C_j[1];
-    const jg_real t458 = C_j[0] * t325;
-    const jg_real t459 = t458 + C_j[1] * t322;
-    jac_phi_q_v_A_j[28] = t433 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t457 - t303 *
-        h_star_cross_f_j_in_j_0 + (t308 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t456)) - (omega_j[0] * t457 +
-        omega_j[1] * t456 - omega_j[2] * t459);
+    const jg_real t458 = t325 * C_j[0];
+    const jg_real t459 = t458 + t322 * C_j[1];
     const jg_real t460 = C_j[5] * t446 - C_j[4] * t449;
     const jg_real t461 = C_j[3] * t449 - C_j[5] * t443;
     const jg_real t462 = C_j[4] * t443 - C_j[3] * t446;
-    jac_phi_q_v_A_j[29] = t433 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t462 + (omega_i_in_j_0 * t460 - t303 *
-        f_star_cross_g_j_in_j_0 + (t308 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t461)) + alphadot * (C_j[4] *
-        t327 - C_j[3] * t316 + C_j[5] * t442) - (omega_j[0] * t460 + omega_j[1] * t461 + omega_j[2] * t462);
     const jg_real t463 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
     const jg_real t464 = omega_i[1] * t463;
     const jg_real t465 = t464 * e_ij_in_j_0;
     const jg_real t466 = t465 + t355 + t356;
-    const jg_real t467 = e_ij_in_j_1 * t464 + t358 - t360 + t361;
+    const jg_real t467 = t464 * e_ij_in_j_1 + t358 - t360 + t361;
     const jg_real t468 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t469 = e_ij_in_j_0 * t359;
+    const jg_real t469 = t359 * e_ij_in_j_0;
     const jg_real t470 = v_i[1] * t463;
     const jg_real t471 = t469 - (t468 - e_ij_in_j_1 * t354) - t470;
+    jac_phi_q_v_A_j[25] = t432 * v_3_in_j_2 + A_ji_5 * t440 + (A_ji_3 * t436 - t302 * v_3_in_j_0 - A_ji_4 * t435);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t435 + A_ji_6 * t436 + A_ji_8 * t440;
+    jac_phi_q_v_A_j[27] = -(omega_j[0] * t450 + omega_j[1] * t452 - omega_j[2] * t454 + (alphadot * (C_j[6] * t443 +
+        C_j[7] * t446 + C_j[8] * t449) - (t433 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t454 + (omega_i_in_j_0 *
+        t450 - t303 * g_star_cross_h_j_in_j_0 + (t308 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t452)))));
+    jac_phi_q_v_A_j[28] = t433 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t457 - t303 *
+        h_star_cross_f_j_in_j_0 + (t308 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t456)) - (omega_j[0] * t457 +
+        omega_j[1] * t456 - omega_j[2] * t459);
+    jac_phi_q_v_A_j[29] = t433 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t462 + (omega_i_in_j_0 * t460 - t303 *
+        f_star_cross_g_j_in_j_0 + (t308 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t461)) + alphadot * (C_j[4] *
+        t327 - C_j[3] * t316 + C_j[5] * t442) - (omega_j[0] * t460 + omega_j[1] * t461 + omega_j[2] * t462);
     jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t466 + A_ji_0 * t467 + A_ji_2 * t471;
     jac_phi_q_v_A_j[31] = t463 * v_3_in_j_2 + A_ji_5 * t471 + (A_ji_3 * t467 - t353 * v_3_in_j_0 - A_ji_4 * t466);
     jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t466 + A_ji_6 * t467 + A_ji_8 * t471;
@@ -1055,104 +1051,93 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t483 = t384 + t482;
     const jg_real t484 = C_j[6] * t378;
     const jg_real t485 = t484 + C_j[7] * t367;
-    jac_phi_q_v_A_j[33] = -(omega_j[0] * t481 + omega_j[1] * t483 - omega_j[2] * t485 + (alphadot * (C_j[6] * t474 +
-        C_j[7] * t477 + C_j[8] * t480) - (t464 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t485 + (omega_i_in_j_0 *
-        t481 - t354 * g_star_cross_h_j_in_j_0 + (t359 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t483)))));
     const jg_real t486 = t472 * C_j[0];
     const jg_real t487 = t486 + t391;
     const jg_real t488 = t394 - t472 * C_j[1];
-    const jg_real t489 = C_j[0] * t376;
-    const jg_real t490 = t489 + C_j[1] * t373;
-    jac_phi_q_v_A_j[34] = t464 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t354 *
-        h_star_cross_f_j_in_j_0 + (t359 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t487)) - (omega_j[0] * t488 +
-        omega_j[1] * t487 - omega_j[2] * t490);
+    const jg_real t489 = t376 * C_j[0];
+    const jg_real t490 = t489 + t373 * C_j[1];
     const jg_real t491 = C_j[5] * t477 - C_j[4] * t480;
     const jg_real t492 = C_j[3] * t480 - C_j[5] * t474;
     const jg_real t493 = C_j[4] * t474 - C_j[3] * t477;
-    jac_phi_q_v_A_j[35] = t464 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t354 *
-        f_star_cross_g_j_in_j_0 + (t359 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t492)) + alphadot * (C_j[4] *
-        t378 - C_j[3] * t367 + C_j[5] * t473) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
     const jg_real t494 = t250 - t403 - t254;
-    const jg_real t495 = t262 - (t261 - e_ij_in_j_2 * t402) + t263;
-    const jg_real t496 = t406 - e_ij_in_j_2 * t249 - t407 + t408;
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t495 - t248 * v_3_in_j_0 + (A_ji_4 * t496 - t401 * v_3_in_j_1) + A_ji_5 * t494;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
+    const jg_real t495 = t262 - (t261 - t402 * e_ij_in_j_2) + t263;
+    const jg_real t496 = t406 - t249 * e_ij_in_j_2 - t407 + t408;
     const jg_real t497 = t280 - h_star_in_j_2 * t411 - (t279 - t410 * g_star_in_j_2);
     const jg_real t498 = t417 - t267 * g_star_in_j_2 - (t416 - h_star_in_j_2 * t269);
     const jg_real t499 = t268 + t413 - (t270 + t414);
     const jg_real t500 = t422 + C_j[8] * t269;
     const jg_real t501 = C_j[8] * t411 + t287;
     const jg_real t502 = t420 - t283;
-    jac_phi_q_v_A_j[39] = -(omega_j[1] * t500 - omega_j[0] * t501 + omega_j[2] * t502 + (alphadot * (C_j[6] * t497 +
-        C_j[7] * t498 + C_j[8] * t499) - (t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t502 + (omega_i_in_j_1 *
-        t500 - t402 * g_star_cross_h_j_in_j_1 - (t249 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t501)))));
     const jg_real t503 = t424 - t290;
     const jg_real t504 = t427 + t267 * C_j[2];
     const jg_real t505 = t294 + t410 * C_j[2];
+    jac_phi_q_v_A_j[33] = -(omega_j[0] * t481 + omega_j[1] * t483 - omega_j[2] * t485 + (alphadot * (C_j[6] * t474 +
+        C_j[7] * t477 + C_j[8] * t480) - (t464 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t485 + (omega_i_in_j_0 *
+        t481 - t354 * g_star_cross_h_j_in_j_0 + (t359 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t483)))));
+    jac_phi_q_v_A_j[34] = t464 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t354 *
+        h_star_cross_f_j_in_j_0 + (t359 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t487)) - (omega_j[0] * t488 +
+        omega_j[1] * t487 - omega_j[2] * t490);
+    jac_phi_q_v_A_j[35] = t464 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t354 *
+        f_star_cross_g_j_in_j_0 + (t359 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t492)) + alphadot * (C_j[4] *
+        t378 - C_j[3] * t367 + C_j[5] * t473) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t495 - t248 * v_3_in_j_0 + (A_ji_4 * t496 - t401 * v_3_in_j_1) + A_ji_5 * t494;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
+    jac_phi_q_v_A_j[39] = -(omega_j[1] * t500 - omega_j[0] * t501 + omega_j[2] * t502 + (alphadot * (C_j[6] * t497 +
+        C_j[7] * t498 + C_j[8] * t499) - (t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t502 + (omega_i_in_j_1 *
+        t500 - t402 * g_star_cross_h_j_in_j_1 - (t249 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t501)))));
     jac_phi_q_v_A_j[40] = t257 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t503 + (omega_i_in_j_1 * t504 - t402 *
         h_star_cross_f_j_in_j_1 - (t249 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t505)) - (omega_j[1] * t504 -
         omega_j[0] * t505 + omega_j[2] * t503);
     const jg_real t506 = C_j[5] * t498 - C_j[4] * t499;
     const jg_real t507 = C_j[3] * t499 - C_j[5] * t497;
     const jg_real t508 = C_j[4] * t497 - C_j[3] * t498;
-    jac_phi_q_v_A_j[41] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t249 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t402 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
-        t276 - (C_j[3] * t269 + C_j[4] * t411)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
     const jg_real t509 = t301 - t434 - t305;
-    const jg_real t510 = t313 - (t312 - e_ij_in_j_2 * t433) + t314;
-    const jg_real t511 = t437 - e_ij_in_j_2 * t300 - t438 + t439;
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t510 - t299 * v_3_in_j_0 + (A_ji_4 * t511 - t432 * v_3_in_j_1) + A_ji_5 * t509;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
+    const jg_real t510 = t313 - (t312 - t433 * e_ij_in_j_2) + t314;
+    const jg_real t511 = t437 - t300 * e_ij_in_j_2 - t438 + t439;
     const jg_real t512 = t331 - h_star_in_j_2 * t442 - (t330 - t441 * g_star_in_j_2);
     const jg_real t513 = t448 - t318 * g_star_in_j_2 - (t447 - h_star_in_j_2 * t320);
     const jg_real t514 = t319 + t444 - (t321 + t445);
     const jg_real t515 = t453 + C_j[8] * t320;
     const jg_real t516 = C_j[8] * t442 + t338;
     const jg_real t517 = t451 - t334;
-    jac_phi_q_v_A_j[45] = -(omega_j[1] * t515 - omega_j[0] * t516 + omega_j[2] * t517 + (alphadot * (C_j[6] * t512 +
-        C_j[7] * t513 + C_j[8] * t514) - (t308 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t517 + (omega_i_in_j_1 *
-        t515 - t433 * g_star_cross_h_j_in_j_1 - (t300 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t516)))));
     const jg_real t518 = t455 - t341;
     const jg_real t519 = t458 + t318 * C_j[2];
     const jg_real t520 = t345 + t441 * C_j[2];
-    jac_phi_q_v_A_j[46] = t308 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t433 *
-        h_star_cross_f_j_in_j_1 - (t300 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
-        omega_j[0] * t520 + omega_j[2] * t518);
     const jg_real t521 = C_j[5] * t513 - C_j[4] * t514;
     const jg_real t522 = C_j[3] * t514 - C_j[5] * t512;
     const jg_real t523 = C_j[4] * t512 - C_j[3] * t513;
+    const jg_real t524 = t352 - t465 - t356;
+    const jg_real t525 = t364 - (t363 - t464 * e_ij_in_j_2) + t365;
+    const jg_real t526 = t468 - t351 * e_ij_in_j_2 - t469 + t470;
+    jac_phi_q_v_A_j[41] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t249 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t402 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
+        t276 - (C_j[3] * t269 + C_j[4] * t411)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t510 - t299 * v_3_in_j_0 + (A_ji_4 * t511 - t432 * v_3_in_j_1) + A_ji_5 * t509;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
+    jac_phi_q_v_A_j[45] = -(omega_j[1] * t515 - omega_j[0] * t516 + omega_j[2] * t517 + (alphadot * (C_j[6] * t512 +
+        C_j[7] * t513 + C_j[8] * t514) - (t308 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t517 + (omega_i_in_j_1 *
+        t515 - t433 * g_star_cross_h_j_in_j_1 - (t300 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t516)))));
+    jac_phi_q_v_A_j[46] = t308 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t433 *
+        h_star_cross_f_j_in_j_1 - (t300 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
+        omega_j[0] * t520 + omega_j[2] * t518);
     jac_phi_q_v_A_j[47] = t308 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t523 + (omega_i_in_j_0 * t521 - t300 *
         f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t522 - t433 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
         t327 - (C_j[3] * t320 + C_j[4] * t442)) - (omega_j[0] * t521 + omega_j[1] * t522 + omega_j[2] * t523);
-    const jg_real t524 = t352 - t465 - t356;
-    const jg_real t525 = t364 - (t363 - e_ij_in_j_2 * t464) + t365;
-    const jg_real t526 = t468 - e_ij_in_j_2 * t351 - t469 + t470;
     jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t524 + (A_ji_0 * t525 + A_ji_1 * t526);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t525 - t350 * v_3_in_j_0 + (A_ji_4 * t526 - t463 * v_3_in_j_1) + A_ji_5 * t524;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t524 + (A_ji_6 * t525 + A_ji_7 * t526);
     const jg_real t527 = t382 - h_star_in_j_2 * t473 - (t381 - t472 * g_star_in_j_2);
     const jg_real t528 = t479 - t369 * g_star_in_j_2 - (t478 - h_star_in_j_2 * t371);
     const jg_real t529 = t370 + t475 - (t372 + t476);
     const jg_real t530 = t484 + C_j[8] * t371;
     const jg_real t531 = C_j[8] * t473 + t389;
     const jg_real t532 = t482 - t385;
-    jac_phi_q_v_A_j[51] = -(omega_j[1] * t530 - omega_j[0] * t531 + omega_j[2] * t532 + (alphadot * (C_j[6] * t527 +
-        C_j[7] * t528 + C_j[8] * t529) - (t359 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t532 + (omega_i_in_j_1 *
-        t530 - t464 * g_star_cross_h_j_in_j_1 - (t351 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t531)))));
     const jg_real t533 = t486 - t392;
     const jg_real t534 = t489 + t369 * C_j[2];
     const jg_real t535 = t396 + t472 * C_j[2];
-    jac_phi_q_v_A_j[52] = t359 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t533 + (omega_i_in_j_1 * t534 - t464 *
-        h_star_cross_f_j_in_j_1 - (t351 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t535)) - (omega_j[1] * t534 -
-        omega_j[0] * t535 + omega_j[2] * t533);
     const jg_real t536 = C_j[5] * t528 - C_j[4] * t529;
     const jg_real t537 = C_j[3] * t529 - C_j[5] * t527;
     const jg_real t538 = C_j[4] * t527 - C_j[3] * t528;
-    jac_phi_q_v_A_j[53] = t359 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t538 + (omega_i_in_j_0 * t536 - t351 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t537 - t464 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
-        t378 - (C_j[3] * t371 + C_j[4] * t473)) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] * t538);
     const jg_real t539 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t540 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t541 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -1165,15 +1150,9 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t548 = C_j[7] * t542 - C_j[8] * t543;
     const jg_real t549 = C_j[8] * t545 - C_j[6] * t542;
     const jg_real t550 = C_j[6] * t543 - C_j[7] * t545;
-    jac_phi_q_v_alpha[0] = -(omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] * t550 + (alphadot * (C_j[6] * t544
-        + C_j[7] * t546 + C_j[8] * t547) - (omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 *
-        t550)));
     const jg_real t551 = C_j[5] * t546 - C_j[4] * t547;
     const jg_real t552 = C_j[3] * t547 - C_j[5] * t544;
     const jg_real t553 = C_j[4] * t544 - C_j[3] * t546;
-    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t552 + omega_i_in_j_2 * t553 - alphadot *
-        (C_j[3] * t545 + C_j[4] * t543 + C_j[5] * t542) - (omega_j[0] * t551 + omega_j[1] * t552 + omega_j[2] *
-        t553);
     const jg_real t554 = A_ji_2 * sine_0;
     const jg_real t555 = A_ji_1 * sine_0;
     const jg_real t556 = h_star_in_j_1 * t554 - h_star_in_j_2 * t555;
@@ -1183,15 +1162,29 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t560 = C_j[7] * t554 - C_j[8] * t555;
     const jg_real t561 = C_j[8] * t557 - C_j[6] * t554;
     const jg_real t562 = C_j[6] * t555 - C_j[7] * t557;
+    jac_phi_q_v_A_j[49] = A_ji_3 * t525 - t350 * v_3_in_j_0 + (A_ji_4 * t526 - t463 * v_3_in_j_1) + A_ji_5 * t524;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t524 + (A_ji_6 * t525 + A_ji_7 * t526);
+    jac_phi_q_v_A_j[51] = -(omega_j[1] * t530 - omega_j[0] * t531 + omega_j[2] * t532 + (alphadot * (C_j[6] * t527 +
+        C_j[7] * t528 + C_j[8] * t529) - (t359 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t532 + (omega_i_in_j_1 *
+        t530 - t464 * g_star_cross_h_j_in_j_1 - (t351 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t531)))));
+    jac_phi_q_v_A_j[52] = t359 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t533 + (omega_i_in_j_1 * t534 - t464 *
+        h_star_cross_f_j_in_j_1 - (t351 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t535)) - (omega_j[1] * t534 -
+        omega_j[0] * t535 + omega_j[2] * t533);
+    jac_phi_q_v_A_j[53] = t359 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t538 + (omega_i_in_j_0 * t536 - t351 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t537 - t464 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
+        t378 - (C_j[3] * t371 + C_j[4] * t473)) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] * t538);
+    jac_phi_q_v_alpha[0] = -(omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] * t550 + (alphadot * (C_j[6] * t544
+        + C_j[7] * t546 + C_j[8] * t547) - (omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 *
+        t550)));
+    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t552 + omega_i_in_j_2 * t553 - alphadot *
+        (C_j[3] * t545 + C_j[4] * t543 + C_j[5] * t542) - (omega_j[0] * t551 + omega_j[1] * t552 + omega_j[2] *
+        t553);
     jac_phi_q_v_geometry[0] = -(omega_j[0] * t560 + omega_j[1] * t561 + omega_j[2] * t562 + (alphadot * (C_j[6] *
         t556 + C_j[7] * t558 + C_j[8] * t559) - (omega_i_in_j_0 * t560 + omega_i_in_j_1 * t561 + omega_i_in_j_2 *
         t562)));
     const jg_real t563 = C_j[5] * t558 - C_j[4] * t559;
     const jg_real t564 = C_j[3] * t559 - C_j[5] * t556;
     const jg_real t565 = C_j[4] * t556 - C_j[3] * t558;
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t563 + omega_i_in_j_1 * t564 + omega_i_in_j_2 * t565 - alphadot *
-        (C_j[3] * t557 + C_j[4] * t555 + C_j[5] * t554) - (omega_j[0] * t563 + omega_j[1] * t564 + omega_j[2] *
-        t565);
     const jg_real t566 = A_ji_5 * sine_0;
     const jg_real t567 = A_ji_4 * sine_0;
     const jg_real t568 = h_star_in_j_1 * t566 - h_star_in_j_2 * t567;
@@ -1201,15 +1194,9 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t572 = C_j[7] * t566 - C_j[8] * t567;
     const jg_real t573 = C_j[8] * t569 - C_j[6] * t566;
     const jg_real t574 = C_j[6] * t567 - C_j[7] * t569;
-    jac_phi_q_v_geometry[2] = -(omega_j[0] * t572 + omega_j[1] * t573 + omega_j[2] * t574 + (alphadot * (C_j[6] *
-        t568 + C_j[7] * t570 + C_j[8] * t571) - (omega_i_in_j_0 * t572 + omega_i_in_j_1 * t573 + omega_i_in_j_2 *
-        t574)));
     const jg_real t575 = C_j[5] * t570 - C_j[4] * t571;
     const jg_real t576 = C_j[3] * t571 - C_j[5] * t568;
     const jg_real t577 = C_j[4] * t568 - C_j[3] * t570;
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t575 + omega_i_in_j_1 * t576 + omega_i_in_j_2 * t577 - alphadot *
-        (C_j[3] * t569 + C_j[4] * t567 + C_j[5] * t566) - (omega_j[0] * t575 + omega_j[1] * t576 + omega_j[2] *
-        t577);
     const jg_real t578 = A_ji_8 * sine_0;
     const jg_real t579 = A_ji_7 * sine_0;
     const jg_real t580 = h_star_in_j_1 * t578 - h_star_in_j_2 * t579;
@@ -1219,15 +1206,9 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t584 = C_j[7] * t578 - C_j[8] * t579;
     const jg_real t585 = C_j[8] * t581 - C_j[6] * t578;
     const jg_real t586 = C_j[6] * t579 - C_j[7] * t581;
-    jac_phi_q_v_geometry[4] = -(omega_j[0] * t584 + omega_j[1] * t585 + omega_j[2] * t586 + (alphadot * (C_j[6] *
-        t580 + C_j[7] * t582 + C_j[8] * t583) - (omega_i_in_j_0 * t584 + omega_i_in_j_1 * t585 + omega_i_in_j_2 *
-        t586)));
     const jg_real t587 = C_j[5] * t582 - C_j[4] * t583;
     const jg_real t588 = C_j[3] * t583 - C_j[5] * t580;
     const jg_real t589 = C_j[4] * t580 - C_j[3] * t582;
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t587 + omega_i_in_j_1 * t588 + omega_i_in_j_2 * t589 - alphadot *
-        (C_j[3] * t581 + C_j[4] * t579 + C_j[5] * t578) - (omega_j[0] * t587 + omega_j[1] * t588 + omega_j[2] *
-        t589);
     const jg_real t590 = A_ji_1 * cosine_0;
     const jg_real t591 = A_ji_2 * cosine_0;
     const jg_real t592 = h_star_in_j_2 * t590 - h_star_in_j_1 * t591;
@@ -1237,15 +1218,9 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t596 = C_j[8] * t590 - C_j[7] * t591;
     const jg_real t597 = C_j[6] * t591 - C_j[8] * t593;
     const jg_real t598 = C_j[7] * t593 - C_j[6] * t590;
-    jac_phi_q_v_geometry[6] = -(omega_j[0] * t596 + omega_j[1] * t597 + omega_j[2] * t598 + (alphadot * (C_j[6] *
-        t592 + C_j[7] * t594 + C_j[8] * t595) - (omega_i_in_j_0 * t596 + omega_i_in_j_1 * t597 + omega_i_in_j_2 *
-        t598)));
     const jg_real t599 = C_j[5] * t594 - C_j[4] * t595;
     const jg_real t600 = C_j[3] * t595 - C_j[5] * t592;
     const jg_real t601 = C_j[4] * t592 - C_j[3] * t594;
-    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t599 + omega_i_in_j_1 * t600 + omega_i_in_j_2 * t601 + alphadot *
-        (C_j[3] * t593 + C_j[4] * t590 + C_j[5] * t591) - (omega_j[0] * t599 + omega_j[1] * t600 + omega_j[2] *
-        t601);
     const jg_real t602 = A_ji_4 * cosine_0;
     const jg_real t603 = A_ji_5 * cosine_0;
     const jg_real t604 = h_star_in_j_2 * t602 - h_star_in_j_1 * t603;
@@ -1255,15 +1230,33 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t608 = C_j[8] * t602 - C_j[7] * t603;
     const jg_real t609 = C_j[6] * t603 - C_j[8] * t605;
     const jg_real t610 = C_j[7] * t605 - C_j[6] * t602;
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t563 + omega_i_in_j_1 * t564 + omega_i_in_j_2 * t565 - alphadot *
+        (C_j[3] * t557 + C_j[4] * t555 + C_j[5] * t554) - (omega_j[0] * t563 + omega_j[1] * t564 + omega_j[2] *
+        t565);
+    jac_phi_q_v_geometry[2] = -(omega_j[0] * t572 + omega_j[1] * t573 + omega_j[2] * t574 + (alphadot * (C_j[6] *
+        t568 + C_j[7] * t570 + C_j[8] * t571) - (omega_i_in_j_0 * t572 + omega_i_in_j_1 * t573 + omega_i_in_j_2 *
+        t574)));
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t575 + omega_i_in_j_1 * t576 + omega_i_in_j_2 * t577 - alphadot *
+        (C_j[3] * t569 + C_j[4] * t567 + C_j[5] * t566) - (omega_j[0] * t575 + omega_j[1] * t576 + omega_j[2] *
+        t577);
+    jac_phi_q_v_geometry[4] = -(omega_j[0] * t584 + omega_j[1] * t585 + omega_j[2] * t586 + (alphadot * (C_j[6] *
+        t580 + C_j[7] * t582 + C_j[8] * t583) - (omega_i_in_j_0 * t584 + omega_i_in_j_1 * t585 + omega_i_in_j_2 *
+        t586)));
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t587 + omega_i_in_j_1 * t588 + omega_i_in_j_2 * t589 - alphadot *
+        (C_j[3] * t581 + C_j[4] * t579 + C_j[5] * t578) - (omega_j[0] * t587 + omega_j[1] * t588 + omega_j[2] *
+        t589);
+    jac_phi_q_v_geometry[6] = -(omega_j[0] * t596 + omega_j[1] * t597 + omega_j[2] * t598 + (alphadot * (C_j[6] *
+        t592 + C_j[7] * t594 + C_j[8] * t595) - (omega_i_in_j_0 * t596 + omega_i_in_j_1 * t597 + omega_i_in_j_2 *
+        t598)));
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t599 + omega_i_in_j_1 * t600 + omega_i_in_j_2 * t601 + alphadot *
+        (C_j[3] * t593 + C_j[4] * t590 + C_j[5] * t591) - (omega_j[0] * t599 + omega_j[1] * t600 + omega_j[2] *
+        t601);
     jac_phi_q_v_geometry[8] = -(omega_j[0] * t608 + omega_j[1] * t609 + omega_j[2] * t610 + (alphadot * (C_j[6] *
         t604 + C_j[7] * t606 + C_j[8] * t607) - (omega_i_in_j_0 * t608 + omega_i_in_j_1 * t609 + omega_i_in_j_2 *
         t610)));
     const jg_real t611 = C_j[5] * t606 - C_j[4] * t607;
     const jg_real t612 = C_j[3] * t607 - C_j[5] * t604;
     const jg_real t613 = C_j[4] * t604 - C_j[3] * t606;
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t611 + omega_i_in_j_1 * t612 + omega_i_in_j_2 * t613 + alphadot *
-        (C_j[3] * t605 + C_j[4] * t602 + C_j[5] * t603) - (omega_j[0] * t611 + omega_j[1] * t612 + omega_j[2] *
-        t613);
     const jg_real t614 = A_ji_7 * cosine_0;
     const jg_real t615 = A_ji_8 * cosine_0;
     const jg_real t616 = h_star_in_j_2 * t614 - h_star_in_j_1 * t615;
@@ -1273,76 +1266,79 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t620 = C_j[8] * t614 - C_j[7] * t615;
     const jg_real t621 = C_j[6] * t615 - C_j[8] * t617;
     const jg_real t622 = C_j[7] * t617 - C_j[6] * t614;
-    jac_phi_q_v_geometry[10] = -(omega_j[0] * t620 + omega_j[1] * t621 + omega_j[2] * t622 + (alphadot * (C_j[6] *
-        t616 + C_j[7] * t618 + C_j[8] * t619) - (omega_i_in_j_0 * t620 + omega_i_in_j_1 * t621 + omega_i_in_j_2 *
-        t622)));
     const jg_real t623 = C_j[5] * t618 - C_j[4] * t619;
     const jg_real t624 = C_j[3] * t619 - C_j[5] * t616;
     const jg_real t625 = C_j[4] * t616 - C_j[3] * t618;
-    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t623 + omega_i_in_j_1 * t624 + omega_i_in_j_2 * t625 + alphadot *
-        (C_j[3] * t617 + C_j[4] * t614 + C_j[5] * t615) - (omega_j[0] * t623 + omega_j[1] * t624 + omega_j[2] *
-        t625);
     const jg_real t626 = -(alphadot * pitch);
-    jac_phi_q_v_geometry[12] = t626;
-    jac_phi_q_v_geometry[16] = t626;
-    jac_phi_q_v_geometry[20] = t626;
     const jg_real t627 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
     const jg_real t628 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
     const jg_real t629 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    jac_phi_q_v_geometry[13] = -(alphadot * (C_j[6] * t627 + C_j[7] * t628 + C_j[8] * t629));
     const jg_real t630 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
     const jg_real t631 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
     const jg_real t632 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t611 + omega_i_in_j_1 * t612 + omega_i_in_j_2 * t613 + alphadot *
+        (C_j[3] * t605 + C_j[4] * t602 + C_j[5] * t603) - (omega_j[0] * t611 + omega_j[1] * t612 + omega_j[2] *
+        t613);
+    jac_phi_q_v_geometry[10] = -(omega_j[0] * t620 + omega_j[1] * t621 + omega_j[2] * t622 + (alphadot * (C_j[6] *
+        t616 + C_j[7] * t618 + C_j[8] * t619) - (omega_i_in_j_0 * t620 + omega_i_in_j_1 * t621 + omega_i_in_j_2 *
+        t622)));
+    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t623 + omega_i_in_j_1 * t624 + omega_i_in_j_2 * t625 + alphadot *
+        (C_j[3] * t617 + C_j[4] * t614 + C_j[5] * t615) - (omega_j[0] * t623 + omega_j[1] * t624 + omega_j[2] *
+        t625);
+    jac_phi_q_v_geometry[12] = t626;
+    jac_phi_q_v_geometry[16] = t626;
+    jac_phi_q_v_geometry[20] = t626;
+    jac_phi_q_v_geometry[13] = -(alphadot * (C_j[6] * t627 + C_j[7] * t628 + C_j[8] * t629));
     jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t630 + omega_i_in_j_1 * t631 + omega_i_in_j_2 * t632 - (omega_j[0] *
         t630 + omega_j[1] * t631 + omega_j[2] * t632);
     const jg_real t633 = C_j[5] * t628 - C_j[4] * t629;
     const jg_real t634 = C_j[3] * t629 - C_j[5] * t627;
     const jg_real t635 = C_j[4] * t627 - C_j[3] * t628;
-    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t633 + omega_i_in_j_1 * t634 + omega_i_in_j_2 * t635 - (omega_j[0] *
-        t633 + omega_j[1] * t634 + omega_j[2] * t635);
     const jg_real t636 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
     const jg_real t637 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
     const jg_real t638 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
-    jac_phi_q_v_geometry[17] = -(alphadot * (C_j[6] * t636 + C_j[7] * t637 + C_j[8] * t638));
     const jg_real t639 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
     const jg_real t640 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
     const jg_real t641 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t639 + omega_i_in_j_1 * t640 + omega_i_in_j_2 * t641 - (omega_j[0] *
-        t639 + omega_j[1] * t640 + omega_j[2] * t641);
     const jg_real t642 = C_j[5] * t637 - C_j[4] * t638;
     const jg_real t643 = C_j[3] * t638 - C_j[5] * t636;
     const jg_real t644 = C_j[4] * t636 - C_j[3] * t637;
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t642 + omega_i_in_j_1 * t643 + omega_i_in_j_2 * t644 - (omega_j[0] *
-        t642 + omega_j[1] * t643 + omega_j[2] * t644);
     const jg_real t645 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
     const jg_real t646 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
     const jg_real t647 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
-    jac_phi_q_v_geometry[21] = -(alphadot * (C_j[6] * t645 + C_j[7] * t646 + C_j[8] * t647));
     const jg_real t648 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
     const jg_real t649 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
     const jg_real t650 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t648 + omega_i_in_j_1 * t649 + omega_i_in_j_2 * t650 - (omega_j[0] *
-        t648 + omega_j[1] * t649 + omega_j[2] * t650);
     const jg_real t651 = C_j[5] * t646 - C_j[4] * t647;
     const jg_real t652 = C_j[3] * t647 - C_j[5] * t645;
     const jg_real t653 = C_j[4] * t645 - C_j[3] * t646;
-    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t651 + omega_i_in_j_1 * t652 + omega_i_in_j_2 * t653 - (omega_j[0] *
-        t651 + omega_j[1] * t652 + omega_j[2] * t653);
     const jg_real t654 = omega_i_in_j_2 - omega_j[2];
     const jg_real t655 = omega_j[1] - omega_i_in_j_1;
+    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t633 + omega_i_in_j_1 * t634 + omega_i_in_j_2 * t635 - (omega_j[0] *
+        t633 + omega_j[1] * t634 + omega_j[2] * t635);
+    jac_phi_q_v_geometry[17] = -(alphadot * (C_j[6] * t636 + C_j[7] * t637 + C_j[8] * t638));
+    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t639 + omega_i_in_j_1 * t640 + omega_i_in_j_2 * t641 - (omega_j[0] *
+        t639 + omega_j[1] * t640 + omega_j[2] * t641);
+    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t642 + omega_i_in_j_1 * t643 + omega_i_in_j_2 * t644 - (omega_j[0] *
+        t642 + omega_j[1] * t643 + omega_j[2] * t644);
+    jac_phi_q_v_geometry[21] = -(alphadot * (C_j[6] * t645 + C_j[7] * t646 + C_j[8] * t647));
+    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t648 + omega_i_in_j_1 * t649 + omega_i_in_j_2 * t650 - (omega_j[0] *
+        t648 + omega_j[1] * t649 + omega_j[2] * t650);
+    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t651 + omega_i_in_j_1 * t652 + omega_i_in_j_2 * t653 - (omega_j[0] *
+        t651 + omega_j[1] * t652 + omega_j[2] * t653);
     jac_phi_q_v_geometry[24] = -(A_ji_1 * t654 + A_ji_2 * t655);
+    const jg_real t656 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[25] = -(A_ji_4 * t654 + A_ji_5 * t655);
     jac_phi_q_v_geometry[26] = -(A_ji_7 * t654 + A_ji_8 * t655);
-    const jg_real t656 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[27] = A_ji_0 * t654 - A_ji_2 * t656;
     jac_phi_q_v_geometry[28] = A_ji_3 * t654 - A_ji_5 * t656;
     jac_phi_q_v_geometry[29] = A_ji_6 * t654 - A_ji_8 * t656;
     jac_phi_q_v_geometry[30] = A_ji_0 * t655 + A_ji_1 * t656;
     jac_phi_q_v_geometry[31] = A_ji_3 * t655 + A_ji_4 * t656;
     jac_phi_q_v_geometry[32] = A_ji_6 * t655 + A_ji_7 * t656;
-    jac_phi_q_v_geometry[33] = h_star_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
+    jac_phi_q_v_geometry[33] = omega_i_in_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
-    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - h_star_in_j_2 * omega_i_in_j_0 - (omega_j[2] *
+    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
         h_star_in_j_0 - omega_j[0] * h_star_in_j_2);
     jac_phi_q_v_geometry[35] = omega_i_in_j_0 * h_star_in_j_1 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
         h_star_in_j_1 - omega_j[1] * h_star_in_j_0);
@@ -1356,38 +1352,38 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         - (omega_i_in_j_1 * g_star_in_j_2 - omega_i_in_j_2 * g_star_in_j_1)));
     jac_phi_q_v_geometry[40] = -(omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2 + (alphadot * f_star_in_j_1
         - (omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2)));
+    const jg_real t657 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
+    const jg_real t658 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
     jac_phi_q_v_geometry[41] = -(omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0 + (alphadot * f_star_in_j_2
         - (omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0)));
     jac_phi_q_v_geometry[42] = -(alphadot * C_i[6]);
     jac_phi_q_v_geometry[43] = -(alphadot * C_i[7]);
     jac_phi_q_v_geometry[44] = -(alphadot * C_i[8]);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t657 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_velocity[1] = t657;
     jac_phi_q_v_velocity[3] = t657;
-    const jg_real t658 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
     jac_phi_q_v_velocity[2] = t658;
     jac_phi_q_v_velocity[6] = t658;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
     const jg_real t659 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t659;
-    jac_phi_q_v_velocity[7] = t659;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t660 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t661 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t662 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
+    jac_phi_q_v_velocity[5] = t659;
+    jac_phi_q_v_velocity[7] = t659;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t660 + A_ji_1 * t661 + A_ji_2 * t662;
     jac_phi_q_v_velocity[10] = A_ji_3 * t660 + A_ji_4 * t661 + A_ji_5 * t662;
     jac_phi_q_v_velocity[11] = A_ji_6 * t660 + A_ji_7 * t661 + A_ji_8 * t662;
     jac_phi_q_v_velocity[12] = A_ji_0 * g_star_cross_h_j_in_j_0 + A_ji_1 * g_star_cross_h_j_in_j_1 + A_ji_2 *
         g_star_cross_h_j_in_j_2;
+    const jg_real t663 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t664 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t665 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
     jac_phi_q_v_velocity[13] = A_ji_0 * h_star_cross_f_j_in_j_0 + A_ji_1 * h_star_cross_f_j_in_j_1 + A_ji_2 *
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ji_0 * f_star_cross_g_j_in_j_0 + A_ji_1 * f_star_cross_g_j_in_j_1 + A_ji_2 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t663 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t664 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t665 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
     jac_phi_q_v_velocity[15] = A_ji_0 * t663 + A_ji_1 * t664 + A_ji_2 * t665;
     jac_phi_q_v_velocity[16] = A_ji_3 * t663 + A_ji_4 * t664 + A_ji_5 * t665;
     jac_phi_q_v_velocity[17] = A_ji_6 * t663 + A_ji_7 * t664 + A_ji_8 * t665;
@@ -1409,7 +1405,7 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[26] = A_ji_6 * f_star_cross_g_j_in_j_0 + A_ji_7 * f_star_cross_g_j_in_j_1 + A_ji_8 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
     jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_v_velocity[39] = -g_star_cross_h_j_in_j_0;
@@ -1421,30 +1417,28 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_1;
     jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_1;
     jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_1;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
     jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_v_velocity[51] = -g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[52] = -h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[53] = -f_star_cross_g_j_in_j_2;
+    /* f_star_dot_h_j = f_star . h_j */
+    const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
+    /* g_star_dot_g_j = g_star . g_j */
+    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[54] = -(pitch * C_i[6]);
     jac_phi_q_v_velocity[55] = -(pitch * C_i[7]);
     jac_phi_q_v_velocity[56] = -(pitch * C_i[8]);
-    /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
     jac_phi_q_v_velocity[57] = -f_star_dot_h_j;
-    /* g_star_dot_g_j = g_star . g_j */
-    const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
     jac_phi_q_v_velocity[58] = g_star_dot_g_j;
 }
 
-static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
+static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *jac_phi_q_t_lambda_r_i, jg_real *jac_phi_q_t_lambda_A_i, jg_real *jac_phi_q_t_lambda_r_j,
+    jg_real *jac_phi_q_t_lambda_A_j, jg_real *jac_phi_q_t_lambda_alpha, jg_real *jac_phi_q_t_lambda_geometry,
+    jg_real *jac_phi_q_t_lambda_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -1452,57 +1446,52 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real pitch = geometry[24];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    jac_phi_q_t_lambda_lambda[15] = A_ji_3;
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_t_lambda_lambda[27] = A_ji_7;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ji_6;
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    jac_phi_q_t_lambda_lambda[16] = A_ji_4;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_6 * A_ji_4;
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[17] = A_ji_5;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_t_lambda_lambda[28] = A_ji_8;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ji_5 + lambda[0] * A_ji_2 + lambda[2] * A_ji_8;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_3;
+    jac_phi_q_t_lambda_lambda[27] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[26] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_4;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
+    jac_phi_q_t_lambda_lambda[17] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[28] = A_ji_8;
     jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real lambda_0_1_2_in_j_1 = lambda[1] * A_ji_4 + lambda[0] * A_ji_1 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[67] = lambda_0_1_2_in_j_1;
     const jg_real t10 = A_j[3] * lambda_0_1_2_in_j_2 - A_j[6] * lambda_0_1_2_in_j_1;
     const jg_real A_ji_0 = A_ji_8 * A_ji_4 - A_ji_5 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[77] = lambda_0_1_2_in_j_0;
     const jg_real t13 = A_j[6] * lambda_0_1_2_in_j_0 - A_j[0] * lambda_0_1_2_in_j_2;
     const jg_real t14 = A_j[0] * lambda_0_1_2_in_j_1 - A_j[3] * lambda_0_1_2_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_t_lambda_r_i[0] = t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_t_lambda_r_i[1] = t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_t_lambda_r_i[2] = t17;
     const jg_real t18 = A_j[4] * lambda_0_1_2_in_j_2 - A_j[7] * lambda_0_1_2_in_j_1;
     const jg_real t19 = A_j[7] * lambda_0_1_2_in_j_0 - A_j[1] * lambda_0_1_2_in_j_2;
     const jg_real t20 = A_j[1] * lambda_0_1_2_in_j_1 - A_j[4] * lambda_0_1_2_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_geometry[67] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_geometry[77] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_r_i[0] = t15;
+    jac_phi_q_t_lambda_r_i[1] = t16;
+    jac_phi_q_t_lambda_r_i[2] = t17;
     jac_phi_q_t_lambda_r_i[3] = t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_t_lambda_r_i[4] = t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_t_lambda_r_i[5] = t23;
     const jg_real t24 = A_j[5] * lambda_0_1_2_in_j_2 - A_j[8] * lambda_0_1_2_in_j_1;
     const jg_real t25 = A_j[8] * lambda_0_1_2_in_j_0 - A_j[2] * lambda_0_1_2_in_j_2;
     const jg_real t26 = A_j[2] * lambda_0_1_2_in_j_1 - A_j[5] * lambda_0_1_2_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
-    jac_phi_q_t_lambda_r_i[6] = t27;
     const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
-    jac_phi_q_t_lambda_r_i[7] = t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_t_lambda_r_i[8] = t29;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = C_i[7] * A_ji_4 + C_i[6] * A_ji_1 + C_i[8] * A_ji_7;
     jg_real sine_0;
@@ -1563,53 +1552,48 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t70 = A_j[6] * C_i[7] + C_i[6] * t68;
     const jg_real t71 = t65 * g_star_in_j_2 + h_star_in_j_0 * t69 - (t70 * g_star_in_j_0 + h_star_in_j_2 * t64);
     const jg_real t72 = lambda[1] * A_j[6] + lambda[0] * t68;
-    jac_phi_q_t_lambda_A_i[5] = t72;
     const jg_real t73 = lambda[1] * A_j[3] + lambda[0] * t62;
-    jac_phi_q_t_lambda_A_i[4] = t73;
     const jg_real t74 = v_6_in_j_1 * t69 - v_6_in_j_2 * t66 + (v_2_in_j_1 * t70 - v_2_in_j_2 * t63 + (s_j[1] * t72 -
         s_j[2] * t73) + (v_4_in_j_1 * t67 - v_4_in_j_2 * t71));
+    jac_phi_q_t_lambda_r_i[4] = t22;
+    jac_phi_q_t_lambda_r_i[5] = t23;
+    jac_phi_q_t_lambda_r_i[6] = t27;
+    jac_phi_q_t_lambda_r_i[7] = t28;
+    jac_phi_q_t_lambda_r_i[8] = t29;
+    jac_phi_q_t_lambda_A_i[5] = t72;
+    jac_phi_q_t_lambda_A_i[4] = t73;
     jac_phi_q_t_lambda_A_i[6] = t74;
-    const jg_real t75 = v_0_in_j_1 * t72 - v_0_in_j_2 * t73 + t74;
+    const jg_real t75 = v_0_in_j_1 * t72 - t73 * v_0_in_j_2 + t74;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real v_4_in_j_0 = lambda[5] * C_j[3];
     const jg_real v_5_in_j_1 = v_4_in_j_2 * f_star_in_j_0 - v_4_in_j_0 * f_star_in_j_2;
-    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_2_in_j_0 = lambda[4] * C_j[0];
     const jg_real v_3_in_j_1 = v_2_in_j_2 * h_star_in_j_0 - v_2_in_j_0 * h_star_in_j_2;
+    const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_6_in_j_0 = lambda[3] * C_j[6];
     const jg_real v_7_in_j_1 = v_6_in_j_2 * g_star_in_j_0 - v_6_in_j_0 * g_star_in_j_2;
-    const jg_real v_8_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
+    const jg_real v_8_in_j_1 = v_3_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 + v_5_in_j_1 + v_7_in_j_1;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real v_1_in_j_1 = v_0_in_j_2 * lambda_0_1_2_in_j_0 - v_0_in_j_0 * lambda_0_1_2_in_j_2;
     const jg_real v_9_in_j_1 = v_1_in_j_1 + v_8_in_j_1;
     const jg_real t88 = t70 * g_star_in_j_1 + h_star_in_j_2 * t66 - (t63 * g_star_in_j_2 + h_star_in_j_1 * t69);
     const jg_real t89 = lambda[1] * A_j[0] + lambda[0] * t61;
-    jac_phi_q_t_lambda_A_i[3] = t89;
-    const jg_real t90 = v_6_in_j_2 * t64 - v_6_in_j_0 * t69 + (s_j[2] * t89 - s_j[0] * t72 + (v_2_in_j_2 * t65 -
-        v_2_in_j_0 * t70) + (v_4_in_j_2 * t88 - v_4_in_j_0 * t67));
-    jac_phi_q_t_lambda_A_i[7] = t90;
-    const jg_real t91 = v_0_in_j_2 * t89 - v_0_in_j_0 * t72 + t90;
+    const jg_real t90 = v_6_in_j_2 * t64 - v_6_in_j_0 * t69 + (v_2_in_j_2 * t65 - v_2_in_j_0 * t70 + (s_j[2] * t89 -
+        s_j[0] * t72) + (v_4_in_j_2 * t88 - v_4_in_j_0 * t67));
+    const jg_real t91 = v_0_in_j_2 * t89 - t72 * v_0_in_j_0 + t90;
     const jg_real v_5_in_j_2 = v_4_in_j_0 * f_star_in_j_1 - v_4_in_j_1 * f_star_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real v_3_in_j_2 = v_2_in_j_0 * h_star_in_j_1 - v_2_in_j_1 * h_star_in_j_0;
     const jg_real v_7_in_j_2 = v_6_in_j_0 * g_star_in_j_1 - v_6_in_j_1 * g_star_in_j_0;
     const jg_real v_8_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_5_in_j_2 + v_7_in_j_2;
-    const jg_real v_1_in_j_2 = v_0_in_j_0 * lambda_0_1_2_in_j_1 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
+    const jg_real v_1_in_j_2 = lambda_0_1_2_in_j_1 * v_0_in_j_0 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
     const jg_real v_9_in_j_2 = v_1_in_j_2 + v_8_in_j_2;
     const jg_real t99 = v_6_in_j_0 * t66 - v_6_in_j_1 * t64 + (s_j[0] * t73 - s_j[1] * t89 + (v_2_in_j_0 * t63 -
         v_2_in_j_1 * t65) + (v_4_in_j_0 * t71 - v_4_in_j_1 * t88));
-    jac_phi_q_t_lambda_A_i[8] = t99;
     const jg_real t100 = t73 * v_0_in_j_0 - v_0_in_j_1 * t89 + t99;
-    jac_phi_q_t_lambda_A_i[0] = -(t68 * v_9_in_j_2 + A_ji_2 * t100 + (t61 * v_9_in_j_0 + A_ji_0 * t75 + (t62 *
-        v_9_in_j_1 + A_ji_1 * t91)));
     const jg_real t101 = A_j[0] * v_9_in_j_0;
     const jg_real t102 = A_j[3] * v_9_in_j_1;
     const jg_real t103 = A_j[6] * v_9_in_j_2;
-    jac_phi_q_t_lambda_A_i[1] = -(t103 + A_ji_5 * t100 + (t101 + A_ji_3 * t75 + (t102 + A_ji_4 * t91)));
-    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t75 + A_ji_7 * t91 + A_ji_8 * t100);
-    jac_phi_q_t_lambda_A_i[9] = -(v_6_in_j_0 * t88 + v_6_in_j_1 * t71 + v_6_in_j_2 * t67 - (v_4_in_j_0 * t64 +
-        v_4_in_j_1 * t66 + v_4_in_j_2 * t69) + pitch * (t72 * h_star_in_j_2 + t70 * lambda_0_1_2_in_j_2 + (t73 *
-        h_star_in_j_1 + t63 * lambda_0_1_2_in_j_1 + (t89 * h_star_in_j_0 + t65 * lambda_0_1_2_in_j_0))));
     const jg_real t104 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t105 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
     const jg_real t106 = A_j[4] * C_i[7] + C_i[6] * t105;
@@ -1624,35 +1608,42 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t114 = t108 * g_star_in_j_2 + h_star_in_j_0 * t112 - (t113 * g_star_in_j_0 + h_star_in_j_2 *
         t107);
     const jg_real t115 = lambda[1] * A_j[7] + lambda[0] * t111;
+    jac_phi_q_t_lambda_A_i[3] = t89;
+    jac_phi_q_t_lambda_A_i[7] = t90;
+    jac_phi_q_t_lambda_A_i[8] = t99;
+    jac_phi_q_t_lambda_A_i[0] = -(t68 * v_9_in_j_2 + A_ji_2 * t100 + (t61 * v_9_in_j_0 + A_ji_0 * t75 + (t62 *
+        v_9_in_j_1 + A_ji_1 * t91)));
+    jac_phi_q_t_lambda_A_i[1] = -(t103 + A_ji_5 * t100 + (t101 + A_ji_3 * t75 + (t102 + A_ji_4 * t91)));
+    jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t75 + A_ji_7 * t91 + A_ji_8 * t100);
+    jac_phi_q_t_lambda_A_i[9] = -(v_6_in_j_0 * t88 + v_6_in_j_1 * t71 + v_6_in_j_2 * t67 - (v_4_in_j_0 * t64 +
+        v_4_in_j_1 * t66 + v_4_in_j_2 * t69) + pitch * (t72 * h_star_in_j_2 + t70 * lambda_0_1_2_in_j_2 + (t73 *
+        h_star_in_j_1 + t63 * lambda_0_1_2_in_j_1 + (t89 * h_star_in_j_0 + t65 * lambda_0_1_2_in_j_0))));
     jac_phi_q_t_lambda_A_i[15] = t115;
     const jg_real t116 = lambda[1] * A_j[4] + lambda[0] * t105;
-    jac_phi_q_t_lambda_A_i[14] = t116;
     const jg_real t117 = v_6_in_j_1 * t112 - v_6_in_j_2 * t109 + (v_2_in_j_1 * t113 - v_2_in_j_2 * t106 + (s_j[1] *
         t115 - s_j[2] * t116) + (v_4_in_j_1 * t110 - v_4_in_j_2 * t114));
-    jac_phi_q_t_lambda_A_i[16] = t117;
-    const jg_real t118 = v_0_in_j_1 * t115 - v_0_in_j_2 * t116 + t117;
+    const jg_real t118 = v_0_in_j_1 * t115 - t116 * v_0_in_j_2 + t117;
     const jg_real t119 = t113 * g_star_in_j_1 + h_star_in_j_2 * t109 - (t106 * g_star_in_j_2 + h_star_in_j_1 *
         t112);
     const jg_real t120 = lambda[1] * A_j[1] + lambda[0] * t104;
-    jac_phi_q_t_lambda_A_i[13] = t120;
-    const jg_real t121 = v_6_in_j_2 * t107 - v_6_in_j_0 * t112 + (s_j[2] * t120 - s_j[0] * t115 + (v_2_in_j_2 * t108
-        - v_2_in_j_0 * t113) + (v_4_in_j_2 * t119 - v_4_in_j_0 * t110));
-    jac_phi_q_t_lambda_A_i[17] = t121;
-    const jg_real t122 = v_0_in_j_2 * t120 - v_0_in_j_0 * t115 + t121;
+    const jg_real t121 = v_6_in_j_2 * t107 - v_6_in_j_0 * t112 + (v_2_in_j_2 * t108 - v_2_in_j_0 * t113 + (s_j[2] *
+        t120 - s_j[0] * t115) + (v_4_in_j_2 * t119 - v_4_in_j_0 * t110));
+    const jg_real t122 = v_0_in_j_2 * t120 - t115 * v_0_in_j_0 + t121;
     const jg_real t123 = v_6_in_j_0 * t109 - v_6_in_j_1 * t107 + (s_j[0] * t116 - s_j[1] * t120 + (v_2_in_j_0 * t106
         - v_2_in_j_1 * t108) + (v_4_in_j_0 * t114 - v_4_in_j_1 * t119));
-    jac_phi_q_t_lambda_A_i[18] = t123;
     const jg_real t124 = t116 * v_0_in_j_0 - v_0_in_j_1 * t120 + t123;
-    jac_phi_q_t_lambda_A_i[10] = -(t111 * v_9_in_j_2 + A_ji_2 * t124 + (t104 * v_9_in_j_0 + A_ji_0 * t118 + (t105 *
-        v_9_in_j_1 + A_ji_1 * t122)));
     const jg_real t125 = A_j[1] * v_9_in_j_0;
     const jg_real t126 = A_j[4] * v_9_in_j_1;
     const jg_real t127 = A_j[7] * v_9_in_j_2;
+    jac_phi_q_t_lambda_A_i[14] = t116;
+    jac_phi_q_t_lambda_A_i[16] = t117;
+    jac_phi_q_t_lambda_A_i[13] = t120;
+    jac_phi_q_t_lambda_A_i[17] = t121;
+    jac_phi_q_t_lambda_A_i[18] = t123;
+    jac_phi_q_t_lambda_A_i[10] = -(t111 * v_9_in_j_2 + A_ji_2 * t124 + (t104 * v_9_in_j_0 + A_ji_0 * t118 + (t105 *
+        v_9_in_j_1 + A_ji_1 * t122)));
     jac_phi_q_t_lambda_A_i[11] = -(t127 + A_ji_5 * t124 + (t125 + A_ji_3 * t118 + (t126 + A_ji_4 * t122)));
     jac_phi_q_t_lambda_A_i[12] = -(A_ji_6 * t118 + A_ji_7 * t122 + A_ji_8 * t124);
-    jac_phi_q_t_lambda_A_i[19] = -(v_6_in_j_0 * t119 + v_6_in_j_1 * t114 + v_6_in_j_2 * t110 - (v_4_in_j_0 * t107 +
-        v_4_in_j_1 * t109 + v_4_in_j_2 * t112) + pitch * (t115 * h_star_in_j_2 + t113 * lambda_0_1_2_in_j_2 + (t116
-        * h_star_in_j_1 + t106 * lambda_0_1_2_in_j_1 + (t120 * h_star_in_j_0 + t108 * lambda_0_1_2_in_j_0))));
     const jg_real t128 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t129 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
     const jg_real t130 = A_j[5] * C_i[7] + C_i[6] * t129;
@@ -1667,35 +1658,33 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t138 = t132 * g_star_in_j_2 + h_star_in_j_0 * t136 - (t137 * g_star_in_j_0 + h_star_in_j_2 *
         t131);
     const jg_real t139 = lambda[1] * A_j[8] + lambda[0] * t135;
-    jac_phi_q_t_lambda_A_i[25] = t139;
     const jg_real t140 = lambda[1] * A_j[5] + lambda[0] * t129;
-    jac_phi_q_t_lambda_A_i[24] = t140;
     const jg_real t141 = v_6_in_j_1 * t136 - v_6_in_j_2 * t133 + (v_2_in_j_1 * t137 - v_2_in_j_2 * t130 + (s_j[1] *
         t139 - s_j[2] * t140) + (v_4_in_j_1 * t134 - v_4_in_j_2 * t138));
-    jac_phi_q_t_lambda_A_i[26] = t141;
-    const jg_real t142 = v_0_in_j_1 * t139 - v_0_in_j_2 * t140 + t141;
+    const jg_real t142 = v_0_in_j_1 * t139 - t140 * v_0_in_j_2 + t141;
     const jg_real t143 = t137 * g_star_in_j_1 + h_star_in_j_2 * t133 - (t130 * g_star_in_j_2 + h_star_in_j_1 *
         t136);
     const jg_real t144 = lambda[1] * A_j[2] + lambda[0] * t128;
-    jac_phi_q_t_lambda_A_i[23] = t144;
-    const jg_real t145 = v_6_in_j_2 * t131 - v_6_in_j_0 * t136 + (s_j[2] * t144 - s_j[0] * t139 + (v_2_in_j_2 * t132
-        - v_2_in_j_0 * t137) + (v_4_in_j_2 * t143 - v_4_in_j_0 * t134));
-    jac_phi_q_t_lambda_A_i[27] = t145;
-    const jg_real t146 = v_0_in_j_2 * t144 - v_0_in_j_0 * t139 + t145;
+    const jg_real t145 = v_6_in_j_2 * t131 - v_6_in_j_0 * t136 + (v_2_in_j_2 * t132 - v_2_in_j_0 * t137 + (s_j[2] *
+        t144 - s_j[0] * t139) + (v_4_in_j_2 * t143 - v_4_in_j_0 * t134));
+    const jg_real t146 = v_0_in_j_2 * t144 - t139 * v_0_in_j_0 + t145;
     const jg_real t147 = v_6_in_j_0 * t133 - v_6_in_j_1 * t131 + (s_j[0] * t140 - s_j[1] * t144 + (v_2_in_j_0 * t130
         - v_2_in_j_1 * t132) + (v_4_in_j_0 * t138 - v_4_in_j_1 * t143));
-    jac_phi_q_t_lambda_A_i[28] = t147;
     const jg_real t148 = t140 * v_0_in_j_0 - v_0_in_j_1 * t144 + t147;
+    jac_phi_q_t_lambda_A_i[19] = -(v_6_in_j_0 * t119 + v_6_in_j_1 * t114 + v_6_in_j_2 * t110 - (v_4_in_j_0 * t107 +
+        v_4_in_j_1 * t109 + v_4_in_j_2 * t112) + pitch * (t115 * h_star_in_j_2 + t113 * lambda_0_1_2_in_j_2 + (t116
+        * h_star_in_j_1 + t106 * lambda_0_1_2_in_j_1 + (t120 * h_star_in_j_0 + t108 * lambda_0_1_2_in_j_0))));
+    jac_phi_q_t_lambda_A_i[25] = t139;
+    jac_phi_q_t_lambda_A_i[24] = t140;
+    jac_phi_q_t_lambda_A_i[26] = t141;
+    jac_phi_q_t_lambda_A_i[23] = t144;
+    jac_phi_q_t_lambda_A_i[27] = t145;
+    jac_phi_q_t_lambda_A_i[28] = t147;
     jac_phi_q_t_lambda_A_i[20] = -(t135 * v_9_in_j_2 + A_ji_2 * t148 + (t128 * v_9_in_j_0 + A_ji_0 * t142 + (t129 *
         v_9_in_j_1 + A_ji_1 * t146)));
     const jg_real t149 = A_j[2] * v_9_in_j_0;
     const jg_real t150 = A_j[5] * v_9_in_j_1;
     const jg_real t151 = A_j[8] * v_9_in_j_2;
-    jac_phi_q_t_lambda_A_i[21] = -(t151 + A_ji_5 * t148 + (t149 + A_ji_3 * t142 + (t150 + A_ji_4 * t146)));
-    jac_phi_q_t_lambda_A_i[22] = -(A_ji_6 * t142 + A_ji_7 * t146 + A_ji_8 * t148);
-    jac_phi_q_t_lambda_A_i[29] = -(v_6_in_j_0 * t143 + v_6_in_j_1 * t138 + v_6_in_j_2 * t134 - (v_4_in_j_0 * t131 +
-        v_4_in_j_1 * t133 + v_4_in_j_2 * t136) + pitch * (t139 * h_star_in_j_2 + t137 * lambda_0_1_2_in_j_2 + (t140
-        * h_star_in_j_1 + t130 * lambda_0_1_2_in_j_1 + (t144 * h_star_in_j_0 + t132 * lambda_0_1_2_in_j_0))));
     const jg_real t152 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
     const jg_real t153 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
     const jg_real t154 = A_j[3] * C_i[8] + C_i[6] * t153;
@@ -1710,32 +1699,29 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t162 = t156 * g_star_in_j_2 + h_star_in_j_0 * t160 - (t161 * g_star_in_j_0 + h_star_in_j_2 *
         t155);
     const jg_real t163 = lambda[2] * A_j[6] + lambda[0] * t159;
-    jac_phi_q_t_lambda_A_i[35] = t163;
     const jg_real t164 = lambda[2] * A_j[3] + lambda[0] * t153;
-    jac_phi_q_t_lambda_A_i[34] = t164;
     const jg_real t165 = v_6_in_j_1 * t160 - v_6_in_j_2 * t157 + (v_2_in_j_1 * t161 - v_2_in_j_2 * t154 + (s_j[1] *
         t163 - s_j[2] * t164) + (v_4_in_j_1 * t158 - v_4_in_j_2 * t162));
-    jac_phi_q_t_lambda_A_i[36] = t165;
     const jg_real t166 = v_0_in_j_1 * t163 - v_0_in_j_2 * t164 + t165;
     const jg_real t167 = t161 * g_star_in_j_1 + h_star_in_j_2 * t157 - (t154 * g_star_in_j_2 + h_star_in_j_1 *
         t160);
     const jg_real t168 = lambda[2] * A_j[0] + lambda[0] * t152;
+    const jg_real t169 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (v_2_in_j_2 * t156 - v_2_in_j_0 * t161 + (s_j[2] *
+        t168 - s_j[0] * t163) + (v_4_in_j_2 * t167 - v_4_in_j_0 * t158));
+    jac_phi_q_t_lambda_A_i[21] = -(t151 + A_ji_5 * t148 + (t149 + A_ji_3 * t142 + (t150 + A_ji_4 * t146)));
+    jac_phi_q_t_lambda_A_i[22] = -(A_ji_6 * t142 + A_ji_7 * t146 + A_ji_8 * t148);
+    jac_phi_q_t_lambda_A_i[29] = -(v_6_in_j_0 * t143 + v_6_in_j_1 * t138 + v_6_in_j_2 * t134 - (v_4_in_j_0 * t131 +
+        v_4_in_j_1 * t133 + v_4_in_j_2 * t136) + pitch * (t139 * h_star_in_j_2 + t137 * lambda_0_1_2_in_j_2 + (t140
+        * h_star_in_j_1 + t130 * lambda_0_1_2_in_j_1 + (t144 * h_star_in_j_0 + t132 * lambda_0_1_2_in_j_0))));
+    jac_phi_q_t_lambda_A_i[35] = t163;
+    jac_phi_q_t_lambda_A_i[34] = t164;
+    jac_phi_q_t_lambda_A_i[36] = t165;
     jac_phi_q_t_lambda_A_i[33] = t168;
-    const jg_real t169 = v_6_in_j_2 * t155 - v_6_in_j_0 * t160 + (s_j[2] * t168 - s_j[0] * t163 + (v_2_in_j_2 * t156
-        - v_2_in_j_0 * t161) + (v_4_in_j_2 * t167 - v_4_in_j_0 * t158));
     jac_phi_q_t_lambda_A_i[37] = t169;
     const jg_real t170 = v_0_in_j_2 * t168 - v_0_in_j_0 * t163 + t169;
     const jg_real t171 = v_6_in_j_0 * t157 - v_6_in_j_1 * t155 + (s_j[0] * t164 - s_j[1] * t168 + (v_2_in_j_0 * t154
         - v_2_in_j_1 * t156) + (v_4_in_j_0 * t162 - v_4_in_j_1 * t167));
-    jac_phi_q_t_lambda_A_i[38] = t171;
-    const jg_real t172 = v_0_in_j_0 * t164 - v_0_in_j_1 * t168 + t171;
-    jac_phi_q_t_lambda_A_i[30] = -(t159 * v_9_in_j_2 + A_ji_2 * t172 + (t152 * v_9_in_j_0 + A_ji_0 * t166 + (t153 *
-        v_9_in_j_1 + A_ji_1 * t170)));
-    jac_phi_q_t_lambda_A_i[31] = -(A_ji_3 * t166 + A_ji_4 * t170 + A_ji_5 * t172);
-    jac_phi_q_t_lambda_A_i[32] = -(t103 + A_ji_8 * t172 + (t101 + A_ji_6 * t166 + (t102 + A_ji_7 * t170)));
-    jac_phi_q_t_lambda_A_i[39] = -(v_6_in_j_0 * t167 + v_6_in_j_1 * t162 + v_6_in_j_2 * t158 - (v_4_in_j_0 * t155 +
-        v_4_in_j_1 * t157 + v_4_in_j_2 * t160) + pitch * (h_star_in_j_2 * t163 + t161 * lambda_0_1_2_in_j_2 +
-        (h_star_in_j_1 * t164 + t154 * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t168 + t156 * lambda_0_1_2_in_j_0))));
+    const jg_real t172 = t164 * v_0_in_j_0 - v_0_in_j_1 * t168 + t171;
     const jg_real t173 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
     const jg_real t174 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
     const jg_real t175 = A_j[4] * C_i[8] + C_i[6] * t174;
@@ -1750,32 +1736,30 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t183 = t177 * g_star_in_j_2 + h_star_in_j_0 * t181 - (t182 * g_star_in_j_0 + h_star_in_j_2 *
         t176);
     const jg_real t184 = lambda[2] * A_j[7] + lambda[0] * t180;
-    jac_phi_q_t_lambda_A_i[45] = t184;
     const jg_real t185 = lambda[2] * A_j[4] + lambda[0] * t174;
-    jac_phi_q_t_lambda_A_i[44] = t185;
     const jg_real t186 = v_6_in_j_1 * t181 - v_6_in_j_2 * t178 + (v_2_in_j_1 * t182 - v_2_in_j_2 * t175 + (s_j[1] *
         t184 - s_j[2] * t185) + (v_4_in_j_1 * t179 - v_4_in_j_2 * t183));
+    jac_phi_q_t_lambda_A_i[38] = t171;
+    jac_phi_q_t_lambda_A_i[30] = -(t159 * v_9_in_j_2 + A_ji_2 * t172 + (t152 * v_9_in_j_0 + A_ji_0 * t166 + (t153 *
+        v_9_in_j_1 + A_ji_1 * t170)));
+    jac_phi_q_t_lambda_A_i[31] = -(A_ji_3 * t166 + A_ji_4 * t170 + A_ji_5 * t172);
+    jac_phi_q_t_lambda_A_i[32] = -(t103 + A_ji_8 * t172 + (t101 + A_ji_6 * t166 + (t102 + A_ji_7 * t170)));
+    jac_phi_q_t_lambda_A_i[39] = -(v_6_in_j_0 * t167 + v_6_in_j_1 * t162 + v_6_in_j_2 * t158 - (v_4_in_j_0 * t155 +
+        v_4_in_j_1 * t157 + v_4_in_j_2 * t160) + pitch * (h_star_in_j_2 * t163 + t161 * lambda_0_1_2_in_j_2 +
+        (h_star_in_j_1 * t164 + t154 * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t168 + t156 * lambda_0_1_2_in_j_0))));
+    jac_phi_q_t_lambda_A_i[45] = t184;
+    jac_phi_q_t_lambda_A_i[44] = t185;
     jac_phi_q_t_lambda_A_i[46] = t186;
     const jg_real t187 = v_0_in_j_1 * t184 - v_0_in_j_2 * t185 + t186;
     const jg_real t188 = t182 * g_star_in_j_1 + h_star_in_j_2 * t178 - (t175 * g_star_in_j_2 + h_star_in_j_1 *
         t181);
     const jg_real t189 = lambda[2] * A_j[1] + lambda[0] * t173;
-    jac_phi_q_t_lambda_A_i[43] = t189;
-    const jg_real t190 = v_6_in_j_2 * t176 - v_6_in_j_0 * t181 + (s_j[2] * t189 - s_j[0] * t184 + (v_2_in_j_2 * t177
-        - v_2_in_j_0 * t182) + (v_4_in_j_2 * t188 - v_4_in_j_0 * t179));
-    jac_phi_q_t_lambda_A_i[47] = t190;
+    const jg_real t190 = v_6_in_j_2 * t176 - v_6_in_j_0 * t181 + (v_2_in_j_2 * t177 - v_2_in_j_0 * t182 + (s_j[2] *
+        t189 - s_j[0] * t184) + (v_4_in_j_2 * t188 - v_4_in_j_0 * t179));
     const jg_real t191 = v_0_in_j_2 * t189 - v_0_in_j_0 * t184 + t190;
     const jg_real t192 = v_6_in_j_0 * t178 - v_6_in_j_1 * t176 + (s_j[0] * t185 - s_j[1] * t189 + (v_2_in_j_0 * t175
         - v_2_in_j_1 * t177) + (v_4_in_j_0 * t183 - v_4_in_j_1 * t188));
-    jac_phi_q_t_lambda_A_i[48] = t192;
-    const jg_real t193 = v_0_in_j_0 * t185 - v_0_in_j_1 * t189 + t192;
-    jac_phi_q_t_lambda_A_i[40] = -(t180 * v_9_in_j_2 + A_ji_2 * t193 + (t173 * v_9_in_j_0 + A_ji_0 * t187 + (t174 *
-        v_9_in_j_1 + A_ji_1 * t191)));
-    jac_phi_q_t_lambda_A_i[41] = -(A_ji_3 * t187 + A_ji_4 * t191 + A_ji_5 * t193);
-    jac_phi_q_t_lambda_A_i[42] = -(t127 + A_ji_8 * t193 + (t125 + A_ji_6 * t187 + (t126 + A_ji_7 * t191)));
-    jac_phi_q_t_lambda_A_i[49] = -(v_6_in_j_0 * t188 + v_6_in_j_1 * t183 + v_6_in_j_2 * t179 - (v_4_in_j_0 * t176 +
-        v_4_in_j_1 * t178 + v_4_in_j_2 * t181) + pitch * (h_star_in_j_2 * t184 + t182 * lambda_0_1_2_in_j_2 +
-        (h_star_in_j_1 * t185 + t175 * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t189 + t177 * lambda_0_1_2_in_j_0))));
+    const jg_real t193 = t185 * v_0_in_j_0 - v_0_in_j_1 * t189 + t192;
     const jg_real t194 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
     const jg_real t195 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
     const jg_real t196 = A_j[5] * C_i[8] + C_i[6] * t195;
@@ -1790,25 +1774,35 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t204 = t198 * g_star_in_j_2 + h_star_in_j_0 * t202 - (t203 * g_star_in_j_0 + h_star_in_j_2 *
         t197);
     const jg_real t205 = lambda[2] * A_j[8] + lambda[0] * t201;
+    jac_phi_q_t_lambda_A_i[43] = t189;
+    jac_phi_q_t_lambda_A_i[47] = t190;
+    jac_phi_q_t_lambda_A_i[48] = t192;
+    jac_phi_q_t_lambda_A_i[40] = -(t180 * v_9_in_j_2 + A_ji_2 * t193 + (t173 * v_9_in_j_0 + A_ji_0 * t187 + (t174 *
+        v_9_in_j_1 + A_ji_1 * t191)));
+    jac_phi_q_t_lambda_A_i[41] = -(A_ji_3 * t187 + A_ji_4 * t191 + A_ji_5 * t193);
+    jac_phi_q_t_lambda_A_i[42] = -(t127 + A_ji_8 * t193 + (t125 + A_ji_6 * t187 + (t126 + A_ji_7 * t191)));
+    jac_phi_q_t_lambda_A_i[49] = -(v_6_in_j_0 * t188 + v_6_in_j_1 * t183 + v_6_in_j_2 * t179 - (v_4_in_j_0 * t176 +
+        v_4_in_j_1 * t178 + v_4_in_j_2 * t181) + pitch * (h_star_in_j_2 * t184 + t182 * lambda_0_1_2_in_j_2 +
+        (h_star_in_j_1 * t185 + t175 * lambda_0_1_2_in_j_1 + (h_star_in_j_0 * t189 + t177 * lambda_0_1_2_in_j_0))));
     jac_phi_q_t_lambda_A_i[55] = t205;
     const jg_real t206 = lambda[2] * A_j[5] + lambda[0] * t195;
-    jac_phi_q_t_lambda_A_i[54] = t206;
     const jg_real t207 = v_6_in_j_1 * t202 - v_6_in_j_2 * t199 + (v_2_in_j_1 * t203 - v_2_in_j_2 * t196 + (s_j[1] *
         t205 - s_j[2] * t206) + (v_4_in_j_1 * t200 - v_4_in_j_2 * t204));
-    jac_phi_q_t_lambda_A_i[56] = t207;
     const jg_real t208 = v_0_in_j_1 * t205 - v_0_in_j_2 * t206 + t207;
     const jg_real t209 = t203 * g_star_in_j_1 + h_star_in_j_2 * t199 - (t196 * g_star_in_j_2 + h_star_in_j_1 *
         t202);
     const jg_real t210 = lambda[2] * A_j[2] + lambda[0] * t194;
-    jac_phi_q_t_lambda_A_i[53] = t210;
-    const jg_real t211 = v_6_in_j_2 * t197 - v_6_in_j_0 * t202 + (s_j[2] * t210 - s_j[0] * t205 + (v_2_in_j_2 * t198
-        - v_2_in_j_0 * t203) + (v_4_in_j_2 * t209 - v_4_in_j_0 * t200));
-    jac_phi_q_t_lambda_A_i[57] = t211;
+    const jg_real t211 = v_6_in_j_2 * t197 - v_6_in_j_0 * t202 + (v_2_in_j_2 * t198 - v_2_in_j_0 * t203 + (s_j[2] *
+        t210 - s_j[0] * t205) + (v_4_in_j_2 * t209 - v_4_in_j_0 * t200));
     const jg_real t212 = v_0_in_j_2 * t210 - v_0_in_j_0 * t205 + t211;
     const jg_real t213 = v_6_in_j_0 * t199 - v_6_in_j_1 * t197 + (s_j[0] * t206 - s_j[1] * t210 + (v_2_in_j_0 * t196
         - v_2_in_j_1 * t198) + (v_4_in_j_0 * t204 - v_4_in_j_1 * t209));
+    const jg_real t214 = t206 * v_0_in_j_0 - v_0_in_j_1 * t210 + t213;
+    jac_phi_q_t_lambda_A_i[54] = t206;
+    jac_phi_q_t_lambda_A_i[56] = t207;
+    jac_phi_q_t_lambda_A_i[53] = t210;
+    jac_phi_q_t_lambda_A_i[57] = t211;
     jac_phi_q_t_lambda_A_i[58] = t213;
-    const jg_real t214 = v_0_in_j_0 * t206 - v_0_in_j_1 * t210 + t213;
     jac_phi_q_t_lambda_A_i[50] = -(t201 * v_9_in_j_2 + A_ji_2 * t214 + (t194 * v_9_in_j_0 + A_ji_0 * t208 + (t195 *
         v_9_in_j_1 + A_ji_1 * t212)));
     jac_phi_q_t_lambda_A_i[51] = -(A_ji_3 * t208 + A_ji_4 * t212 + A_ji_5 * t214);
@@ -1823,8 +1817,6 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_r_j[4] = -t22;
     jac_phi_q_t_lambda_r_j[5] = -t23;
     jac_phi_q_t_lambda_r_j[6] = -t27;
-    jac_phi_q_t_lambda_r_j[7] = -t28;
-    jac_phi_q_t_lambda_r_j[8] = -t29;
     const jg_real t215 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t216 = t215 * g_star_in_j_2;
     const jg_real t217 = A_i[6] * A_ji_4 - A_i[3] * A_ji_7;
@@ -1842,53 +1834,45 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t229 = h_star_in_j_1 * t218;
     const jg_real t230 = t225 - t226 - (t228 - t229);
     const jg_real t231 = lambda[0] * t223;
-    jac_phi_q_t_lambda_A_j[4] = t231;
     const jg_real t232 = lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t232;
-    jac_phi_q_t_lambda_A_j[34] = t232;
-    jac_phi_q_t_lambda_A_j[65] = t232;
     const jg_real t233 = s_j[1] * t232;
     const jg_real t234 = v_2_in_j_1 * t215;
     const jg_real t235 = v_6_in_j_1 * t219;
     const jg_real t236 = v_6_in_j_0 * t224 - t235 + (s_j[0] * t231 - t233 + (v_2_in_j_0 * t227 - t234) + (v_4_in_j_0
         * t222 - v_4_in_j_1 * t230));
-    jac_phi_q_t_lambda_A_j[8] = t236;
     const jg_real t237 = v_0_world_0 * lambda_0_1_2_in_j_1;
     const jg_real t238 = v_0_in_j_1 * t232;
     const jg_real t239 = t237 + t231 * v_0_in_j_0 - t238 + t236;
     const jg_real t240 = h_star_in_j_1 * t219;
     const jg_real t241 = t215 * g_star_in_j_1;
     const jg_real t242 = t227 * g_star_in_j_0 + t240 - (t241 + h_star_in_j_0 * t224);
-    const jg_real t243 = lambda[0] * t217;
-    jac_phi_q_t_lambda_A_j[63] = t243;
-    const jg_real t244 = s_j[2] * t232;
-    const jg_real t245 = v_2_in_j_2 * t215;
+    const jg_real t243 = v_2_in_j_2 * t215;
+    const jg_real t244 = lambda[0] * t217;
+    jac_phi_q_t_lambda_r_j[7] = -t28;
+    jac_phi_q_t_lambda_r_j[8] = -t29;
+    jac_phi_q_t_lambda_A_j[4] = t231;
+    jac_phi_q_t_lambda_A_j[3] = t232;
+    jac_phi_q_t_lambda_A_j[34] = t232;
+    jac_phi_q_t_lambda_A_j[65] = t232;
+    jac_phi_q_t_lambda_A_j[8] = t236;
+    jac_phi_q_t_lambda_A_j[63] = t244;
+    const jg_real t245 = s_j[2] * t232;
     const jg_real t246 = v_6_in_j_2 * t219;
-    const jg_real t247 = t246 + v_6_in_j_0 * t218 + (t244 + s_j[0] * t243 + (t245 + v_2_in_j_0 * t221) + (v_4_in_j_2
+    const jg_real t247 = t246 + v_6_in_j_0 * t218 + (t243 + v_2_in_j_0 * t221 + (t245 + s_j[0] * t244) + (v_4_in_j_2
         * t230 - v_4_in_j_0 * t242));
-    jac_phi_q_t_lambda_A_j[7] = t247;
     const jg_real t248 = v_0_world_0 * lambda_0_1_2_in_j_2;
     const jg_real t249 = v_0_in_j_2 * t232;
-    const jg_real t250 = t249 - (t248 - t243 * v_0_in_j_0) + t247;
+    const jg_real t250 = t249 - (t248 - t244 * v_0_in_j_0) + t247;
     const jg_real t251 = v_2_in_j_2 * t227;
     const jg_real t252 = v_2_in_j_1 * t221;
     const jg_real t253 = s_j[2] * t231;
-    const jg_real t254 = s_j[1] * t243;
+    const jg_real t254 = s_j[1] * t244;
     const jg_real t255 = v_6_in_j_2 * t224;
     const jg_real t256 = v_6_in_j_1 * t218;
     const jg_real t257 = v_4_in_j_1 * t242 - v_4_in_j_2 * t222 - (t251 + t252 + (t253 + t254)) - (t255 + t256);
-    jac_phi_q_t_lambda_A_j[6] = t257;
-    const jg_real t258 = v_0_in_j_2 * t231;
-    const jg_real t259 = v_0_in_j_1 * t243;
+    const jg_real t258 = t231 * v_0_in_j_2;
+    const jg_real t259 = t244 * v_0_in_j_1;
     const jg_real t260 = t257 - (t258 + t259);
-    jac_phi_q_t_lambda_A_j[0] = -(A_ji_2 * t239 - t217 * v_9_in_j_2 + (t223 * v_9_in_j_1 + A_ji_1 * t250 + A_ji_0 *
-        t260));
-    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_9_in_j_0 + A_ji_3 * t260 + A_ji_4 * t250 + A_ji_5 * t239);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_9_in_j_0 + A_ji_6 * t260 + A_ji_7 * t250 + A_ji_8 * t239);
-    jac_phi_q_t_lambda_A_j[5] = -t243;
-    jac_phi_q_t_lambda_A_j[9] = -(v_6_in_j_0 * t230 + v_6_in_j_1 * t222 + v_6_in_j_2 * t242 - (v_4_in_j_0 * t219 +
-        v_4_in_j_1 * t224 - v_4_in_j_2 * t218) + pitch * (t231 * h_star_in_j_1 + t227 * lambda_0_1_2_in_j_1 + (t232
-        * h_star_in_j_0 + t215 * lambda_0_1_2_in_j_0) - (t243 * h_star_in_j_2 + t221 * lambda_0_1_2_in_j_2)));
     const jg_real t261 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t262 = t261 * g_star_in_j_2;
     const jg_real t263 = A_i[7] * A_ji_4 - A_i[4] * A_ji_7;
@@ -1906,53 +1890,57 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t275 = h_star_in_j_1 * t264;
     const jg_real t276 = t271 - t272 - (t274 - t275);
     const jg_real t277 = lambda[0] * t269;
+    jac_phi_q_t_lambda_A_j[7] = t247;
+    jac_phi_q_t_lambda_A_j[6] = t257;
+    jac_phi_q_t_lambda_A_j[0] = -(A_ji_2 * t239 - t217 * v_9_in_j_2 + (t223 * v_9_in_j_1 + A_ji_1 * t250 + A_ji_0 *
+        t260));
+    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_9_in_j_0 + A_ji_3 * t260 + A_ji_4 * t250 + A_ji_5 * t239);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_9_in_j_0 + A_ji_6 * t260 + A_ji_7 * t250 + A_ji_8 * t239);
+    jac_phi_q_t_lambda_A_j[5] = -t244;
+    jac_phi_q_t_lambda_A_j[9] = -(v_6_in_j_0 * t230 + v_6_in_j_1 * t222 + v_6_in_j_2 * t242 - (v_4_in_j_0 * t219 +
+        v_4_in_j_1 * t224 - v_4_in_j_2 * t218) + pitch * (t231 * h_star_in_j_1 + t227 * lambda_0_1_2_in_j_1 + (t232
+        * h_star_in_j_0 + t215 * lambda_0_1_2_in_j_0) - (t244 * h_star_in_j_2 + t221 * lambda_0_1_2_in_j_2)));
     jac_phi_q_t_lambda_A_j[14] = t277;
     const jg_real t278 = lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[13] = t278;
-    jac_phi_q_t_lambda_A_j[44] = t278;
-    jac_phi_q_t_lambda_A_j[75] = t278;
     const jg_real t279 = s_j[1] * t278;
     const jg_real t280 = v_2_in_j_1 * t261;
     const jg_real t281 = v_6_in_j_1 * t265;
     const jg_real t282 = v_6_in_j_0 * t270 - t281 + (s_j[0] * t277 - t279 + (v_2_in_j_0 * t273 - t280) + (v_4_in_j_0
         * t268 - v_4_in_j_1 * t276));
-    jac_phi_q_t_lambda_A_j[18] = t282;
     const jg_real t283 = v_0_world_1 * lambda_0_1_2_in_j_1;
     const jg_real t284 = v_0_in_j_1 * t278;
     const jg_real t285 = t283 + t277 * v_0_in_j_0 - t284 + t282;
     const jg_real t286 = h_star_in_j_1 * t265;
     const jg_real t287 = t261 * g_star_in_j_1;
     const jg_real t288 = t273 * g_star_in_j_0 + t286 - (t287 + h_star_in_j_0 * t270);
-    const jg_real t289 = lambda[0] * t263;
-    jac_phi_q_t_lambda_A_j[73] = t289;
-    const jg_real t290 = s_j[2] * t278;
-    const jg_real t291 = v_2_in_j_2 * t261;
+    const jg_real t289 = v_2_in_j_2 * t261;
+    const jg_real t290 = lambda[0] * t263;
+    const jg_real t291 = s_j[2] * t278;
     const jg_real t292 = v_6_in_j_2 * t265;
-    const jg_real t293 = t292 + v_6_in_j_0 * t264 + (t290 + s_j[0] * t289 + (t291 + v_2_in_j_0 * t267) + (v_4_in_j_2
+    const jg_real t293 = t292 + v_6_in_j_0 * t264 + (t289 + v_2_in_j_0 * t267 + (t291 + s_j[0] * t290) + (v_4_in_j_2
         * t276 - v_4_in_j_0 * t288));
-    jac_phi_q_t_lambda_A_j[17] = t293;
     const jg_real t294 = v_0_world_1 * lambda_0_1_2_in_j_2;
     const jg_real t295 = v_0_in_j_2 * t278;
-    const jg_real t296 = t295 - (t294 - t289 * v_0_in_j_0) + t293;
+    const jg_real t296 = t295 - (t294 - t290 * v_0_in_j_0) + t293;
     const jg_real t297 = v_2_in_j_2 * t273;
     const jg_real t298 = v_2_in_j_1 * t267;
     const jg_real t299 = s_j[2] * t277;
-    const jg_real t300 = s_j[1] * t289;
+    const jg_real t300 = s_j[1] * t290;
     const jg_real t301 = v_6_in_j_2 * t270;
     const jg_real t302 = v_6_in_j_1 * t264;
     const jg_real t303 = v_4_in_j_1 * t288 - v_4_in_j_2 * t268 - (t297 + t298 + (t299 + t300)) - (t301 + t302);
-    jac_phi_q_t_lambda_A_j[16] = t303;
-    const jg_real t304 = v_0_in_j_2 * t277;
-    const jg_real t305 = v_0_in_j_1 * t289;
+    const jg_real t304 = t277 * v_0_in_j_2;
+    const jg_real t305 = t290 * v_0_in_j_1;
     const jg_real t306 = t303 - (t304 + t305);
+    jac_phi_q_t_lambda_A_j[13] = t278;
+    jac_phi_q_t_lambda_A_j[44] = t278;
+    jac_phi_q_t_lambda_A_j[75] = t278;
+    jac_phi_q_t_lambda_A_j[18] = t282;
+    jac_phi_q_t_lambda_A_j[73] = t290;
+    jac_phi_q_t_lambda_A_j[17] = t293;
+    jac_phi_q_t_lambda_A_j[16] = t303;
     jac_phi_q_t_lambda_A_j[10] = -(A_ji_2 * t285 - t263 * v_9_in_j_2 + (t269 * v_9_in_j_1 + A_ji_1 * t296 + A_ji_0 *
         t306));
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[4] * v_9_in_j_0 + A_ji_3 * t306 + A_ji_4 * t296 + A_ji_5 * t285);
-    jac_phi_q_t_lambda_A_j[12] = -(A_i[7] * v_9_in_j_0 + A_ji_6 * t306 + A_ji_7 * t296 + A_ji_8 * t285);
-    jac_phi_q_t_lambda_A_j[15] = -t289;
-    jac_phi_q_t_lambda_A_j[19] = -(v_6_in_j_0 * t276 + v_6_in_j_1 * t268 + v_6_in_j_2 * t288 - (v_4_in_j_0 * t265 +
-        v_4_in_j_1 * t270 - v_4_in_j_2 * t264) + pitch * (t277 * h_star_in_j_1 + t273 * lambda_0_1_2_in_j_1 + (t278
-        * h_star_in_j_0 + t261 * lambda_0_1_2_in_j_0) - (t289 * h_star_in_j_2 + t267 * lambda_0_1_2_in_j_2)));
     const jg_real t307 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t308 = t307 * g_star_in_j_2;
     const jg_real t309 = A_i[8] * A_ji_4 - A_i[5] * A_ji_7;
@@ -1970,8 +1958,14 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t321 = h_star_in_j_1 * t310;
     const jg_real t322 = t317 - t318 - (t320 - t321);
     const jg_real t323 = lambda[0] * t315;
-    jac_phi_q_t_lambda_A_j[24] = t323;
     const jg_real t324 = lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[4] * v_9_in_j_0 + A_ji_3 * t306 + A_ji_4 * t296 + A_ji_5 * t285);
+    jac_phi_q_t_lambda_A_j[12] = -(A_i[7] * v_9_in_j_0 + A_ji_6 * t306 + A_ji_7 * t296 + A_ji_8 * t285);
+    jac_phi_q_t_lambda_A_j[15] = -t290;
+    jac_phi_q_t_lambda_A_j[19] = -(v_6_in_j_0 * t276 + v_6_in_j_1 * t268 + v_6_in_j_2 * t288 - (v_4_in_j_0 * t265 +
+        v_4_in_j_1 * t270 - v_4_in_j_2 * t264) + pitch * (t277 * h_star_in_j_1 + t273 * lambda_0_1_2_in_j_1 + (t278
+        * h_star_in_j_0 + t261 * lambda_0_1_2_in_j_0) - (t290 * h_star_in_j_2 + t267 * lambda_0_1_2_in_j_2)));
+    jac_phi_q_t_lambda_A_j[24] = t323;
     jac_phi_q_t_lambda_A_j[23] = t324;
     jac_phi_q_t_lambda_A_j[54] = t324;
     jac_phi_q_t_lambda_A_j[85] = t324;
@@ -1980,43 +1974,40 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t327 = v_6_in_j_1 * t311;
     const jg_real t328 = v_6_in_j_0 * t316 - t327 + (s_j[0] * t323 - t325 + (v_2_in_j_0 * t319 - t326) + (v_4_in_j_0
         * t314 - v_4_in_j_1 * t322));
-    jac_phi_q_t_lambda_A_j[28] = t328;
     const jg_real t329 = v_0_world_2 * lambda_0_1_2_in_j_1;
     const jg_real t330 = v_0_in_j_1 * t324;
     const jg_real t331 = t329 + t323 * v_0_in_j_0 - t330 + t328;
     const jg_real t332 = h_star_in_j_1 * t311;
     const jg_real t333 = t307 * g_star_in_j_1;
     const jg_real t334 = t319 * g_star_in_j_0 + t332 - (t333 + h_star_in_j_0 * t316);
-    const jg_real t335 = lambda[0] * t309;
-    jac_phi_q_t_lambda_A_j[83] = t335;
-    const jg_real t336 = s_j[2] * t324;
-    const jg_real t337 = v_2_in_j_2 * t307;
+    const jg_real t335 = v_2_in_j_2 * t307;
+    const jg_real t336 = lambda[0] * t309;
+    const jg_real t337 = s_j[2] * t324;
     const jg_real t338 = v_6_in_j_2 * t311;
-    const jg_real t339 = t338 + v_6_in_j_0 * t310 + (t336 + s_j[0] * t335 + (t337 + v_2_in_j_0 * t313) + (v_4_in_j_2
+    const jg_real t339 = t338 + v_6_in_j_0 * t310 + (t335 + v_2_in_j_0 * t313 + (t337 + s_j[0] * t336) + (v_4_in_j_2
         * t322 - v_4_in_j_0 * t334));
-    jac_phi_q_t_lambda_A_j[27] = t339;
     const jg_real t340 = v_0_world_2 * lambda_0_1_2_in_j_2;
     const jg_real t341 = v_0_in_j_2 * t324;
-    const jg_real t342 = t341 - (t340 - t335 * v_0_in_j_0) + t339;
+    const jg_real t342 = t341 - (t340 - t336 * v_0_in_j_0) + t339;
     const jg_real t343 = v_2_in_j_2 * t319;
     const jg_real t344 = v_2_in_j_1 * t313;
     const jg_real t345 = s_j[2] * t323;
-    const jg_real t346 = s_j[1] * t335;
+    const jg_real t346 = s_j[1] * t336;
     const jg_real t347 = v_6_in_j_2 * t316;
     const jg_real t348 = v_6_in_j_1 * t310;
     const jg_real t349 = v_4_in_j_1 * t334 - v_4_in_j_2 * t314 - (t343 + t344 + (t345 + t346)) - (t347 + t348);
-    jac_phi_q_t_lambda_A_j[26] = t349;
-    const jg_real t350 = v_0_in_j_2 * t323;
-    const jg_real t351 = v_0_in_j_1 * t335;
+    const jg_real t350 = t323 * v_0_in_j_2;
+    const jg_real t351 = t336 * v_0_in_j_1;
     const jg_real t352 = t349 - (t350 + t351);
+    jac_phi_q_t_lambda_A_j[28] = t328;
+    jac_phi_q_t_lambda_A_j[83] = t336;
+    jac_phi_q_t_lambda_A_j[27] = t339;
+    jac_phi_q_t_lambda_A_j[26] = t349;
     jac_phi_q_t_lambda_A_j[20] = -(A_ji_2 * t331 - t309 * v_9_in_j_2 + (t315 * v_9_in_j_1 + A_ji_1 * t342 + A_ji_0 *
         t352));
     jac_phi_q_t_lambda_A_j[21] = -(A_i[5] * v_9_in_j_0 + A_ji_3 * t352 + A_ji_4 * t342 + A_ji_5 * t331);
     jac_phi_q_t_lambda_A_j[22] = -(A_i[8] * v_9_in_j_0 + A_ji_6 * t352 + A_ji_7 * t342 + A_ji_8 * t331);
-    jac_phi_q_t_lambda_A_j[25] = -t335;
-    jac_phi_q_t_lambda_A_j[29] = -(v_6_in_j_0 * t322 + v_6_in_j_1 * t314 + v_6_in_j_2 * t334 - (v_4_in_j_0 * t311 +
-        v_4_in_j_1 * t316 - v_4_in_j_2 * t310) + pitch * (t323 * h_star_in_j_1 + t319 * lambda_0_1_2_in_j_1 + (t324
-        * h_star_in_j_0 + t307 * lambda_0_1_2_in_j_0) - (t335 * h_star_in_j_2 + t313 * lambda_0_1_2_in_j_2)));
+    jac_phi_q_t_lambda_A_j[25] = -t336;
     const jg_real t353 = A_i[3] * A_ji_6 - A_i[6] * A_ji_3;
     const jg_real t354 = C_i[6] * t353;
     const jg_real t355 = t354 * g_star_in_j_0;
@@ -2029,35 +2020,33 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t362 = v_6_in_j_0 * t219;
     const jg_real t363 = t362 + v_6_in_j_1 * t224 + (t360 + s_j[1] * t231 + (t361 + v_2_in_j_1 * t227) + (v_4_in_j_0
         * t358 - v_4_in_j_1 * t359));
-    jac_phi_q_t_lambda_A_j[38] = t363;
     const jg_real t364 = v_0_world_0 * lambda_0_1_2_in_j_0;
-    const jg_real t365 = v_0_in_j_0 * t232;
-    const jg_real t366 = t365 - (t364 - v_0_in_j_1 * t231) + t363;
+    const jg_real t365 = t232 * v_0_in_j_0;
+    const jg_real t366 = t365 - (t364 - t231 * v_0_in_j_1) + t363;
     const jg_real t367 = t215 * g_star_in_j_0;
     const jg_real t368 = h_star_in_j_0 * t219;
     const jg_real t369 = t367 - h_star_in_j_1 * t224 - (t368 - t227 * g_star_in_j_1);
     const jg_real t370 = lambda[0] * t353;
-    jac_phi_q_t_lambda_A_j[64] = t370;
-    const jg_real t371 = v_4_in_j_1 * t369 - v_4_in_j_2 * t358 - (t245 + v_2_in_j_1 * t354 + (t244 + s_j[1] * t370))
+    const jg_real t371 = v_4_in_j_1 * t369 - v_4_in_j_2 * t358 - (t243 + v_2_in_j_1 * t354 + (t245 + s_j[1] * t370))
         - (t246 + v_6_in_j_1 * t356);
-    jac_phi_q_t_lambda_A_j[36] = t371;
-    const jg_real t372 = t248 - v_0_in_j_1 * t370 - t249 + t371;
-    const jg_real t373 = s_j[0] * t370;
-    const jg_real t374 = v_2_in_j_0 * t354;
+    const jg_real t372 = t248 - t370 * v_0_in_j_1 - t249 + t371;
+    const jg_real t373 = v_2_in_j_0 * t354;
+    const jg_real t374 = s_j[0] * t370;
     const jg_real t375 = v_6_in_j_0 * t356;
-    const jg_real t376 = t375 - t255 + (t373 - t253 + (t374 - t251) + (v_4_in_j_2 * t359 - v_4_in_j_0 * t369));
-    jac_phi_q_t_lambda_A_j[37] = t376;
+    const jg_real t376 = t375 - t255 + (t373 - t251 + (t374 - t253) + (v_4_in_j_2 * t359 - v_4_in_j_0 * t369));
     const jg_real t377 = t370 * v_0_in_j_0;
     const jg_real t378 = t377 - t258 + t376;
+    jac_phi_q_t_lambda_A_j[29] = -(v_6_in_j_0 * t322 + v_6_in_j_1 * t314 + v_6_in_j_2 * t334 - (v_4_in_j_0 * t311 +
+        v_4_in_j_1 * t316 - v_4_in_j_2 * t310) + pitch * (t323 * h_star_in_j_1 + t319 * lambda_0_1_2_in_j_1 + (t324
+        * h_star_in_j_0 + t307 * lambda_0_1_2_in_j_0) - (t336 * h_star_in_j_2 + t313 * lambda_0_1_2_in_j_2)));
+    jac_phi_q_t_lambda_A_j[38] = t363;
+    jac_phi_q_t_lambda_A_j[64] = t370;
+    jac_phi_q_t_lambda_A_j[36] = t371;
+    jac_phi_q_t_lambda_A_j[37] = t376;
     jac_phi_q_t_lambda_A_j[30] = -(A_ji_2 * t366 - t353 * v_9_in_j_2 + (A_ji_0 * t372 - t223 * v_9_in_j_0 + A_ji_1 *
         t378));
     jac_phi_q_t_lambda_A_j[31] = -(A_i[3] * v_9_in_j_1 + A_ji_4 * t378 + A_ji_3 * t372 + A_ji_5 * t366);
     jac_phi_q_t_lambda_A_j[32] = -(A_i[6] * v_9_in_j_1 + A_ji_7 * t378 + A_ji_6 * t372 + A_ji_8 * t366);
-    jac_phi_q_t_lambda_A_j[33] = -t231;
-    jac_phi_q_t_lambda_A_j[35] = -t370;
-    jac_phi_q_t_lambda_A_j[39] = -(v_6_in_j_0 * t359 + v_6_in_j_1 * t358 + v_6_in_j_2 * t369 - (v_4_in_j_1 * t219 -
-        v_4_in_j_0 * t224 - v_4_in_j_2 * t356) + pitch * (h_star_in_j_1 * t232 + t215 * lambda_0_1_2_in_j_1 - (t231
-        * h_star_in_j_0 + t227 * lambda_0_1_2_in_j_0) - (t370 * h_star_in_j_2 + t354 * lambda_0_1_2_in_j_2)));
     const jg_real t379 = A_i[4] * A_ji_6 - A_i[7] * A_ji_3;
     const jg_real t380 = C_i[6] * t379;
     const jg_real t381 = t380 * g_star_in_j_0;
@@ -2070,35 +2059,33 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t388 = v_6_in_j_0 * t265;
     const jg_real t389 = t388 + v_6_in_j_1 * t270 + (t386 + s_j[1] * t277 + (t387 + v_2_in_j_1 * t273) + (v_4_in_j_0
         * t384 - v_4_in_j_1 * t385));
-    jac_phi_q_t_lambda_A_j[48] = t389;
     const jg_real t390 = v_0_world_1 * lambda_0_1_2_in_j_0;
-    const jg_real t391 = v_0_in_j_0 * t278;
-    const jg_real t392 = t391 - (t390 - v_0_in_j_1 * t277) + t389;
+    const jg_real t391 = t278 * v_0_in_j_0;
+    const jg_real t392 = t391 - (t390 - t277 * v_0_in_j_1) + t389;
     const jg_real t393 = t261 * g_star_in_j_0;
     const jg_real t394 = h_star_in_j_0 * t265;
     const jg_real t395 = t393 - h_star_in_j_1 * t270 - (t394 - t273 * g_star_in_j_1);
     const jg_real t396 = lambda[0] * t379;
-    jac_phi_q_t_lambda_A_j[74] = t396;
-    const jg_real t397 = v_4_in_j_1 * t395 - v_4_in_j_2 * t384 - (t291 + v_2_in_j_1 * t380 + (t290 + s_j[1] * t396))
+    const jg_real t397 = v_4_in_j_1 * t395 - v_4_in_j_2 * t384 - (t289 + v_2_in_j_1 * t380 + (t291 + s_j[1] * t396))
         - (t292 + v_6_in_j_1 * t382);
-    jac_phi_q_t_lambda_A_j[46] = t397;
-    const jg_real t398 = t294 - v_0_in_j_1 * t396 - t295 + t397;
-    const jg_real t399 = s_j[0] * t396;
-    const jg_real t400 = v_2_in_j_0 * t380;
+    const jg_real t398 = t294 - t396 * v_0_in_j_1 - t295 + t397;
+    const jg_real t399 = v_2_in_j_0 * t380;
+    const jg_real t400 = s_j[0] * t396;
     const jg_real t401 = v_6_in_j_0 * t382;
-    const jg_real t402 = t401 - t301 + (t399 - t299 + (t400 - t297) + (v_4_in_j_2 * t385 - v_4_in_j_0 * t395));
-    jac_phi_q_t_lambda_A_j[47] = t402;
+    const jg_real t402 = t401 - t301 + (t399 - t297 + (t400 - t299) + (v_4_in_j_2 * t385 - v_4_in_j_0 * t395));
     const jg_real t403 = t396 * v_0_in_j_0;
     const jg_real t404 = t403 - t304 + t402;
+    jac_phi_q_t_lambda_A_j[33] = -t231;
+    jac_phi_q_t_lambda_A_j[35] = -t370;
+    jac_phi_q_t_lambda_A_j[39] = -(v_6_in_j_0 * t359 + v_6_in_j_1 * t358 + v_6_in_j_2 * t369 - (v_4_in_j_1 * t219 -
+        v_4_in_j_0 * t224 - v_4_in_j_2 * t356) + pitch * (h_star_in_j_1 * t232 + t215 * lambda_0_1_2_in_j_1 - (t231
+        * h_star_in_j_0 + t227 * lambda_0_1_2_in_j_0) - (t370 * h_star_in_j_2 + t354 * lambda_0_1_2_in_j_2)));
+    jac_phi_q_t_lambda_A_j[48] = t389;
+    jac_phi_q_t_lambda_A_j[74] = t396;
+    jac_phi_q_t_lambda_A_j[46] = t397;
+    jac_phi_q_t_lambda_A_j[47] = t402;
     jac_phi_q_t_lambda_A_j[40] = -(A_ji_2 * t392 - t379 * v_9_in_j_2 + (A_ji_0 * t398 - t269 * v_9_in_j_0 + A_ji_1 *
         t404));
-    jac_phi_q_t_lambda_A_j[41] = -(A_i[4] * v_9_in_j_1 + A_ji_4 * t404 + A_ji_3 * t398 + A_ji_5 * t392);
-    jac_phi_q_t_lambda_A_j[42] = -(A_i[7] * v_9_in_j_1 + A_ji_7 * t404 + A_ji_6 * t398 + A_ji_8 * t392);
-    jac_phi_q_t_lambda_A_j[43] = -t277;
-    jac_phi_q_t_lambda_A_j[45] = -t396;
-    jac_phi_q_t_lambda_A_j[49] = -(v_6_in_j_0 * t385 + v_6_in_j_1 * t384 + v_6_in_j_2 * t395 - (v_4_in_j_1 * t265 -
-        v_4_in_j_0 * t270 - v_4_in_j_2 * t382) + pitch * (h_star_in_j_1 * t278 + t261 * lambda_0_1_2_in_j_1 - (t277
-        * h_star_in_j_0 + t273 * lambda_0_1_2_in_j_0) - (t396 * h_star_in_j_2 + t380 * lambda_0_1_2_in_j_2)));
     const jg_real t405 = A_i[5] * A_ji_6 - A_i[8] * A_ji_3;
     const jg_real t406 = C_i[6] * t405;
     const jg_real t407 = t406 * g_star_in_j_0;
@@ -2111,26 +2098,37 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t414 = v_6_in_j_0 * t311;
     const jg_real t415 = t414 + v_6_in_j_1 * t316 + (t412 + s_j[1] * t323 + (t413 + v_2_in_j_1 * t319) + (v_4_in_j_0
         * t410 - v_4_in_j_1 * t411));
-    jac_phi_q_t_lambda_A_j[58] = t415;
     const jg_real t416 = v_0_world_2 * lambda_0_1_2_in_j_0;
-    const jg_real t417 = v_0_in_j_0 * t324;
-    const jg_real t418 = t417 - (t416 - v_0_in_j_1 * t323) + t415;
+    const jg_real t417 = t324 * v_0_in_j_0;
+    const jg_real t418 = t417 - (t416 - t323 * v_0_in_j_1) + t415;
     const jg_real t419 = t307 * g_star_in_j_0;
     const jg_real t420 = h_star_in_j_0 * t311;
     const jg_real t421 = t419 - h_star_in_j_1 * t316 - (t420 - t319 * g_star_in_j_1);
     const jg_real t422 = lambda[0] * t405;
-    jac_phi_q_t_lambda_A_j[84] = t422;
-    const jg_real t423 = v_4_in_j_1 * t421 - v_4_in_j_2 * t410 - (t337 + v_2_in_j_1 * t406 + (t336 + s_j[1] * t422))
+    const jg_real t423 = v_4_in_j_1 * t421 - v_4_in_j_2 * t410 - (t335 + v_2_in_j_1 * t406 + (t337 + s_j[1] * t422))
         - (t338 + v_6_in_j_1 * t408);
+    jac_phi_q_t_lambda_A_j[41] = -(A_i[4] * v_9_in_j_1 + A_ji_4 * t404 + A_ji_3 * t398 + A_ji_5 * t392);
+    jac_phi_q_t_lambda_A_j[42] = -(A_i[7] * v_9_in_j_1 + A_ji_7 * t404 + A_ji_6 * t398 + A_ji_8 * t392);
+    jac_phi_q_t_lambda_A_j[43] = -t277;
+    jac_phi_q_t_lambda_A_j[45] = -t396;
+    jac_phi_q_t_lambda_A_j[49] = -(v_6_in_j_0 * t385 + v_6_in_j_1 * t384 + v_6_in_j_2 * t395 - (v_4_in_j_1 * t265 -
+        v_4_in_j_0 * t270 - v_4_in_j_2 * t382) + pitch * (h_star_in_j_1 * t278 + t261 * lambda_0_1_2_in_j_1 - (t277
+        * h_star_in_j_0 + t273 * lambda_0_1_2_in_j_0) - (t396 * h_star_in_j_2 + t380 * lambda_0_1_2_in_j_2)));
+    jac_phi_q_t_lambda_A_j[58] = t415;
+    jac_phi_q_t_lambda_A_j[84] = t422;
     jac_phi_q_t_lambda_A_j[56] = t423;
-    const jg_real t424 = t340 - v_0_in_j_1 * t422 - t341 + t423;
-    const jg_real t425 = s_j[0] * t422;
-    const jg_real t426 = v_2_in_j_0 * t406;
+    const jg_real t424 = t340 - t422 * v_0_in_j_1 - t341 + t423;
+    const jg_real t425 = v_2_in_j_0 * t406;
+    const jg_real t426 = s_j[0] * t422;
     const jg_real t427 = v_6_in_j_0 * t408;
-    const jg_real t428 = t427 - t347 + (t425 - t345 + (t426 - t343) + (v_4_in_j_2 * t411 - v_4_in_j_0 * t421));
-    jac_phi_q_t_lambda_A_j[57] = t428;
+    const jg_real t428 = t427 - t347 + (t425 - t343 + (t426 - t345) + (v_4_in_j_2 * t411 - v_4_in_j_0 * t421));
     const jg_real t429 = t422 * v_0_in_j_0;
     const jg_real t430 = t429 - t350 + t428;
+    const jg_real t431 = t355 + t229 - (t226 + t357);
+    const jg_real t432 = t368 + t221 * g_star_in_j_2 - (t367 + h_star_in_j_2 * t218);
+    const jg_real t433 = t235 - v_6_in_j_2 * t356 + (t234 - v_2_in_j_2 * t354 + (t233 - s_j[2] * t370) + (v_4_in_j_1
+        * t431 - v_4_in_j_2 * t432));
+    jac_phi_q_t_lambda_A_j[57] = t428;
     jac_phi_q_t_lambda_A_j[50] = -(A_ji_2 * t418 - t405 * v_9_in_j_2 + (A_ji_0 * t424 - t315 * v_9_in_j_0 + A_ji_1 *
         t430));
     jac_phi_q_t_lambda_A_j[51] = -(A_i[5] * v_9_in_j_1 + A_ji_4 * t430 + A_ji_3 * t424 + A_ji_5 * t418);
@@ -2140,69 +2138,58 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_A_j[59] = -(v_6_in_j_0 * t411 + v_6_in_j_1 * t410 + v_6_in_j_2 * t421 - (v_4_in_j_1 * t311 -
         v_4_in_j_0 * t316 - v_4_in_j_2 * t408) + pitch * (h_star_in_j_1 * t324 + t307 * lambda_0_1_2_in_j_1 - (t323
         * h_star_in_j_0 + t319 * lambda_0_1_2_in_j_0) - (t422 * h_star_in_j_2 + t406 * lambda_0_1_2_in_j_2)));
-    const jg_real t431 = t355 + t229 - (t226 + t357);
-    const jg_real t432 = t368 + t221 * g_star_in_j_2 - (t367 + h_star_in_j_2 * t218);
-    const jg_real t433 = t235 - v_6_in_j_2 * t356 + (t234 - v_2_in_j_2 * t354 + (t233 - s_j[2] * t370) + (v_4_in_j_1
-        * t431 - v_4_in_j_2 * t432));
     jac_phi_q_t_lambda_A_j[66] = t433;
-    const jg_real t434 = t238 - (v_0_in_j_2 * t370 + t237) + t433;
+    const jg_real t434 = t238 - (t370 * v_0_in_j_2 + t237) + t433;
     const jg_real t435 = t241 + h_star_in_j_2 * t356 - (t240 + t354 * g_star_in_j_2);
-    const jg_real t436 = v_6_in_j_2 * t218 - t362 + (s_j[2] * t243 - t360 + (v_2_in_j_2 * t221 - t361) + (v_4_in_j_2
+    const jg_real t436 = v_6_in_j_2 * t218 - t362 + (v_2_in_j_2 * t221 - t361 + (s_j[2] * t244 - t360) + (v_4_in_j_2
         * t435 - v_4_in_j_0 * t431));
-    jac_phi_q_t_lambda_A_j[67] = t436;
-    const jg_real t437 = v_0_in_j_2 * t243 + t364 - t365 + t436;
-    const jg_real t438 = t375 - t256 + (t373 - t254 + (t374 - t252) + (v_4_in_j_0 * t432 - v_4_in_j_1 * t435));
-    jac_phi_q_t_lambda_A_j[68] = t438;
+    const jg_real t437 = t244 * v_0_in_j_2 + t364 - t365 + t436;
+    const jg_real t438 = t375 - t256 + (t374 - t254 + (t373 - t252) + (v_4_in_j_0 * t432 - v_4_in_j_1 * t435));
     const jg_real t439 = t377 - t259 + t438;
+    const jg_real t440 = t381 + t275 - (t272 + t383);
+    const jg_real t441 = t394 + t267 * g_star_in_j_2 - (t393 + h_star_in_j_2 * t264);
+    const jg_real t442 = t281 - v_6_in_j_2 * t382 + (t280 - v_2_in_j_2 * t380 + (t279 - s_j[2] * t396) + (v_4_in_j_1
+        * t440 - v_4_in_j_2 * t441));
+    const jg_real t443 = t284 - (t396 * v_0_in_j_2 + t283) + t442;
+    const jg_real t444 = t287 + h_star_in_j_2 * t382 - (t286 + t380 * g_star_in_j_2);
+    const jg_real t445 = v_6_in_j_2 * t264 - t388 + (v_2_in_j_2 * t267 - t387 + (s_j[2] * t290 - t386) + (v_4_in_j_2
+        * t444 - v_4_in_j_0 * t440));
+    jac_phi_q_t_lambda_A_j[67] = t436;
+    jac_phi_q_t_lambda_A_j[68] = t438;
     jac_phi_q_t_lambda_A_j[60] = -(t217 * v_9_in_j_0 + A_ji_0 * t434 + (t353 * v_9_in_j_1 + A_ji_1 * t437) + A_ji_2
         * t439);
     jac_phi_q_t_lambda_A_j[61] = -(A_i[3] * v_9_in_j_2 + A_ji_5 * t439 + (A_ji_3 * t434 + A_ji_4 * t437));
     jac_phi_q_t_lambda_A_j[62] = -(A_i[6] * v_9_in_j_2 + A_ji_8 * t439 + (A_ji_6 * t434 + A_ji_7 * t437));
     jac_phi_q_t_lambda_A_j[69] = -(v_6_in_j_0 * t435 + v_6_in_j_1 * t432 + v_6_in_j_2 * t431 - (v_4_in_j_0 * t218 +
         v_4_in_j_1 * t356 + v_4_in_j_2 * t219) + pitch * (t232 * h_star_in_j_2 + t215 * lambda_0_1_2_in_j_2 + (t370
-        * h_star_in_j_1 + t354 * lambda_0_1_2_in_j_1 + (t243 * h_star_in_j_0 + t221 * lambda_0_1_2_in_j_0))));
-    const jg_real t440 = t381 + t275 - (t272 + t383);
-    const jg_real t441 = t394 + t267 * g_star_in_j_2 - (t393 + h_star_in_j_2 * t264);
-    const jg_real t442 = t281 - v_6_in_j_2 * t382 + (t280 - v_2_in_j_2 * t380 + (t279 - s_j[2] * t396) + (v_4_in_j_1
-        * t440 - v_4_in_j_2 * t441));
+        * h_star_in_j_1 + t354 * lambda_0_1_2_in_j_1 + (t244 * h_star_in_j_0 + t221 * lambda_0_1_2_in_j_0))));
     jac_phi_q_t_lambda_A_j[76] = t442;
-    const jg_real t443 = t284 - (v_0_in_j_2 * t396 + t283) + t442;
-    const jg_real t444 = t287 + h_star_in_j_2 * t382 - (t286 + t380 * g_star_in_j_2);
-    const jg_real t445 = v_6_in_j_2 * t264 - t388 + (s_j[2] * t289 - t386 + (v_2_in_j_2 * t267 - t387) + (v_4_in_j_2
-        * t444 - v_4_in_j_0 * t440));
     jac_phi_q_t_lambda_A_j[77] = t445;
-    const jg_real t446 = v_0_in_j_2 * t289 + t390 - t391 + t445;
-    const jg_real t447 = t401 - t302 + (t399 - t300 + (t400 - t298) + (v_4_in_j_0 * t441 - v_4_in_j_1 * t444));
-    jac_phi_q_t_lambda_A_j[78] = t447;
+    const jg_real t446 = t290 * v_0_in_j_2 + t390 - t391 + t445;
+    const jg_real t447 = t401 - t302 + (t400 - t300 + (t399 - t298) + (v_4_in_j_0 * t441 - v_4_in_j_1 * t444));
     const jg_real t448 = t403 - t305 + t447;
+    const jg_real t449 = t407 + t321 - (t318 + t409);
+    const jg_real t450 = t420 + t313 * g_star_in_j_2 - (t419 + h_star_in_j_2 * t310);
+    const jg_real t451 = t327 - v_6_in_j_2 * t408 + (t326 - v_2_in_j_2 * t406 + (t325 - s_j[2] * t422) + (v_4_in_j_1
+        * t449 - v_4_in_j_2 * t450));
+    const jg_real t452 = t330 - (t422 * v_0_in_j_2 + t329) + t451;
+    const jg_real t453 = t333 + h_star_in_j_2 * t408 - (t332 + t406 * g_star_in_j_2);
+    const jg_real t454 = v_6_in_j_2 * t310 - t414 + (v_2_in_j_2 * t313 - t413 + (s_j[2] * t336 - t412) + (v_4_in_j_2
+        * t453 - v_4_in_j_0 * t449));
+    const jg_real t455 = t336 * v_0_in_j_2 + t416 - t417 + t454;
+    const jg_real t456 = t427 - t348 + (t426 - t346 + (t425 - t344) + (v_4_in_j_0 * t450 - v_4_in_j_1 * t453));
+    jac_phi_q_t_lambda_A_j[78] = t447;
     jac_phi_q_t_lambda_A_j[70] = -(t263 * v_9_in_j_0 + A_ji_0 * t443 + (t379 * v_9_in_j_1 + A_ji_1 * t446) + A_ji_2
         * t448);
     jac_phi_q_t_lambda_A_j[71] = -(A_i[4] * v_9_in_j_2 + A_ji_5 * t448 + (A_ji_3 * t443 + A_ji_4 * t446));
     jac_phi_q_t_lambda_A_j[72] = -(A_i[7] * v_9_in_j_2 + A_ji_8 * t448 + (A_ji_6 * t443 + A_ji_7 * t446));
     jac_phi_q_t_lambda_A_j[79] = -(v_6_in_j_0 * t444 + v_6_in_j_1 * t441 + v_6_in_j_2 * t440 - (v_4_in_j_0 * t264 +
         v_4_in_j_1 * t382 + v_4_in_j_2 * t265) + pitch * (t278 * h_star_in_j_2 + t261 * lambda_0_1_2_in_j_2 + (t396
-        * h_star_in_j_1 + t380 * lambda_0_1_2_in_j_1 + (t289 * h_star_in_j_0 + t267 * lambda_0_1_2_in_j_0))));
-    const jg_real t449 = t407 + t321 - (t318 + t409);
-    const jg_real t450 = t420 + t313 * g_star_in_j_2 - (t419 + h_star_in_j_2 * t310);
-    const jg_real t451 = t327 - v_6_in_j_2 * t408 + (t326 - v_2_in_j_2 * t406 + (t325 - s_j[2] * t422) + (v_4_in_j_1
-        * t449 - v_4_in_j_2 * t450));
+        * h_star_in_j_1 + t380 * lambda_0_1_2_in_j_1 + (t290 * h_star_in_j_0 + t267 * lambda_0_1_2_in_j_0))));
     jac_phi_q_t_lambda_A_j[86] = t451;
-    const jg_real t452 = t330 - (v_0_in_j_2 * t422 + t329) + t451;
-    const jg_real t453 = t333 + h_star_in_j_2 * t408 - (t332 + t406 * g_star_in_j_2);
-    const jg_real t454 = v_6_in_j_2 * t310 - t414 + (s_j[2] * t335 - t412 + (v_2_in_j_2 * t313 - t413) + (v_4_in_j_2
-        * t453 - v_4_in_j_0 * t449));
     jac_phi_q_t_lambda_A_j[87] = t454;
-    const jg_real t455 = v_0_in_j_2 * t335 + t416 - t417 + t454;
-    const jg_real t456 = t427 - t348 + (t425 - t346 + (t426 - t344) + (v_4_in_j_0 * t450 - v_4_in_j_1 * t453));
     jac_phi_q_t_lambda_A_j[88] = t456;
     const jg_real t457 = t429 - t351 + t456;
-    jac_phi_q_t_lambda_A_j[80] = -(t309 * v_9_in_j_0 + A_ji_0 * t452 + (t405 * v_9_in_j_1 + A_ji_1 * t455) + A_ji_2
-        * t457);
-    jac_phi_q_t_lambda_A_j[81] = -(A_i[5] * v_9_in_j_2 + A_ji_5 * t457 + (A_ji_3 * t452 + A_ji_4 * t455));
-    jac_phi_q_t_lambda_A_j[82] = -(A_i[8] * v_9_in_j_2 + A_ji_8 * t457 + (A_ji_6 * t452 + A_ji_7 * t455));
-    jac_phi_q_t_lambda_A_j[89] = -(v_6_in_j_0 * t453 + v_6_in_j_1 * t450 + v_6_in_j_2 * t449 - (v_4_in_j_0 * t310 +
-        v_4_in_j_1 * t408 + v_4_in_j_2 * t311) + pitch * (t324 * h_star_in_j_2 + t307 * lambda_0_1_2_in_j_2 + (t422
-        * h_star_in_j_1 + t406 * lambda_0_1_2_in_j_1 + (t335 * h_star_in_j_0 + t313 * lambda_0_1_2_in_j_0))));
     const jg_real t458 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real t459 = C_i[4] * sine_0 + C_i[1] * cosine_0;
     const jg_real t460 = C_i[5] * sine_0 + C_i[2] * cosine_0;
@@ -2212,62 +2199,69 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t464 = A_ji_2 * t458 + A_ji_5 * t459 + A_ji_8 * t460;
     const jg_real t465 = h_star_in_j_2 * t462 - h_star_in_j_0 * t464;
     const jg_real t466 = v_6_in_j_2 * t461 - v_6_in_j_1 * t464 + (v_4_in_j_1 * t463 - v_4_in_j_2 * t465);
-    jac_phi_q_t_lambda_alpha[3] = t466;
     const jg_real t467 = h_star_in_j_1 * t464 - h_star_in_j_2 * t461;
     const jg_real t468 = v_6_in_j_0 * t464 - v_6_in_j_2 * t462 + (v_4_in_j_2 * t467 - v_4_in_j_0 * t463);
-    jac_phi_q_t_lambda_alpha[4] = t468;
     const jg_real t469 = v_6_in_j_1 * t462 - v_6_in_j_0 * t461 + (v_4_in_j_0 * t465 - v_4_in_j_1 * t467);
+    jac_phi_q_t_lambda_A_j[80] = -(t309 * v_9_in_j_0 + A_ji_0 * t452 + (t405 * v_9_in_j_1 + A_ji_1 * t455) + A_ji_2
+        * t457);
+    jac_phi_q_t_lambda_A_j[81] = -(A_i[5] * v_9_in_j_2 + A_ji_5 * t457 + (A_ji_3 * t452 + A_ji_4 * t455));
+    jac_phi_q_t_lambda_A_j[82] = -(A_i[8] * v_9_in_j_2 + A_ji_8 * t457 + (A_ji_6 * t452 + A_ji_7 * t455));
+    jac_phi_q_t_lambda_A_j[89] = -(v_6_in_j_0 * t453 + v_6_in_j_1 * t450 + v_6_in_j_2 * t449 - (v_4_in_j_0 * t310 +
+        v_4_in_j_1 * t408 + v_4_in_j_2 * t311) + pitch * (t324 * h_star_in_j_2 + t307 * lambda_0_1_2_in_j_2 + (t422
+        * h_star_in_j_1 + t406 * lambda_0_1_2_in_j_1 + (t336 * h_star_in_j_0 + t313 * lambda_0_1_2_in_j_0))));
+    jac_phi_q_t_lambda_alpha[3] = t466;
+    jac_phi_q_t_lambda_alpha[4] = t468;
     jac_phi_q_t_lambda_alpha[5] = t469;
     jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t466 + A_ji_1 * t468 + A_ji_2 * t469);
-    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t466 + A_ji_4 * t468 + A_ji_5 * t469);
-    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t466 + A_ji_7 * t468 + A_ji_8 * t469);
-    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t462 + v_4_in_j_1 * t461 + v_4_in_j_2 * t464 + (v_6_in_j_0 * t467 +
-        v_6_in_j_1 * t465 + v_6_in_j_2 * t463));
     const jg_real t470 = A_ji_1 * sine_0;
     const jg_real t471 = A_ji_0 * sine_0;
     const jg_real t472 = h_star_in_j_0 * t470 - h_star_in_j_1 * t471;
     const jg_real t473 = A_ji_2 * sine_0;
     const jg_real t474 = h_star_in_j_2 * t471 - h_star_in_j_0 * t473;
     const jg_real t475 = v_6_in_j_2 * t470 - v_6_in_j_1 * t473 + (v_4_in_j_1 * t472 - v_4_in_j_2 * t474);
-    jac_phi_q_t_lambda_geometry[3] = t475;
     const jg_real t476 = h_star_in_j_1 * t473 - h_star_in_j_2 * t470;
     const jg_real t477 = v_6_in_j_0 * t473 - v_6_in_j_2 * t471 + (v_4_in_j_2 * t476 - v_4_in_j_0 * t472);
-    jac_phi_q_t_lambda_geometry[4] = t477;
     const jg_real t478 = v_6_in_j_1 * t471 - v_6_in_j_0 * t470 + (v_4_in_j_0 * t474 - v_4_in_j_1 * t476);
+    jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t466 + A_ji_4 * t468 + A_ji_5 * t469);
+    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t466 + A_ji_7 * t468 + A_ji_8 * t469);
+    jac_phi_q_t_lambda_alpha[6] = -(v_4_in_j_0 * t462 + v_4_in_j_1 * t461 + v_4_in_j_2 * t464 + (v_6_in_j_0 * t467 +
+        v_6_in_j_1 * t465 + v_6_in_j_2 * t463));
+    jac_phi_q_t_lambda_geometry[3] = t475;
+    jac_phi_q_t_lambda_geometry[4] = t477;
     jac_phi_q_t_lambda_geometry[5] = t478;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t475 + A_ji_1 * t477 + A_ji_2 * t478);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t475 + A_ji_4 * t477 + A_ji_5 * t478);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t475 + A_ji_7 * t477 + A_ji_8 * t478);
-    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t471 + v_4_in_j_1 * t470 + v_4_in_j_2 * t473 + (v_6_in_j_0 *
-        t476 + v_6_in_j_1 * t474 + v_6_in_j_2 * t472));
     const jg_real t479 = A_ji_4 * sine_0;
     const jg_real t480 = A_ji_3 * sine_0;
     const jg_real t481 = h_star_in_j_0 * t479 - h_star_in_j_1 * t480;
     const jg_real t482 = A_ji_5 * sine_0;
     const jg_real t483 = h_star_in_j_2 * t480 - h_star_in_j_0 * t482;
     const jg_real t484 = v_6_in_j_2 * t479 - v_6_in_j_1 * t482 + (v_4_in_j_1 * t481 - v_4_in_j_2 * t483);
-    jac_phi_q_t_lambda_geometry[10] = t484;
     const jg_real t485 = h_star_in_j_1 * t482 - h_star_in_j_2 * t479;
     const jg_real t486 = v_6_in_j_0 * t482 - v_6_in_j_2 * t480 + (v_4_in_j_2 * t485 - v_4_in_j_0 * t481);
-    jac_phi_q_t_lambda_geometry[11] = t486;
     const jg_real t487 = v_6_in_j_1 * t480 - v_6_in_j_0 * t479 + (v_4_in_j_0 * t483 - v_4_in_j_1 * t485);
+    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t475 + A_ji_7 * t477 + A_ji_8 * t478);
+    jac_phi_q_t_lambda_geometry[6] = -(v_4_in_j_0 * t471 + v_4_in_j_1 * t470 + v_4_in_j_2 * t473 + (v_6_in_j_0 *
+        t476 + v_6_in_j_1 * t474 + v_6_in_j_2 * t472));
+    jac_phi_q_t_lambda_geometry[10] = t484;
+    jac_phi_q_t_lambda_geometry[11] = t486;
     jac_phi_q_t_lambda_geometry[12] = t487;
     jac_phi_q_t_lambda_geometry[7] = -(A_ji_0 * t484 + A_ji_1 * t486 + A_ji_2 * t487);
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_3 * t484 + A_ji_4 * t486 + A_ji_5 * t487);
     jac_phi_q_t_lambda_geometry[9] = -(A_ji_6 * t484 + A_ji_7 * t486 + A_ji_8 * t487);
-    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t480 + v_4_in_j_1 * t479 + v_4_in_j_2 * t482 + (v_6_in_j_0 *
-        t485 + v_6_in_j_1 * t483 + v_6_in_j_2 * t481));
     const jg_real t488 = A_ji_7 * sine_0;
     const jg_real t489 = A_ji_6 * sine_0;
     const jg_real t490 = h_star_in_j_0 * t488 - h_star_in_j_1 * t489;
     const jg_real t491 = A_ji_8 * sine_0;
     const jg_real t492 = h_star_in_j_2 * t489 - h_star_in_j_0 * t491;
     const jg_real t493 = v_6_in_j_2 * t488 - v_6_in_j_1 * t491 + (v_4_in_j_1 * t490 - v_4_in_j_2 * t492);
-    jac_phi_q_t_lambda_geometry[17] = t493;
     const jg_real t494 = h_star_in_j_1 * t491 - h_star_in_j_2 * t488;
     const jg_real t495 = v_6_in_j_0 * t491 - v_6_in_j_2 * t489 + (v_4_in_j_2 * t494 - v_4_in_j_0 * t490);
-    jac_phi_q_t_lambda_geometry[18] = t495;
     const jg_real t496 = v_6_in_j_1 * t489 - v_6_in_j_0 * t488 + (v_4_in_j_0 * t492 - v_4_in_j_1 * t494);
+    jac_phi_q_t_lambda_geometry[13] = -(v_4_in_j_0 * t480 + v_4_in_j_1 * t479 + v_4_in_j_2 * t482 + (v_6_in_j_0 *
+        t485 + v_6_in_j_1 * t483 + v_6_in_j_2 * t481));
+    jac_phi_q_t_lambda_geometry[17] = t493;
+    jac_phi_q_t_lambda_geometry[18] = t495;
     jac_phi_q_t_lambda_geometry[19] = t496;
     jac_phi_q_t_lambda_geometry[14] = -(A_ji_0 * t493 + A_ji_1 * t495 + A_ji_2 * t496);
     jac_phi_q_t_lambda_geometry[15] = -(A_ji_3 * t493 + A_ji_4 * t495 + A_ji_5 * t496);
@@ -2280,87 +2274,87 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     const jg_real t500 = A_ji_2 * cosine_0;
     const jg_real t501 = h_star_in_j_0 * t500 - h_star_in_j_2 * t497;
     const jg_real t502 = v_6_in_j_1 * t500 - v_6_in_j_2 * t498 + (v_4_in_j_1 * t499 - v_4_in_j_2 * t501);
-    jac_phi_q_t_lambda_geometry[24] = t502;
     const jg_real t503 = h_star_in_j_2 * t498 - h_star_in_j_1 * t500;
     const jg_real t504 = v_6_in_j_2 * t497 - v_6_in_j_0 * t500 + (v_4_in_j_2 * t503 - v_4_in_j_0 * t499);
-    jac_phi_q_t_lambda_geometry[25] = t504;
     const jg_real t505 = v_6_in_j_0 * t498 - v_6_in_j_1 * t497 + (v_4_in_j_0 * t501 - v_4_in_j_1 * t503);
-    jac_phi_q_t_lambda_geometry[26] = t505;
-    jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t502 + A_ji_1 * t504 + A_ji_2 * t505);
-    jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t502 + A_ji_4 * t504 + A_ji_5 * t505);
-    jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t502 + A_ji_7 * t504 + A_ji_8 * t505);
-    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t497 + v_4_in_j_1 * t498 + v_4_in_j_2 * t500 - (v_6_in_j_0 * t503
-        + v_6_in_j_1 * t501 + v_6_in_j_2 * t499);
     const jg_real t506 = A_ji_3 * cosine_0;
     const jg_real t507 = A_ji_4 * cosine_0;
     const jg_real t508 = h_star_in_j_1 * t506 - h_star_in_j_0 * t507;
     const jg_real t509 = A_ji_5 * cosine_0;
     const jg_real t510 = h_star_in_j_0 * t509 - h_star_in_j_2 * t506;
     const jg_real t511 = v_6_in_j_1 * t509 - v_6_in_j_2 * t507 + (v_4_in_j_1 * t508 - v_4_in_j_2 * t510);
+    jac_phi_q_t_lambda_geometry[24] = t502;
+    jac_phi_q_t_lambda_geometry[25] = t504;
+    jac_phi_q_t_lambda_geometry[26] = t505;
+    jac_phi_q_t_lambda_geometry[21] = -(A_ji_0 * t502 + A_ji_1 * t504 + A_ji_2 * t505);
+    jac_phi_q_t_lambda_geometry[22] = -(A_ji_3 * t502 + A_ji_4 * t504 + A_ji_5 * t505);
+    jac_phi_q_t_lambda_geometry[23] = -(A_ji_6 * t502 + A_ji_7 * t504 + A_ji_8 * t505);
+    jac_phi_q_t_lambda_geometry[27] = v_4_in_j_0 * t497 + v_4_in_j_1 * t498 + v_4_in_j_2 * t500 - (v_6_in_j_0 * t503
+        + v_6_in_j_1 * t501 + v_6_in_j_2 * t499);
     jac_phi_q_t_lambda_geometry[31] = t511;
     const jg_real t512 = h_star_in_j_2 * t507 - h_star_in_j_1 * t509;
     const jg_real t513 = v_6_in_j_2 * t506 - v_6_in_j_0 * t509 + (v_4_in_j_2 * t512 - v_4_in_j_0 * t508);
-    jac_phi_q_t_lambda_geometry[32] = t513;
     const jg_real t514 = v_6_in_j_0 * t507 - v_6_in_j_1 * t506 + (v_4_in_j_0 * t510 - v_4_in_j_1 * t512);
-    jac_phi_q_t_lambda_geometry[33] = t514;
-    jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t511 + A_ji_1 * t513 + A_ji_2 * t514);
-    jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t511 + A_ji_4 * t513 + A_ji_5 * t514);
-    jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t511 + A_ji_7 * t513 + A_ji_8 * t514);
-    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t506 + v_4_in_j_1 * t507 + v_4_in_j_2 * t509 - (v_6_in_j_0 * t512
-        + v_6_in_j_1 * t510 + v_6_in_j_2 * t508);
     const jg_real t515 = A_ji_6 * cosine_0;
     const jg_real t516 = A_ji_7 * cosine_0;
     const jg_real t517 = h_star_in_j_1 * t515 - h_star_in_j_0 * t516;
     const jg_real t518 = A_ji_8 * cosine_0;
     const jg_real t519 = h_star_in_j_0 * t518 - h_star_in_j_2 * t515;
     const jg_real t520 = v_6_in_j_1 * t518 - v_6_in_j_2 * t516 + (v_4_in_j_1 * t517 - v_4_in_j_2 * t519);
-    jac_phi_q_t_lambda_geometry[38] = t520;
     const jg_real t521 = h_star_in_j_2 * t516 - h_star_in_j_1 * t518;
     const jg_real t522 = v_6_in_j_2 * t515 - v_6_in_j_0 * t518 + (v_4_in_j_2 * t521 - v_4_in_j_0 * t517);
+    jac_phi_q_t_lambda_geometry[32] = t513;
+    jac_phi_q_t_lambda_geometry[33] = t514;
+    jac_phi_q_t_lambda_geometry[28] = -(A_ji_0 * t511 + A_ji_1 * t513 + A_ji_2 * t514);
+    jac_phi_q_t_lambda_geometry[29] = -(A_ji_3 * t511 + A_ji_4 * t513 + A_ji_5 * t514);
+    jac_phi_q_t_lambda_geometry[30] = -(A_ji_6 * t511 + A_ji_7 * t513 + A_ji_8 * t514);
+    jac_phi_q_t_lambda_geometry[34] = v_4_in_j_0 * t506 + v_4_in_j_1 * t507 + v_4_in_j_2 * t509 - (v_6_in_j_0 * t512
+        + v_6_in_j_1 * t510 + v_6_in_j_2 * t508);
+    jac_phi_q_t_lambda_geometry[38] = t520;
     jac_phi_q_t_lambda_geometry[39] = t522;
     const jg_real t523 = v_6_in_j_0 * t516 - v_6_in_j_1 * t515 + (v_4_in_j_0 * t519 - v_4_in_j_1 * t521);
+    const jg_real t524 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
+    const jg_real t525 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
+    const jg_real t526 = v_2_in_j_1 * A_ji_2 - v_2_in_j_2 * A_ji_1 + (v_4_in_j_1 * t524 - v_4_in_j_2 * t525);
+    const jg_real t527 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
+    const jg_real t528 = v_2_in_j_2 * A_ji_0 - v_2_in_j_0 * A_ji_2 + (v_4_in_j_2 * t527 - v_4_in_j_0 * t524);
+    const jg_real t529 = A_ji_1 * v_2_in_j_0 - v_2_in_j_1 * A_ji_0 + (v_4_in_j_0 * t525 - v_4_in_j_1 * t527);
     jac_phi_q_t_lambda_geometry[40] = t523;
     jac_phi_q_t_lambda_geometry[35] = -(A_ji_0 * t520 + A_ji_1 * t522 + A_ji_2 * t523);
     jac_phi_q_t_lambda_geometry[36] = -(A_ji_3 * t520 + A_ji_4 * t522 + A_ji_5 * t523);
     jac_phi_q_t_lambda_geometry[37] = -(A_ji_6 * t520 + A_ji_7 * t522 + A_ji_8 * t523);
     jac_phi_q_t_lambda_geometry[41] = v_4_in_j_0 * t515 + v_4_in_j_1 * t516 + v_4_in_j_2 * t518 - (v_6_in_j_0 * t521
         + v_6_in_j_1 * t519 + v_6_in_j_2 * t517);
-    const jg_real t524 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    const jg_real t525 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
-    const jg_real t526 = v_2_in_j_1 * A_ji_2 - v_2_in_j_2 * A_ji_1 + (v_4_in_j_1 * t524 - v_4_in_j_2 * t525);
     jac_phi_q_t_lambda_geometry[45] = t526;
-    const jg_real t527 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
-    const jg_real t528 = v_2_in_j_2 * A_ji_0 - v_2_in_j_0 * A_ji_2 + (v_4_in_j_2 * t527 - v_4_in_j_0 * t524);
     jac_phi_q_t_lambda_geometry[46] = t528;
-    const jg_real t529 = v_2_in_j_0 * A_ji_1 - v_2_in_j_1 * A_ji_0 + (v_4_in_j_0 * t525 - v_4_in_j_1 * t527);
     jac_phi_q_t_lambda_geometry[47] = t529;
+    const jg_real t530 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
+    const jg_real t531 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
+    const jg_real t532 = A_ji_5 * v_2_in_j_1 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t530 - v_4_in_j_2 * t531);
+    const jg_real t533 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
+    const jg_real t534 = v_2_in_j_2 * A_ji_3 - A_ji_5 * v_2_in_j_0 + (v_4_in_j_2 * t533 - v_4_in_j_0 * t530);
+    const jg_real t535 = A_ji_4 * v_2_in_j_0 - v_2_in_j_1 * A_ji_3 + (v_4_in_j_0 * t531 - v_4_in_j_1 * t533);
     jac_phi_q_t_lambda_geometry[42] = -(A_ji_0 * t526 + A_ji_1 * t528 + A_ji_2 * t529);
     jac_phi_q_t_lambda_geometry[43] = -(A_ji_3 * t526 + A_ji_4 * t528 + A_ji_5 * t529);
     jac_phi_q_t_lambda_geometry[44] = -(A_ji_6 * t526 + A_ji_7 * t528 + A_ji_8 * t529);
     jac_phi_q_t_lambda_geometry[48] = -(v_6_in_j_0 * t527 + v_6_in_j_1 * t525 + v_6_in_j_2 * t524 + pitch * (A_ji_1
         * lambda_0_1_2_in_j_1 + A_ji_0 * lambda_0_1_2_in_j_0 + A_ji_2 * lambda_0_1_2_in_j_2));
-    const jg_real t530 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
-    const jg_real t531 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
-    const jg_real t532 = v_2_in_j_1 * A_ji_5 - v_2_in_j_2 * A_ji_4 + (v_4_in_j_1 * t530 - v_4_in_j_2 * t531);
     jac_phi_q_t_lambda_geometry[52] = t532;
-    const jg_real t533 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
-    const jg_real t534 = v_2_in_j_2 * A_ji_3 - A_ji_5 * v_2_in_j_0 + (v_4_in_j_2 * t533 - v_4_in_j_0 * t530);
     jac_phi_q_t_lambda_geometry[53] = t534;
-    const jg_real t535 = v_2_in_j_0 * A_ji_4 - v_2_in_j_1 * A_ji_3 + (v_4_in_j_0 * t531 - v_4_in_j_1 * t533);
     jac_phi_q_t_lambda_geometry[54] = t535;
     jac_phi_q_t_lambda_geometry[49] = -(A_ji_0 * t532 + A_ji_1 * t534 + A_ji_2 * t535);
+    const jg_real t536 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
+    const jg_real t537 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
+    const jg_real t538 = v_2_in_j_1 * A_ji_8 - v_2_in_j_2 * A_ji_7 + (v_4_in_j_1 * t536 - v_4_in_j_2 * t537);
+    const jg_real t539 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
+    const jg_real t540 = A_ji_6 * v_2_in_j_2 - A_ji_8 * v_2_in_j_0 + (v_4_in_j_2 * t539 - v_4_in_j_0 * t536);
+    const jg_real t541 = A_ji_7 * v_2_in_j_0 - v_2_in_j_1 * A_ji_6 + (v_4_in_j_0 * t537 - v_4_in_j_1 * t539);
     jac_phi_q_t_lambda_geometry[50] = -(A_ji_3 * t532 + A_ji_4 * t534 + A_ji_5 * t535);
     jac_phi_q_t_lambda_geometry[51] = -(A_ji_6 * t532 + A_ji_7 * t534 + A_ji_8 * t535);
     jac_phi_q_t_lambda_geometry[55] = -(v_6_in_j_0 * t533 + v_6_in_j_1 * t531 + v_6_in_j_2 * t530 + pitch * (A_ji_4
         * lambda_0_1_2_in_j_1 + A_ji_3 * lambda_0_1_2_in_j_0 + A_ji_5 * lambda_0_1_2_in_j_2));
-    const jg_real t536 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
-    const jg_real t537 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
-    const jg_real t538 = v_2_in_j_1 * A_ji_8 - v_2_in_j_2 * A_ji_7 + (v_4_in_j_1 * t536 - v_4_in_j_2 * t537);
     jac_phi_q_t_lambda_geometry[59] = t538;
-    const jg_real t539 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
-    const jg_real t540 = v_2_in_j_2 * A_ji_6 - v_2_in_j_0 * A_ji_8 + (v_4_in_j_2 * t539 - v_4_in_j_0 * t536);
     jac_phi_q_t_lambda_geometry[60] = t540;
-    const jg_real t541 = v_2_in_j_0 * A_ji_7 - v_2_in_j_1 * A_ji_6 + (v_4_in_j_0 * t537 - v_4_in_j_1 * t539);
     jac_phi_q_t_lambda_geometry[61] = t541;
     jac_phi_q_t_lambda_geometry[56] = -(A_ji_0 * t538 + A_ji_1 * t540 + A_ji_2 * t541);
     jac_phi_q_t_lambda_geometry[57] = -(A_ji_3 * t538 + A_ji_4 * t540 + A_ji_5 * t541);
@@ -2373,44 +2367,45 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_geometry[66] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[68] = A_ji_2 * lambda_0_1_2_in_j_0 - A_ji_0 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[69] = A_ji_5 * lambda_0_1_2_in_j_0 - A_ji_3 * lambda_0_1_2_in_j_2;
+    const jg_real t542 = lambda[4] * h_star_in_j_2;
+    const jg_real t543 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[70] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[74] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[75] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[76] = -lambda_0_1_2_in_j_1;
-    const jg_real t542 = lambda[4] * h_star_in_j_2;
     jac_phi_q_t_lambda_geometry[86] = t542;
-    const jg_real t543 = lambda[4] * h_star_in_j_1;
     jac_phi_q_t_lambda_geometry[82] = t543;
+    const jg_real t544 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[78] = A_ji_1 * t542 - A_ji_2 * t543;
     jac_phi_q_t_lambda_geometry[79] = A_ji_4 * t542 - A_ji_5 * t543;
     jac_phi_q_t_lambda_geometry[80] = A_ji_7 * t542 - A_ji_8 * t543;
     jac_phi_q_t_lambda_geometry[81] = -t542;
-    const jg_real t544 = lambda[4] * h_star_in_j_0;
     jac_phi_q_t_lambda_geometry[92] = t544;
     jac_phi_q_t_lambda_geometry[83] = A_ji_2 * t544 - A_ji_0 * t542;
     jac_phi_q_t_lambda_geometry[84] = A_ji_5 * t544 - A_ji_3 * t542;
     jac_phi_q_t_lambda_geometry[85] = A_ji_8 * t544 - A_ji_6 * t542;
+    const jg_real t545 = lambda[5] * f_star_in_j_2;
+    const jg_real t546 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[87] = -t544;
     jac_phi_q_t_lambda_geometry[88] = A_ji_0 * t543 - A_ji_1 * t544;
     jac_phi_q_t_lambda_geometry[89] = A_ji_3 * t543 - A_ji_4 * t544;
     jac_phi_q_t_lambda_geometry[90] = A_ji_6 * t543 - A_ji_7 * t544;
     jac_phi_q_t_lambda_geometry[91] = -t543;
-    const jg_real t545 = lambda[5] * f_star_in_j_2;
     jac_phi_q_t_lambda_geometry[102] = t545;
-    const jg_real t546 = lambda[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_geometry[97] = t546;
     jac_phi_q_t_lambda_geometry[93] = A_ji_1 * t545 - A_ji_2 * t546;
+    const jg_real t547 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[94] = A_ji_4 * t545 - A_ji_5 * t546;
     jac_phi_q_t_lambda_geometry[95] = A_ji_7 * t545 - A_ji_8 * t546;
     jac_phi_q_t_lambda_geometry[96] = -t545;
     jac_phi_q_t_lambda_geometry[98] = lambda[5] * g_star_in_j_0;
-    const jg_real t547 = lambda[5] * f_star_in_j_0;
     jac_phi_q_t_lambda_geometry[109] = t547;
     jac_phi_q_t_lambda_geometry[99] = A_ji_2 * t547 - A_ji_0 * t545;
     jac_phi_q_t_lambda_geometry[100] = A_ji_5 * t547 - A_ji_3 * t545;
     jac_phi_q_t_lambda_geometry[101] = A_ji_8 * t547 - A_ji_6 * t545;
+    const jg_real t548 = lambda[3] * g_star_in_j_2;
     jac_phi_q_t_lambda_geometry[103] = -t547;
     jac_phi_q_t_lambda_geometry[104] = lambda[5] * g_star_in_j_1;
     jac_phi_q_t_lambda_geometry[105] = A_ji_0 * t546 - A_ji_1 * t547;
@@ -2418,16 +2413,15 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_geometry[107] = A_ji_6 * t546 - A_ji_7 * t547;
     jac_phi_q_t_lambda_geometry[108] = -t546;
     jac_phi_q_t_lambda_geometry[110] = lambda[5] * g_star_in_j_2;
-    const jg_real t548 = lambda[3] * g_star_in_j_2;
     jac_phi_q_t_lambda_geometry[120] = t548;
     const jg_real t549 = lambda[3] * g_star_in_j_1;
+    const jg_real t550 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[115] = t549;
     jac_phi_q_t_lambda_geometry[111] = A_ji_1 * t548 - A_ji_2 * t549;
     jac_phi_q_t_lambda_geometry[112] = A_ji_4 * t548 - A_ji_5 * t549;
     jac_phi_q_t_lambda_geometry[113] = A_ji_7 * t548 - A_ji_8 * t549;
     jac_phi_q_t_lambda_geometry[114] = -t548;
     jac_phi_q_t_lambda_geometry[116] = -(lambda[3] * f_star_in_j_0);
-    const jg_real t550 = lambda[3] * g_star_in_j_0;
     jac_phi_q_t_lambda_geometry[127] = t550;
     jac_phi_q_t_lambda_geometry[117] = A_ji_2 * t550 - A_ji_0 * t548;
     jac_phi_q_t_lambda_geometry[118] = A_ji_5 * t550 - A_ji_3 * t548;
@@ -2438,80 +2432,80 @@ static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_t_lambda_geometry[124] = A_ji_3 * t549 - A_ji_4 * t550;
     jac_phi_q_t_lambda_geometry[125] = A_ji_6 * t549 - A_ji_7 * t550;
     jac_phi_q_t_lambda_geometry[126] = -t549;
-    jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * f_star_in_j_2);
     /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
     const jg_real lambda_0_1_2_dot_h_i = h_star_in_j_1 * lambda_0_1_2_in_j_1 + h_star_in_j_0 * lambda_0_1_2_in_j_0 +
         h_star_in_j_2 * lambda_0_1_2_in_j_2;
+    const jg_real t552 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    const jg_real t553 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t552;
+    const jg_real t554 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real t555 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t554;
+    const jg_real t556 = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    jac_phi_q_t_lambda_geometry[128] = -(lambda[3] * f_star_in_j_2);
     jac_phi_q_t_lambda_geometry[129] = -lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
-    const jg_real t552 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t552;
-    const jg_real t553 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t552;
-    const jg_real t554 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t554;
-    const jg_real t555 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t554;
-    const jg_real t556 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t556;
     const jg_real t557 = A_ji_1 * v_0_in_j_0 - A_ji_0 * v_0_in_j_1 + t556;
+    const jg_real t558 = A_ji_5 * s_j[1] - s_j[2] * A_ji_4;
+    const jg_real t559 = A_ji_5 * v_0_in_j_1 - A_ji_4 * v_0_in_j_2 + t558;
+    const jg_real t560 = s_j[2] * A_ji_3 - A_ji_5 * s_j[0];
+    const jg_real t561 = A_ji_3 * v_0_in_j_2 - A_ji_5 * v_0_in_j_0 + t560;
+    const jg_real t562 = A_ji_4 * s_j[0] - s_j[1] * A_ji_3;
+    const jg_real t563 = A_ji_4 * v_0_in_j_0 - A_ji_3 * v_0_in_j_1 + t562;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t553 + A_ji_1 * t555 + A_ji_2 * t557);
     jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t553 + A_ji_4 * t555 + A_ji_5 * t557);
     jac_phi_q_t_lambda_lambda[3] = -(A_ji_6 * t553 + A_ji_7 * t555 + A_ji_8 * t557);
     jac_phi_q_t_lambda_lambda[10] = -(pitch * (A_ji_1 * h_star_in_j_1 + A_ji_0 * h_star_in_j_0 + A_ji_2 *
         h_star_in_j_2));
-    const jg_real t558 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_t_lambda_lambda[18] = t558;
-    const jg_real t559 = A_ji_5 * v_0_in_j_1 - A_ji_4 * v_0_in_j_2 + t558;
-    const jg_real t560 = s_j[2] * A_ji_3 - A_ji_5 * s_j[0];
     jac_phi_q_t_lambda_lambda[19] = t560;
-    const jg_real t561 = A_ji_3 * v_0_in_j_2 - A_ji_5 * v_0_in_j_0 + t560;
-    const jg_real t562 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_t_lambda_lambda[20] = t562;
-    const jg_real t563 = A_ji_4 * v_0_in_j_0 - A_ji_3 * v_0_in_j_1 + t562;
     jac_phi_q_t_lambda_lambda[12] = -(A_ji_0 * t559 + A_ji_1 * t561 + A_ji_2 * t563);
+    const jg_real t564 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    const jg_real t565 = A_ji_8 * v_0_in_j_1 - A_ji_7 * v_0_in_j_2 + t564;
+    const jg_real t566 = s_j[2] * A_ji_6 - A_ji_8 * s_j[0];
+    const jg_real t567 = A_ji_6 * v_0_in_j_2 - A_ji_8 * v_0_in_j_0 + t566;
+    const jg_real t568 = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
+    const jg_real t569 = A_ji_7 * v_0_in_j_0 - A_ji_6 * v_0_in_j_1 + t568;
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_3 * t559 + A_ji_4 * t561 + A_ji_5 * t563);
     jac_phi_q_t_lambda_lambda[14] = -(A_ji_6 * t559 + A_ji_7 * t561 + A_ji_8 * t563);
     jac_phi_q_t_lambda_lambda[21] = -(pitch * (A_ji_4 * h_star_in_j_1 + A_ji_3 * h_star_in_j_0 + A_ji_5 *
         h_star_in_j_2));
-    const jg_real t564 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_t_lambda_lambda[29] = t564;
-    const jg_real t565 = A_ji_8 * v_0_in_j_1 - A_ji_7 * v_0_in_j_2 + t564;
-    const jg_real t566 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_t_lambda_lambda[30] = t566;
-    const jg_real t567 = A_ji_6 * v_0_in_j_2 - A_ji_8 * v_0_in_j_0 + t566;
-    const jg_real t568 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_t_lambda_lambda[31] = t568;
-    const jg_real t569 = A_ji_7 * v_0_in_j_0 - A_ji_6 * v_0_in_j_1 + t568;
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_0 * t565 + A_ji_1 * t567 + A_ji_2 * t569);
     jac_phi_q_t_lambda_lambda[24] = -(A_ji_3 * t565 + A_ji_4 * t567 + A_ji_5 * t569);
+    const jg_real t570 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
+    const jg_real t571 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
+    const jg_real t572 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[25] = -(A_ji_6 * t565 + A_ji_7 * t567 + A_ji_8 * t569);
     jac_phi_q_t_lambda_lambda[32] = -(pitch * (A_ji_7 * h_star_in_j_1 + A_ji_6 * h_star_in_j_0 + A_ji_8 *
         h_star_in_j_2));
-    const jg_real t570 = C_j[7] * g_star_in_j_2 - C_j[8] * g_star_in_j_1;
     jac_phi_q_t_lambda_lambda[36] = t570;
-    const jg_real t571 = C_j[8] * g_star_in_j_0 - C_j[6] * g_star_in_j_2;
     jac_phi_q_t_lambda_lambda[37] = t571;
-    const jg_real t572 = C_j[6] * g_star_in_j_1 - C_j[7] * g_star_in_j_0;
     jac_phi_q_t_lambda_lambda[38] = t572;
     jac_phi_q_t_lambda_lambda[33] = -(A_ji_0 * t570 + A_ji_1 * t571 + A_ji_2 * t572);
     jac_phi_q_t_lambda_lambda[34] = -(A_ji_3 * t570 + A_ji_4 * t571 + A_ji_5 * t572);
     jac_phi_q_t_lambda_lambda[35] = -(A_ji_6 * t570 + A_ji_7 * t571 + A_ji_8 * t572);
-    jac_phi_q_t_lambda_lambda[39] = -(C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2);
     const jg_real t573 = C_j[1] * h_star_in_j_2 - C_j[2] * h_star_in_j_1;
-    jac_phi_q_t_lambda_lambda[43] = t573;
     const jg_real t574 = C_j[2] * h_star_in_j_0 - C_j[0] * h_star_in_j_2;
-    jac_phi_q_t_lambda_lambda[44] = t574;
     const jg_real t575 = C_j[0] * h_star_in_j_1 - C_j[1] * h_star_in_j_0;
+    const jg_real t576 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
+    jac_phi_q_t_lambda_lambda[39] = -(C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2);
+    jac_phi_q_t_lambda_lambda[43] = t573;
+    jac_phi_q_t_lambda_lambda[44] = t574;
     jac_phi_q_t_lambda_lambda[45] = t575;
     jac_phi_q_t_lambda_lambda[40] = -(A_ji_0 * t573 + A_ji_1 * t574 + A_ji_2 * t575);
     jac_phi_q_t_lambda_lambda[41] = -(A_ji_3 * t573 + A_ji_4 * t574 + A_ji_5 * t575);
     jac_phi_q_t_lambda_lambda[42] = -(A_ji_6 * t573 + A_ji_7 * t574 + A_ji_8 * t575);
-    const jg_real t576 = C_j[4] * f_star_in_j_2 - C_j[5] * f_star_in_j_1;
     jac_phi_q_t_lambda_lambda[49] = t576;
     const jg_real t577 = C_j[5] * f_star_in_j_0 - C_j[3] * f_star_in_j_2;
-    jac_phi_q_t_lambda_lambda[50] = t577;
     const jg_real t578 = C_j[3] * f_star_in_j_1 - C_j[4] * f_star_in_j_0;
+    jac_phi_q_t_lambda_lambda[50] = t577;
     jac_phi_q_t_lambda_lambda[51] = t578;
     jac_phi_q_t_lambda_lambda[46] = -(A_ji_0 * t576 + A_ji_1 * t577 + A_ji_2 * t578);
     jac_phi_q_t_lambda_lambda[47] = -(A_ji_3 * t576 + A_ji_4 * t577 + A_ji_5 * t578);

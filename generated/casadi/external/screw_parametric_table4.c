@@ -49,60 +49,60 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     jac_phi_A_i[1] = C_i[0] * h_j_world_0;
-    jac_phi_A_i[2] = C_i[3] * h_j_world_0;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    jac_phi_A_i[2] = h_j_world_0 * C_i[3];
     jac_phi_A_i[3] = C_i[0] * f_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
-    jac_phi_A_i[4] = e_ij_world_1;
-    jac_phi_A_i[16] = e_ij_world_1;
-    jac_phi_A_i[28] = e_ij_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_A_i[5] = C_i[0] * h_j_world_1;
-    jac_phi_A_i[6] = C_i[3] * h_j_world_1;
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
-    jac_phi_A_i[7] = C_i[0] * f_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    jac_phi_A_i[4] = e_ij_world_1;
+    jac_phi_A_i[16] = e_ij_world_1;
+    jac_phi_A_i[28] = e_ij_world_1;
+    jac_phi_A_i[5] = C_i[0] * h_j_world_1;
+    jac_phi_A_i[6] = h_j_world_1 * C_i[3];
+    jac_phi_A_i[7] = C_i[0] * f_j_world_1;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[9] = C_i[0] * h_j_world_2;
     jac_phi_A_i[10] = C_i[3] * h_j_world_2;
-    const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     jac_phi_A_i[11] = C_i[0] * f_j_world_2;
     jac_phi_A_i[13] = C_i[1] * h_j_world_0;
-    jac_phi_A_i[14] = C_i[4] * h_j_world_0;
+    jac_phi_A_i[14] = h_j_world_0 * C_i[4];
     jac_phi_A_i[15] = C_i[1] * f_j_world_0;
     jac_phi_A_i[17] = C_i[1] * h_j_world_1;
-    jac_phi_A_i[18] = C_i[4] * h_j_world_1;
+    jac_phi_A_i[18] = h_j_world_1 * C_i[4];
     jac_phi_A_i[19] = C_i[1] * f_j_world_1;
     jac_phi_A_i[21] = C_i[1] * h_j_world_2;
     jac_phi_A_i[22] = C_i[4] * h_j_world_2;
     jac_phi_A_i[23] = C_i[1] * f_j_world_2;
     jac_phi_A_i[25] = C_i[2] * h_j_world_0;
-    jac_phi_A_i[26] = C_i[5] * h_j_world_0;
+    jac_phi_A_i[26] = h_j_world_0 * C_i[5];
     jac_phi_A_i[27] = C_i[2] * f_j_world_0;
     jac_phi_A_i[29] = C_i[2] * h_j_world_1;
-    jac_phi_A_i[30] = C_i[5] * h_j_world_1;
+    jac_phi_A_i[30] = h_j_world_1 * C_i[5];
     jac_phi_A_i[31] = C_i[2] * f_j_world_1;
     jac_phi_A_i[33] = C_i[2] * h_j_world_2;
     jac_phi_A_i[34] = C_i[5] * h_j_world_2;
@@ -112,25 +112,25 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    jac_phi_A_j[3] = C_j[6] * f_i_world_0;
     /* g_i_world = g_i, world axes */
     const jg_real g_i_world_0 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    jac_phi_A_j[3] = C_j[6] * f_i_world_0;
     jac_phi_A_j[4] = C_j[6] * g_i_world_0;
     jac_phi_A_j[5] = f_i_world_0 * C_j[0];
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     jac_phi_A_j[9] = C_j[6] * f_i_world_1;
-    const jg_real g_i_world_1 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     jac_phi_A_j[10] = C_j[6] * g_i_world_1;
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[11] = f_i_world_1 * C_j[0];
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_A_j[15] = C_j[6] * f_i_world_2;
-    const jg_real g_i_world_2 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     jac_phi_A_j[16] = C_j[6] * g_i_world_2;
     jac_phi_A_j[17] = f_i_world_2 * C_j[0];
     jac_phi_A_j[18] = s_j[1] * A_i[0];
@@ -166,36 +166,36 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
+    const jg_real t21 = -(pitch * C_i[6]);
+    const jg_real t22 = -(pitch * C_i[7]);
+    const jg_real t23 = -(pitch * C_i[8]);
     jac_phi_A_j[51] = C_j[8] * f_i_world_2;
     jac_phi_A_j[52] = C_j[8] * g_i_world_2;
     jac_phi_A_j[53] = f_i_world_2 * C_j[2];
-    const jg_real t21 = -(pitch * C_i[6]);
     jac_phi_alpha[0] = t21;
     jac_phi_geometry[36] = t21;
-    const jg_real t22 = -(pitch * C_i[7]);
     jac_phi_alpha[1] = t22;
     jac_phi_geometry[37] = t22;
-    const jg_real t23 = -(pitch * C_i[8]);
     jac_phi_alpha[2] = t23;
     jac_phi_geometry[38] = t23;
+    const jg_real t24 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    const jg_real t25 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_alpha[3] = jg_sin(alpha[0]);
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    const jg_real t24 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
     jac_phi_geometry[3] = t24;
     jac_phi_geometry[9] = t24;
     jac_phi_geometry[4] = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    const jg_real t25 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_geometry[5] = t25;
     jac_phi_geometry[10] = t25;
-    jac_phi_geometry[6] = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     const jg_real t26 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
+    const jg_real t27 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
+    const jg_real t28 = -(pitch * t27);
+    jac_phi_geometry[6] = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[7] = t26;
     jac_phi_geometry[11] = t26;
     jac_phi_geometry[8] = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    const jg_real t27 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
-    const jg_real t28 = -(pitch * t27);
     jac_phi_geometry[12] = t28;
     jac_phi_geometry[13] = t28;
     jac_phi_geometry[14] = t28;
@@ -209,33 +209,30 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_geometry[22] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[23] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     const jg_real t29 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t30 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
+    const jg_real t31 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[24] = t29;
     jac_phi_geometry[27] = t29;
-    const jg_real t30 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
     jac_phi_geometry[25] = t30;
     jac_phi_geometry[29] = t30;
-    const jg_real t31 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
     jac_phi_geometry[26] = t31;
     jac_phi_geometry[31] = t31;
     jac_phi_geometry[28] = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
     jac_phi_geometry[30] = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
+    const jg_real t32 = JG_REAL(6.283185307179586) * pitch;
     jac_phi_geometry[32] = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
     jac_phi_geometry[33] = -(C_i[6] * t27);
     jac_phi_geometry[34] = -(C_i[7] * t27);
     jac_phi_geometry[35] = -(C_i[8] * t27);
-    const jg_real t32 = JG_REAL(6.283185307179586) * pitch;
     jac_phi_geometry[39] = -(C_i[6] * t32);
     jac_phi_geometry[40] = -(C_i[7] * t32);
     jac_phi_geometry[41] = -(C_i[8] * t32);
 }
 
-static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_i, jg_real *JG_RESTRICT jac_phi_q_v_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_r_j, jg_real *JG_RESTRICT jac_phi_q_v_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_alpha, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
+    jg_real *jac_phi_q_v_r_i, jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j,
+    jg_real *jac_phi_q_v_alpha, jg_real *jac_phi_q_v_geometry, jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -248,63 +245,60 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real alphadot = velocity[12];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
+    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -320,7 +314,7 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[0] * A_ji_0 + v_i[1] * A_ji_3 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
@@ -334,46 +328,39 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[0] * A_ji_1 + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real t56 = A_j[3] * v_3_in_j_1;
     const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - e_ij_in_j_0 * t44 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
     const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = e_ij_in_j_0 * t46 - e_ij_in_j_1 * t57 - (A_j[6] * v_i[0] + v_i[1] * t43);
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
     /* omega_i_cross_h_j_in_j = omega_i x h_j, axes of body j */
     const jg_real omega_i_cross_h_j_in_j_0 = C_j[8] * omega_i_in_j_1 - C_j[7] * omega_i_in_j_2;
-    const jg_real t67 = A_j[0] * C_i[0] + C_i[1] * t47;
+    const jg_real t67 = t47 * C_i[1] + A_j[0] * C_i[0];
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = A_ji_0 * C_i[0] + C_i[1] * A_ji_3 + A_ji_6 * C_i[2];
-    const jg_real t69 = C_j[8] * t46 - C_j[7] * t44;
-    const jg_real omega_i_cross_h_j_in_j_1 = C_j[6] * omega_i_in_j_2 - C_j[8] * omega_i_in_j_0;
-    const jg_real t71 = A_j[3] * C_i[0] + C_i[1] * t45;
-    const jg_real f_i_in_j_1 = A_ji_1 * C_i[0] + C_i[1] * A_ji_4 + A_ji_7 * C_i[2];
-    const jg_real t73 = C_j[6] * t44 - C_j[8] * t57;
+    const jg_real f_i_in_j_0 = A_ji_3 * C_i[1] + A_ji_0 * C_i[0] + A_ji_6 * C_i[2];
+    const jg_real t69 = C_j[8] * t46 - t44 * C_j[7];
+    const jg_real omega_i_cross_h_j_in_j_1 = omega_i_in_j_2 * C_j[6] - C_j[8] * omega_i_in_j_0;
+    const jg_real t71 = t45 * C_i[1] + A_j[3] * C_i[0];
+    const jg_real t72 = t44 * C_j[6] - C_j[8] * t57;
+    const jg_real f_i_in_j_1 = A_ji_4 * C_i[1] + A_ji_1 * C_i[0] + A_ji_7 * C_i[2];
     const jg_real omega_i_cross_h_j_in_j_2 = C_j[7] * omega_i_in_j_0 - C_j[6] * omega_i_in_j_1;
-    const jg_real t75 = A_j[6] * C_i[0] + t43 * C_i[1];
-    const jg_real f_i_in_j_2 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
-    const jg_real t77 = C_j[7] * t57 - C_j[6] * t46;
+    const jg_real t75 = t43 * C_i[1] + A_j[6] * C_i[0];
+    const jg_real t76 = C_j[7] * t57 - t46 * C_j[6];
+    const jg_real f_i_in_j_2 = A_ji_5 * C_i[1] + A_ji_2 * C_i[0] + A_ji_8 * C_i[2];
     /* omega_j_cross_h_j_in_j = omega_j x h_j, axes of body j */
     const jg_real omega_j_cross_h_j_in_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_in_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_in_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
-    jac_phi_q_v_A_i[3] = omega_j_cross_h_j_in_j_0 * t67 + omega_j_cross_h_j_in_j_1 * t71 + t75 *
-        omega_j_cross_h_j_in_j_2 - (t75 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t77 + (t67 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t69 + (t71 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t73)));
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_0 = A_ji_3 * C_i[4] + A_ji_0 * C_i[3] + A_ji_6 * C_i[5];
     const jg_real t82 = t47 * C_i[4] + A_j[0] * C_i[3];
@@ -381,9 +368,19 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t84 = t45 * C_i[4] + A_j[3] * C_i[3];
     const jg_real g_i_in_j_2 = A_ji_5 * C_i[4] + A_ji_2 * C_i[3] + A_ji_8 * C_i[5];
     const jg_real t86 = t43 * C_i[4] + A_j[6] * C_i[3];
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
+    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
+        A_ji_4 * t58));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    jac_phi_q_v_A_i[3] = t67 * omega_j_cross_h_j_in_j_0 + t71 * omega_j_cross_h_j_in_j_1 + t75 *
+        omega_j_cross_h_j_in_j_2 - (t67 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t69 + (t71 *
+        omega_i_cross_h_j_in_j_1 + t72 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t75 + t76 * f_i_in_j_2));
     jac_phi_q_v_A_i[4] = omega_j_cross_h_j_in_j_0 * t82 + omega_j_cross_h_j_in_j_1 * t84 + omega_j_cross_h_j_in_j_2
-        * t86 - (t77 * g_i_in_j_2 + t86 * omega_i_cross_h_j_in_j_2 + (g_i_in_j_0 * t69 + t82 *
-        omega_i_cross_h_j_in_j_0 + (t73 * g_i_in_j_1 + t84 * omega_i_cross_h_j_in_j_1)));
+        * t86 - (t69 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t82 + (t72 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 *
+        t84) + (t76 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t86));
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = f_i_in_j_1 * C_j[2] - f_i_in_j_2 * C_j[1];
     const jg_real t88 = t71 * C_j[2] - t75 * C_j[1];
@@ -391,9 +388,6 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t90 = t75 * C_j[0] - t67 * C_j[2];
     const jg_real f_i_cross_f_j_in_j_2 = f_i_in_j_0 * C_j[1] - f_i_in_j_1 * C_j[0];
     const jg_real t92 = t67 * C_j[1] - t71 * C_j[0];
-    jac_phi_q_v_A_i[5] = t44 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t92 + (t57 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t88 + (t46 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t90)) - (omega_j[0] * t88 + omega_j[1]
-        * t90 + omega_j[2] * t92);
     const jg_real t93 = A_j[1] * v_3_in_j_0;
     const jg_real t94 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t95 = A_j[7] * omega_i[0] + omega_i[1] * t94;
@@ -403,34 +397,21 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t99 = e_ij_in_j_1 * t95 - e_ij_in_j_2 * t97 - (A_j[1] * v_i[0] + v_i[1] * t98);
     const jg_real t100 = A_j[4] * v_3_in_j_1;
     const jg_real t101 = A_j[1] * omega_i[0] + omega_i[1] * t98;
-    const jg_real t102 = e_ij_in_j_2 * t101 - e_ij_in_j_0 * t95 - (A_j[4] * v_i[0] + v_i[1] * t96);
+    const jg_real t102 = e_ij_in_j_2 * t101 - t95 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t96);
     const jg_real t103 = A_j[7] * v_3_in_j_2;
-    const jg_real t104 = e_ij_in_j_0 * t97 - e_ij_in_j_1 * t101 - (A_j[7] * v_i[0] + v_i[1] * t94);
-    jac_phi_q_v_A_i[6] = t103 + A_ji_2 * t104 + (t93 + A_ji_0 * t99 + (t100 + A_ji_1 * t102));
-    jac_phi_q_v_A_i[7] = t94 * v_3_in_j_2 + A_ji_5 * t104 + (t98 * v_3_in_j_0 + A_ji_3 * t99 + (t96 * v_3_in_j_1 +
-        A_ji_4 * t102));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t99 + A_ji_7 * t102 + A_ji_8 * t104;
-    const jg_real t105 = A_j[1] * C_i[0] + C_i[1] * t98;
-    const jg_real t106 = C_j[8] * t97 - C_j[7] * t95;
-    const jg_real t107 = A_j[4] * C_i[0] + C_i[1] * t96;
-    const jg_real t108 = C_j[6] * t95 - C_j[8] * t101;
-    const jg_real t109 = A_j[7] * C_i[0] + t94 * C_i[1];
-    const jg_real t110 = C_j[7] * t101 - C_j[6] * t97;
-    jac_phi_q_v_A_i[9] = omega_j_cross_h_j_in_j_0 * t105 + omega_j_cross_h_j_in_j_1 * t107 + t109 *
-        omega_j_cross_h_j_in_j_2 - (t109 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t110 + (t105 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t106 + (t107 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t108)));
+    const jg_real t104 = t97 * e_ij_in_j_0 - e_ij_in_j_1 * t101 - (v_i[1] * t94 + A_j[7] * v_i[0]);
+    const jg_real t105 = t98 * C_i[1] + A_j[1] * C_i[0];
+    const jg_real t106 = C_j[8] * t97 - t95 * C_j[7];
+    const jg_real t107 = t96 * C_i[1] + A_j[4] * C_i[0];
+    const jg_real t108 = t95 * C_j[6] - C_j[8] * t101;
+    const jg_real t109 = t94 * C_i[1] + A_j[7] * C_i[0];
+    const jg_real t110 = C_j[7] * t101 - t97 * C_j[6];
     const jg_real t111 = t98 * C_i[4] + A_j[1] * C_i[3];
     const jg_real t112 = t96 * C_i[4] + A_j[4] * C_i[3];
     const jg_real t113 = t94 * C_i[4] + A_j[7] * C_i[3];
-    jac_phi_q_v_A_i[10] = omega_j_cross_h_j_in_j_0 * t111 + omega_j_cross_h_j_in_j_1 * t112 +
-        omega_j_cross_h_j_in_j_2 * t113 - (t110 * g_i_in_j_2 + t113 * omega_i_cross_h_j_in_j_2 + (g_i_in_j_0 * t106
-        + t111 * omega_i_cross_h_j_in_j_0 + (t108 * g_i_in_j_1 + t112 * omega_i_cross_h_j_in_j_1)));
     const jg_real t114 = t107 * C_j[2] - t109 * C_j[1];
     const jg_real t115 = t109 * C_j[0] - t105 * C_j[2];
     const jg_real t116 = t105 * C_j[1] - t107 * C_j[0];
-    jac_phi_q_v_A_i[11] = t95 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t116 + (t101 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t114 + (t97 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t115)) - (omega_j[0] * t114 +
-        omega_j[1] * t115 + omega_j[2] * t116);
     const jg_real t117 = A_j[2] * v_3_in_j_0;
     const jg_real t118 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t119 = A_j[8] * omega_i[0] + omega_i[1] * t118;
@@ -440,34 +421,38 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t123 = e_ij_in_j_1 * t119 - e_ij_in_j_2 * t121 - (A_j[2] * v_i[0] + v_i[1] * t122);
     const jg_real t124 = A_j[5] * v_3_in_j_1;
     const jg_real t125 = A_j[2] * omega_i[0] + omega_i[1] * t122;
-    const jg_real t126 = e_ij_in_j_2 * t125 - e_ij_in_j_0 * t119 - (A_j[5] * v_i[0] + v_i[1] * t120);
+    const jg_real t126 = e_ij_in_j_2 * t125 - t119 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t120);
     const jg_real t127 = A_j[8] * v_3_in_j_2;
-    const jg_real t128 = e_ij_in_j_0 * t121 - e_ij_in_j_1 * t125 - (A_j[8] * v_i[0] + v_i[1] * t118);
+    const jg_real t128 = t121 * e_ij_in_j_0 - e_ij_in_j_1 * t125 - (v_i[1] * t118 + A_j[8] * v_i[0]);
+    jac_phi_q_v_A_i[5] = t44 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t92 + (t57 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t88 + (t46 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t90)) - (omega_j[0] * t88 + omega_j[1]
+        * t90 + omega_j[2] * t92);
+    jac_phi_q_v_A_i[6] = t103 + A_ji_2 * t104 + (t93 + A_ji_0 * t99 + (t100 + A_ji_1 * t102));
+    jac_phi_q_v_A_i[7] = t94 * v_3_in_j_2 + A_ji_5 * t104 + (t98 * v_3_in_j_0 + A_ji_3 * t99 + (t96 * v_3_in_j_1 +
+        A_ji_4 * t102));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t99 + A_ji_7 * t102 + A_ji_8 * t104;
+    jac_phi_q_v_A_i[9] = t105 * omega_j_cross_h_j_in_j_0 + t107 * omega_j_cross_h_j_in_j_1 + t109 *
+        omega_j_cross_h_j_in_j_2 - (t105 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t106 + (t107 *
+        omega_i_cross_h_j_in_j_1 + t108 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t109 + t110 * f_i_in_j_2));
+    jac_phi_q_v_A_i[10] = omega_j_cross_h_j_in_j_0 * t111 + omega_j_cross_h_j_in_j_1 * t112 +
+        omega_j_cross_h_j_in_j_2 * t113 - (t106 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t111 + (t108 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t112) + (t110 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t113));
+    jac_phi_q_v_A_i[11] = t95 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t116 + (t101 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t114 + (t97 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t115)) - (omega_j[0] * t114 +
+        omega_j[1] * t115 + omega_j[2] * t116);
     jac_phi_q_v_A_i[12] = t127 + A_ji_2 * t128 + (t117 + A_ji_0 * t123 + (t124 + A_ji_1 * t126));
-    jac_phi_q_v_A_i[13] = t118 * v_3_in_j_2 + A_ji_5 * t128 + (t122 * v_3_in_j_0 + A_ji_3 * t123 + (t120 *
-        v_3_in_j_1 + A_ji_4 * t126));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t123 + A_ji_7 * t126 + A_ji_8 * t128;
-    const jg_real t129 = A_j[2] * C_i[0] + C_i[1] * t122;
-    const jg_real t130 = C_j[8] * t121 - C_j[7] * t119;
-    const jg_real t131 = A_j[5] * C_i[0] + C_i[1] * t120;
-    const jg_real t132 = C_j[6] * t119 - C_j[8] * t125;
-    const jg_real t133 = A_j[8] * C_i[0] + t118 * C_i[1];
-    const jg_real t134 = C_j[7] * t125 - C_j[6] * t121;
-    jac_phi_q_v_A_i[15] = omega_j_cross_h_j_in_j_0 * t129 + omega_j_cross_h_j_in_j_1 * t131 + t133 *
-        omega_j_cross_h_j_in_j_2 - (t133 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t134 + (t129 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t130 + (t131 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t132)));
+    const jg_real t129 = t122 * C_i[1] + A_j[2] * C_i[0];
+    const jg_real t130 = C_j[8] * t121 - t119 * C_j[7];
+    const jg_real t131 = t120 * C_i[1] + A_j[5] * C_i[0];
+    const jg_real t132 = t119 * C_j[6] - C_j[8] * t125;
+    const jg_real t133 = t118 * C_i[1] + A_j[8] * C_i[0];
+    const jg_real t134 = C_j[7] * t125 - t121 * C_j[6];
     const jg_real t135 = t122 * C_i[4] + A_j[2] * C_i[3];
     const jg_real t136 = t120 * C_i[4] + A_j[5] * C_i[3];
     const jg_real t137 = t118 * C_i[4] + A_j[8] * C_i[3];
-    jac_phi_q_v_A_i[16] = omega_j_cross_h_j_in_j_0 * t135 + omega_j_cross_h_j_in_j_1 * t136 +
-        omega_j_cross_h_j_in_j_2 * t137 - (t134 * g_i_in_j_2 + t137 * omega_i_cross_h_j_in_j_2 + (g_i_in_j_0 * t130
-        + t135 * omega_i_cross_h_j_in_j_0 + (t132 * g_i_in_j_1 + t136 * omega_i_cross_h_j_in_j_1)));
     const jg_real t138 = t131 * C_j[2] - t133 * C_j[1];
     const jg_real t139 = t133 * C_j[0] - t129 * C_j[2];
     const jg_real t140 = t129 * C_j[1] - t131 * C_j[0];
-    jac_phi_q_v_A_i[17] = t119 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t140 + (t125 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t138 + (t121 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t139)) - (omega_j[0] * t138 +
-        omega_j[1] * t139 + omega_j[2] * t140);
     const jg_real t141 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t142 = A_j[6] * omega_i[2] + omega_i[1] * t141;
     const jg_real t143 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
@@ -475,33 +460,36 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t145 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t146 = e_ij_in_j_1 * t142 - e_ij_in_j_2 * t144 - (A_j[0] * v_i[2] + v_i[1] * t145);
     const jg_real t147 = A_j[0] * omega_i[2] + omega_i[1] * t145;
-    const jg_real t148 = e_ij_in_j_2 * t147 - e_ij_in_j_0 * t142 - (A_j[3] * v_i[2] + v_i[1] * t143);
-    const jg_real t149 = e_ij_in_j_0 * t144 - e_ij_in_j_1 * t147 - (A_j[6] * v_i[2] + v_i[1] * t141);
+    const jg_real t148 = e_ij_in_j_2 * t147 - t142 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t143);
+    const jg_real t149 = e_ij_in_j_0 * t144 - e_ij_in_j_1 * t147 - (v_i[1] * t141 + A_j[6] * v_i[2]);
+    jac_phi_q_v_A_i[13] = t118 * v_3_in_j_2 + A_ji_5 * t128 + (t122 * v_3_in_j_0 + A_ji_3 * t123 + (t120 *
+        v_3_in_j_1 + A_ji_4 * t126));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t123 + A_ji_7 * t126 + A_ji_8 * t128;
+    jac_phi_q_v_A_i[15] = t129 * omega_j_cross_h_j_in_j_0 + t131 * omega_j_cross_h_j_in_j_1 + t133 *
+        omega_j_cross_h_j_in_j_2 - (t129 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t130 + (t131 *
+        omega_i_cross_h_j_in_j_1 + t132 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t133 + t134 * f_i_in_j_2));
+    jac_phi_q_v_A_i[16] = omega_j_cross_h_j_in_j_0 * t135 + omega_j_cross_h_j_in_j_1 * t136 +
+        omega_j_cross_h_j_in_j_2 * t137 - (t130 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t135 + (t132 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t136) + (t134 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t137));
+    jac_phi_q_v_A_i[17] = t119 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t140 + (t125 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t138 + (t121 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t139)) - (omega_j[0] * t138 +
+        omega_j[1] * t139 + omega_j[2] * t140);
     jac_phi_q_v_A_i[18] = A_ji_0 * t146 + A_ji_1 * t148 + A_ji_2 * t149;
     jac_phi_q_v_A_i[19] = t141 * v_3_in_j_2 + A_ji_5 * t149 + (t145 * v_3_in_j_0 + A_ji_3 * t146 + (t143 *
         v_3_in_j_1 + A_ji_4 * t148));
     jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t149 + (t42 + A_ji_6 * t146 + (t56 + A_ji_7 * t148));
-    const jg_real t150 = A_j[0] * C_i[2] + C_i[1] * t145;
+    const jg_real t150 = t145 * C_i[1] + A_j[0] * C_i[2];
     const jg_real t151 = C_j[8] * t144 - C_j[7] * t142;
-    const jg_real t152 = A_j[3] * C_i[2] + C_i[1] * t143;
-    const jg_real t153 = C_j[6] * t142 - C_j[8] * t147;
-    const jg_real t154 = A_j[6] * C_i[2] + t141 * C_i[1];
+    const jg_real t152 = t143 * C_i[1] + A_j[3] * C_i[2];
+    const jg_real t153 = t142 * C_j[6] - C_j[8] * t147;
+    const jg_real t154 = t141 * C_i[1] + A_j[6] * C_i[2];
     const jg_real t155 = C_j[7] * t147 - C_j[6] * t144;
-    jac_phi_q_v_A_i[21] = omega_j_cross_h_j_in_j_0 * t150 + omega_j_cross_h_j_in_j_1 * t152 +
-        omega_j_cross_h_j_in_j_2 * t154 - (t154 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t155 + (t150 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t151 + (t152 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t153)));
     const jg_real t156 = t145 * C_i[4] + A_j[0] * C_i[5];
     const jg_real t157 = t143 * C_i[4] + A_j[3] * C_i[5];
     const jg_real t158 = t141 * C_i[4] + A_j[6] * C_i[5];
-    jac_phi_q_v_A_i[22] = omega_j_cross_h_j_in_j_0 * t156 + omega_j_cross_h_j_in_j_1 * t157 +
-        omega_j_cross_h_j_in_j_2 * t158 - (t155 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t158 + (g_i_in_j_0 * t151
-        + t156 * omega_i_cross_h_j_in_j_0 + (t153 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t157)));
     const jg_real t159 = t152 * C_j[2] - t154 * C_j[1];
     const jg_real t160 = t154 * C_j[0] - t150 * C_j[2];
     const jg_real t161 = t150 * C_j[1] - t152 * C_j[0];
-    jac_phi_q_v_A_i[23] = t142 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t161 + (t147 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t159 + (t144 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t160)) - (omega_j[0] * t159 +
-        omega_j[1] * t160 + omega_j[2] * t161);
     const jg_real t162 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t163 = A_j[7] * omega_i[2] + omega_i[1] * t162;
     const jg_real t164 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
@@ -509,33 +497,39 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t166 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t167 = e_ij_in_j_1 * t163 - e_ij_in_j_2 * t165 - (A_j[1] * v_i[2] + v_i[1] * t166);
     const jg_real t168 = A_j[1] * omega_i[2] + omega_i[1] * t166;
-    const jg_real t169 = e_ij_in_j_2 * t168 - e_ij_in_j_0 * t163 - (A_j[4] * v_i[2] + v_i[1] * t164);
-    const jg_real t170 = e_ij_in_j_0 * t165 - e_ij_in_j_1 * t168 - (A_j[7] * v_i[2] + v_i[1] * t162);
+    const jg_real t169 = e_ij_in_j_2 * t168 - t163 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t164);
+    const jg_real t170 = e_ij_in_j_0 * t165 - e_ij_in_j_1 * t168 - (v_i[1] * t162 + A_j[7] * v_i[2]);
+    const jg_real t171 = t166 * C_i[1] + A_j[1] * C_i[2];
+    const jg_real t172 = C_j[8] * t165 - C_j[7] * t163;
+    const jg_real t173 = t164 * C_i[1] + A_j[4] * C_i[2];
+    const jg_real t174 = t163 * C_j[6] - C_j[8] * t168;
+    const jg_real t175 = t162 * C_i[1] + A_j[7] * C_i[2];
+    const jg_real t176 = C_j[7] * t168 - C_j[6] * t165;
+    const jg_real t177 = t166 * C_i[4] + A_j[1] * C_i[5];
+    const jg_real t178 = t164 * C_i[4] + A_j[4] * C_i[5];
+    const jg_real t179 = t162 * C_i[4] + A_j[7] * C_i[5];
+    jac_phi_q_v_A_i[21] = t150 * omega_j_cross_h_j_in_j_0 + t152 * omega_j_cross_h_j_in_j_1 + t154 *
+        omega_j_cross_h_j_in_j_2 - (t150 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t151 + (omega_i_cross_h_j_in_j_1
+        * t152 + t153 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t154 + t155 * f_i_in_j_2));
+    jac_phi_q_v_A_i[22] = omega_j_cross_h_j_in_j_0 * t156 + omega_j_cross_h_j_in_j_1 * t157 +
+        omega_j_cross_h_j_in_j_2 * t158 - (t151 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t156 + (t153 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t157) + (t155 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t158));
+    jac_phi_q_v_A_i[23] = t142 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t161 + (t147 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t159 + (t144 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t160)) - (omega_j[0] * t159 +
+        omega_j[1] * t160 + omega_j[2] * t161);
     jac_phi_q_v_A_i[24] = A_ji_0 * t167 + A_ji_1 * t169 + A_ji_2 * t170;
     jac_phi_q_v_A_i[25] = t162 * v_3_in_j_2 + A_ji_5 * t170 + (t166 * v_3_in_j_0 + A_ji_3 * t167 + (t164 *
         v_3_in_j_1 + A_ji_4 * t169));
     jac_phi_q_v_A_i[26] = t103 + A_ji_8 * t170 + (t93 + A_ji_6 * t167 + (t100 + A_ji_7 * t169));
-    const jg_real t171 = A_j[1] * C_i[2] + C_i[1] * t166;
-    const jg_real t172 = C_j[8] * t165 - C_j[7] * t163;
-    const jg_real t173 = A_j[4] * C_i[2] + C_i[1] * t164;
-    const jg_real t174 = C_j[6] * t163 - C_j[8] * t168;
-    const jg_real t175 = A_j[7] * C_i[2] + t162 * C_i[1];
-    const jg_real t176 = C_j[7] * t168 - C_j[6] * t165;
-    jac_phi_q_v_A_i[27] = omega_j_cross_h_j_in_j_0 * t171 + omega_j_cross_h_j_in_j_1 * t173 +
-        omega_j_cross_h_j_in_j_2 * t175 - (t175 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t176 + (t171 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t172 + (t173 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t174)));
-    const jg_real t177 = t166 * C_i[4] + A_j[1] * C_i[5];
-    const jg_real t178 = t164 * C_i[4] + A_j[4] * C_i[5];
-    const jg_real t179 = t162 * C_i[4] + A_j[7] * C_i[5];
+    jac_phi_q_v_A_i[27] = t171 * omega_j_cross_h_j_in_j_0 + t173 * omega_j_cross_h_j_in_j_1 + t175 *
+        omega_j_cross_h_j_in_j_2 - (t171 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t172 + (omega_i_cross_h_j_in_j_1
+        * t173 + t174 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t175 + t176 * f_i_in_j_2));
     jac_phi_q_v_A_i[28] = omega_j_cross_h_j_in_j_0 * t177 + omega_j_cross_h_j_in_j_1 * t178 +
-        omega_j_cross_h_j_in_j_2 * t179 - (t176 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t179 + (g_i_in_j_0 * t172
-        + t177 * omega_i_cross_h_j_in_j_0 + (t174 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t178)));
+        omega_j_cross_h_j_in_j_2 * t179 - (t172 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t177 + (t174 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t178) + (t176 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t179));
     const jg_real t180 = t173 * C_j[2] - t175 * C_j[1];
     const jg_real t181 = t175 * C_j[0] - t171 * C_j[2];
     const jg_real t182 = t171 * C_j[1] - t173 * C_j[0];
-    jac_phi_q_v_A_i[29] = t163 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t182 + (t168 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t180 + (t165 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t181)) - (omega_j[0] * t180 +
-        omega_j[1] * t181 + omega_j[2] * t182);
     const jg_real t183 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t184 = A_j[8] * omega_i[2] + omega_i[1] * t183;
     const jg_real t185 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
@@ -543,40 +537,27 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t187 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t188 = e_ij_in_j_1 * t184 - e_ij_in_j_2 * t186 - (A_j[2] * v_i[2] + v_i[1] * t187);
     const jg_real t189 = A_j[2] * omega_i[2] + omega_i[1] * t187;
-    const jg_real t190 = e_ij_in_j_2 * t189 - e_ij_in_j_0 * t184 - (A_j[5] * v_i[2] + v_i[1] * t185);
-    const jg_real t191 = e_ij_in_j_0 * t186 - e_ij_in_j_1 * t189 - (A_j[8] * v_i[2] + v_i[1] * t183);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t188 + A_ji_1 * t190 + A_ji_2 * t191;
-    jac_phi_q_v_A_i[31] = t183 * v_3_in_j_2 + A_ji_5 * t191 + (t187 * v_3_in_j_0 + A_ji_3 * t188 + (t185 *
-        v_3_in_j_1 + A_ji_4 * t190));
-    jac_phi_q_v_A_i[32] = t127 + A_ji_8 * t191 + (t117 + A_ji_6 * t188 + (t124 + A_ji_7 * t190));
-    const jg_real t192 = A_j[2] * C_i[2] + C_i[1] * t187;
+    const jg_real t190 = e_ij_in_j_2 * t189 - t184 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t185);
+    const jg_real t191 = e_ij_in_j_0 * t186 - e_ij_in_j_1 * t189 - (v_i[1] * t183 + A_j[8] * v_i[2]);
+    const jg_real t192 = t187 * C_i[1] + A_j[2] * C_i[2];
     const jg_real t193 = C_j[8] * t186 - C_j[7] * t184;
-    const jg_real t194 = A_j[5] * C_i[2] + C_i[1] * t185;
-    const jg_real t195 = C_j[6] * t184 - C_j[8] * t189;
-    const jg_real t196 = A_j[8] * C_i[2] + t183 * C_i[1];
+    const jg_real t194 = t185 * C_i[1] + A_j[5] * C_i[2];
+    const jg_real t195 = t184 * C_j[6] - C_j[8] * t189;
+    const jg_real t196 = t183 * C_i[1] + A_j[8] * C_i[2];
     const jg_real t197 = C_j[7] * t189 - C_j[6] * t186;
-    jac_phi_q_v_A_i[33] = omega_j_cross_h_j_in_j_0 * t192 + omega_j_cross_h_j_in_j_1 * t194 +
-        omega_j_cross_h_j_in_j_2 * t196 - (t196 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t197 + (t192 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t193 + (t194 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t195)));
     const jg_real t198 = t187 * C_i[4] + A_j[2] * C_i[5];
     const jg_real t199 = t185 * C_i[4] + A_j[5] * C_i[5];
     const jg_real t200 = t183 * C_i[4] + A_j[8] * C_i[5];
-    jac_phi_q_v_A_i[34] = omega_j_cross_h_j_in_j_0 * t198 + omega_j_cross_h_j_in_j_1 * t199 +
-        omega_j_cross_h_j_in_j_2 * t200 - (t197 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t200 + (g_i_in_j_0 * t193
-        + t198 * omega_i_cross_h_j_in_j_0 + (t195 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t199)));
     const jg_real t201 = t194 * C_j[2] - t196 * C_j[1];
     const jg_real t202 = t196 * C_j[0] - t192 * C_j[2];
     const jg_real t203 = t192 * C_j[1] - t194 * C_j[0];
-    jac_phi_q_v_A_i[35] = t184 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t203 + (t189 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t201 + (t186 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t202)) - (omega_j[0] * t201 +
-        omega_j[1] * t202 + omega_j[2] * t203);
     const jg_real t204 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
     const jg_real t205 = omega_i[1] * t204;
-    const jg_real t206 = e_ij_in_j_1 * t205;
+    const jg_real t206 = t205 * e_ij_in_j_1;
     const jg_real t207 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t208 = omega_i[1] * t207;
     const jg_real t209 = e_ij_in_j_2 * t208;
-    const jg_real t210 = A_i[6] * v_i[2] + A_i[0] * v_i[0];
+    const jg_real t210 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
     const jg_real t211 = t206 - t209 - t210;
     const jg_real t212 = v_0_world_0 * omega_i_in_j_2;
     const jg_real t213 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
@@ -587,28 +568,36 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t218 = e_ij_in_j_1 * t213;
     const jg_real t219 = v_i[1] * t204;
     const jg_real t220 = t217 + t208 * e_ij_in_j_0 - t218 - t219;
+    jac_phi_q_v_A_i[29] = t163 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t182 + (t168 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t180 + (t165 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t181)) - (omega_j[0] * t180 +
+        omega_j[1] * t181 + omega_j[2] * t182);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t188 + A_ji_1 * t190 + A_ji_2 * t191;
+    jac_phi_q_v_A_i[31] = t183 * v_3_in_j_2 + A_ji_5 * t191 + (t187 * v_3_in_j_0 + A_ji_3 * t188 + (t185 *
+        v_3_in_j_1 + A_ji_4 * t190));
+    jac_phi_q_v_A_i[32] = t127 + A_ji_8 * t191 + (t117 + A_ji_6 * t188 + (t124 + A_ji_7 * t190));
+    jac_phi_q_v_A_i[33] = t192 * omega_j_cross_h_j_in_j_0 + t194 * omega_j_cross_h_j_in_j_1 + t196 *
+        omega_j_cross_h_j_in_j_2 - (t192 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t193 + (omega_i_cross_h_j_in_j_1
+        * t194 + t195 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t196 + t197 * f_i_in_j_2));
+    jac_phi_q_v_A_i[34] = omega_j_cross_h_j_in_j_0 * t198 + omega_j_cross_h_j_in_j_1 * t199 +
+        omega_j_cross_h_j_in_j_2 * t200 - (t193 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t198 + (t195 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t199) + (t197 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t200));
+    jac_phi_q_v_A_i[35] = t184 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t203 + (t189 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t201 + (t186 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t202)) - (omega_j[0] * t201 +
+        omega_j[1] * t202 + omega_j[2] * t203);
     jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t211 + A_ji_1 * t216 + A_ji_2 * t220;
-    jac_phi_q_v_A_j[1] = t204 * v_3_in_j_2 + A_ji_5 * t220 + (t207 * v_3_in_j_1 + A_ji_4 * t216 + A_ji_3 * t211);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t211 + A_ji_7 * t216 + A_ji_8 * t220;
     const jg_real t221 = A_i[0] * C_i[0] + A_i[6] * C_i[2];
-    const jg_real t222 = C_j[8] * t208;
-    const jg_real t223 = C_j[7] * t205;
+    const jg_real t222 = t208 * C_j[8];
+    const jg_real t223 = t205 * C_j[7];
     const jg_real t224 = t222 - t223;
-    const jg_real t225 = C_i[1] * t207;
+    const jg_real t225 = t207 * C_i[1];
     const jg_real t226 = C_j[8] * t213;
-    const jg_real t227 = C_j[6] * t205 - t226;
+    const jg_real t227 = t205 * C_j[6] - t226;
     const jg_real t228 = t204 * C_i[1];
     const jg_real t229 = C_j[7] * t213;
-    const jg_real t230 = t229 - C_j[6] * t208;
-    jac_phi_q_v_A_j[3] = omega_j_cross_h_j_in_j_0 * t221 + t225 * omega_j_cross_h_j_in_j_1 + t228 *
-        omega_j_cross_h_j_in_j_2 - (t228 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t230 + (t221 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t224 + (t225 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t227)));
+    const jg_real t230 = t229 - t208 * C_j[6];
     const jg_real t231 = A_i[0] * C_i[3] + A_i[6] * C_i[5];
     const jg_real t232 = t207 * C_i[4];
     const jg_real t233 = t204 * C_i[4];
-    jac_phi_q_v_A_j[4] = omega_j_cross_h_j_in_j_0 * t231 + t232 * omega_j_cross_h_j_in_j_1 + t233 *
-        omega_j_cross_h_j_in_j_2 - (t230 * g_i_in_j_2 + t233 * omega_i_cross_h_j_in_j_2 + (g_i_in_j_0 * t224 + t231
-        * omega_i_cross_h_j_in_j_0 + (t227 * g_i_in_j_1 + t232 * omega_i_cross_h_j_in_j_1)));
     const jg_real t234 = t225 * C_j[2];
     const jg_real t235 = t228 * C_j[1];
     const jg_real t236 = t234 - t235;
@@ -616,16 +605,13 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t238 = t228 * C_j[0] - t237;
     const jg_real t239 = t221 * C_j[1];
     const jg_real t240 = t239 - t225 * C_j[0];
-    jac_phi_q_v_A_j[5] = t205 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t240 + (t213 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t236 + (t208 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t238)) - (omega_j[0] * t236 +
-        omega_j[1] * t238 + omega_j[2] * t240);
     const jg_real t241 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t242 = omega_i[1] * t241;
-    const jg_real t243 = e_ij_in_j_1 * t242;
+    const jg_real t243 = t242 * e_ij_in_j_1;
     const jg_real t244 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
     const jg_real t245 = omega_i[1] * t244;
     const jg_real t246 = e_ij_in_j_2 * t245;
-    const jg_real t247 = A_i[7] * v_i[2] + A_i[1] * v_i[0];
+    const jg_real t247 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
     const jg_real t248 = t243 - t246 - t247;
     const jg_real t249 = v_0_world_1 * omega_i_in_j_2;
     const jg_real t250 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
@@ -636,28 +622,33 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t255 = e_ij_in_j_1 * t250;
     const jg_real t256 = v_i[1] * t241;
     const jg_real t257 = t254 + t245 * e_ij_in_j_0 - t255 - t256;
+    jac_phi_q_v_A_j[1] = t204 * v_3_in_j_2 + A_ji_5 * t220 + (t207 * v_3_in_j_1 + A_ji_4 * t216 + A_ji_3 * t211);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t211 + A_ji_7 * t216 + A_ji_8 * t220;
+    jac_phi_q_v_A_j[3] = t221 * omega_j_cross_h_j_in_j_0 + t225 * omega_j_cross_h_j_in_j_1 + t228 *
+        omega_j_cross_h_j_in_j_2 - (t221 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t224 + (t225 *
+        omega_i_cross_h_j_in_j_1 + t227 * f_i_in_j_1) + (t228 * omega_i_cross_h_j_in_j_2 + t230 * f_i_in_j_2));
+    jac_phi_q_v_A_j[4] = omega_j_cross_h_j_in_j_0 * t231 + t232 * omega_j_cross_h_j_in_j_1 + t233 *
+        omega_j_cross_h_j_in_j_2 - (t224 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t231 + (t227 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t232) + (t230 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t233));
+    jac_phi_q_v_A_j[5] = t205 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t240 + (t213 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t236 + (t208 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t238)) - (omega_j[0] * t236 +
+        omega_j[1] * t238 + omega_j[2] * t240);
     jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t248 + A_ji_1 * t253 + A_ji_2 * t257;
     jac_phi_q_v_A_j[7] = t241 * v_3_in_j_2 + A_ji_5 * t257 + (t244 * v_3_in_j_1 + A_ji_4 * t253 + A_ji_3 * t248);
     jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t248 + A_ji_7 * t253 + A_ji_8 * t257;
     const jg_real t258 = A_i[1] * C_i[0] + A_i[7] * C_i[2];
-    const jg_real t259 = C_j[8] * t245;
-    const jg_real t260 = C_j[7] * t242;
+    const jg_real t259 = t245 * C_j[8];
+    const jg_real t260 = t242 * C_j[7];
     const jg_real t261 = t259 - t260;
-    const jg_real t262 = C_i[1] * t244;
+    const jg_real t262 = t244 * C_i[1];
     const jg_real t263 = C_j[8] * t250;
-    const jg_real t264 = C_j[6] * t242 - t263;
+    const jg_real t264 = t242 * C_j[6] - t263;
     const jg_real t265 = t241 * C_i[1];
     const jg_real t266 = C_j[7] * t250;
-    const jg_real t267 = t266 - C_j[6] * t245;
-    jac_phi_q_v_A_j[9] = omega_j_cross_h_j_in_j_0 * t258 + t262 * omega_j_cross_h_j_in_j_1 + t265 *
-        omega_j_cross_h_j_in_j_2 - (t265 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t267 + (t258 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t261 + (t262 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t264)));
+    const jg_real t267 = t266 - t245 * C_j[6];
     const jg_real t268 = A_i[1] * C_i[3] + A_i[7] * C_i[5];
     const jg_real t269 = t244 * C_i[4];
     const jg_real t270 = t241 * C_i[4];
-    jac_phi_q_v_A_j[10] = omega_j_cross_h_j_in_j_0 * t268 + t269 * omega_j_cross_h_j_in_j_1 + t270 *
-        omega_j_cross_h_j_in_j_2 - (t267 * g_i_in_j_2 + t270 * omega_i_cross_h_j_in_j_2 + (g_i_in_j_0 * t261 + t268
-        * omega_i_cross_h_j_in_j_0 + (t264 * g_i_in_j_1 + t269 * omega_i_cross_h_j_in_j_1)));
     const jg_real t271 = t262 * C_j[2];
     const jg_real t272 = t265 * C_j[1];
     const jg_real t273 = t271 - t272;
@@ -665,16 +656,13 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t275 = t265 * C_j[0] - t274;
     const jg_real t276 = t258 * C_j[1];
     const jg_real t277 = t276 - t262 * C_j[0];
-    jac_phi_q_v_A_j[11] = t242 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t277 + (t250 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t273 + (t245 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t275)) - (omega_j[0] * t273 +
-        omega_j[1] * t275 + omega_j[2] * t277);
     const jg_real t278 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t279 = omega_i[1] * t278;
-    const jg_real t280 = e_ij_in_j_1 * t279;
+    const jg_real t280 = t279 * e_ij_in_j_1;
     const jg_real t281 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
     const jg_real t282 = omega_i[1] * t281;
     const jg_real t283 = e_ij_in_j_2 * t282;
-    const jg_real t284 = A_i[8] * v_i[2] + A_i[2] * v_i[0];
+    const jg_real t284 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
     const jg_real t285 = t280 - t283 - t284;
     const jg_real t286 = v_0_world_2 * omega_i_in_j_2;
     const jg_real t287 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
@@ -685,28 +673,37 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t292 = e_ij_in_j_1 * t287;
     const jg_real t293 = v_i[1] * t278;
     const jg_real t294 = t291 + t282 * e_ij_in_j_0 - t292 - t293;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t285 + A_ji_1 * t290 + A_ji_2 * t294;
-    jac_phi_q_v_A_j[13] = t278 * v_3_in_j_2 + A_ji_5 * t294 + (t281 * v_3_in_j_1 + A_ji_4 * t290 + A_ji_3 * t285);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t285 + A_ji_7 * t290 + A_ji_8 * t294;
     const jg_real t295 = A_i[2] * C_i[0] + A_i[8] * C_i[2];
-    const jg_real t296 = C_j[8] * t282;
-    const jg_real t297 = C_j[7] * t279;
+    const jg_real t296 = t282 * C_j[8];
+    const jg_real t297 = t279 * C_j[7];
     const jg_real t298 = t296 - t297;
-    const jg_real t299 = C_i[1] * t281;
+    const jg_real t299 = t281 * C_i[1];
     const jg_real t300 = C_j[8] * t287;
-    const jg_real t301 = C_j[6] * t279 - t300;
+    const jg_real t301 = t279 * C_j[6] - t300;
     const jg_real t302 = t278 * C_i[1];
     const jg_real t303 = C_j[7] * t287;
-    const jg_real t304 = t303 - C_j[6] * t282;
-    jac_phi_q_v_A_j[15] = omega_j_cross_h_j_in_j_0 * t295 + t299 * omega_j_cross_h_j_in_j_1 + t302 *
-        omega_j_cross_h_j_in_j_2 - (t302 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t304 + (t295 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t298 + (t299 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t301)));
+    const jg_real t304 = t303 - t282 * C_j[6];
     const jg_real t305 = A_i[2] * C_i[3] + A_i[8] * C_i[5];
     const jg_real t306 = t281 * C_i[4];
     const jg_real t307 = t278 * C_i[4];
+    jac_phi_q_v_A_j[9] = t258 * omega_j_cross_h_j_in_j_0 + t262 * omega_j_cross_h_j_in_j_1 + t265 *
+        omega_j_cross_h_j_in_j_2 - (t258 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t261 + (t262 *
+        omega_i_cross_h_j_in_j_1 + t264 * f_i_in_j_1) + (t265 * omega_i_cross_h_j_in_j_2 + t267 * f_i_in_j_2));
+    jac_phi_q_v_A_j[10] = omega_j_cross_h_j_in_j_0 * t268 + t269 * omega_j_cross_h_j_in_j_1 + t270 *
+        omega_j_cross_h_j_in_j_2 - (t261 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t268 + (t264 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t269) + (t267 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t270));
+    jac_phi_q_v_A_j[11] = t242 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t277 + (t250 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t273 + (t245 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t275)) - (omega_j[0] * t273 +
+        omega_j[1] * t275 + omega_j[2] * t277);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t285 + A_ji_1 * t290 + A_ji_2 * t294;
+    jac_phi_q_v_A_j[13] = t278 * v_3_in_j_2 + A_ji_5 * t294 + (t281 * v_3_in_j_1 + A_ji_4 * t290 + A_ji_3 * t285);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t285 + A_ji_7 * t290 + A_ji_8 * t294;
+    jac_phi_q_v_A_j[15] = t295 * omega_j_cross_h_j_in_j_0 + t299 * omega_j_cross_h_j_in_j_1 + t302 *
+        omega_j_cross_h_j_in_j_2 - (t295 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t298 + (t299 *
+        omega_i_cross_h_j_in_j_1 + t301 * f_i_in_j_1) + (t302 * omega_i_cross_h_j_in_j_2 + t304 * f_i_in_j_2));
     jac_phi_q_v_A_j[16] = omega_j_cross_h_j_in_j_0 * t305 + t306 * omega_j_cross_h_j_in_j_1 + t307 *
-        omega_j_cross_h_j_in_j_2 - (t304 * g_i_in_j_2 + t307 * omega_i_cross_h_j_in_j_2 + (g_i_in_j_0 * t298 + t305
-        * omega_i_cross_h_j_in_j_0 + (t301 * g_i_in_j_1 + t306 * omega_i_cross_h_j_in_j_1)));
+        omega_j_cross_h_j_in_j_2 - (t298 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t305 + (t301 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t306) + (t304 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t307));
     const jg_real t308 = t299 * C_j[2];
     const jg_real t309 = t302 * C_j[1];
     const jg_real t310 = t308 - t309;
@@ -714,235 +711,236 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     const jg_real t312 = t302 * C_j[0] - t311;
     const jg_real t313 = t295 * C_j[1];
     const jg_real t314 = t313 - t299 * C_j[0];
-    jac_phi_q_v_A_j[17] = t279 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t314 + (t287 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t310 + (t282 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t312)) - (omega_j[0] * t310 +
-        omega_j[1] * t312 + omega_j[2] * t314);
     const jg_real t315 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
     const jg_real t316 = omega_i[1] * t315;
     const jg_real t317 = t316 * e_ij_in_j_0;
     const jg_real t318 = t317 + t209 + t210;
-    const jg_real t319 = e_ij_in_j_1 * t316 + t212 - t214 + t215;
+    const jg_real t319 = t316 * e_ij_in_j_1 + t212 - t214 + t215;
     const jg_real t320 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t321 = e_ij_in_j_0 * t213;
+    const jg_real t321 = t213 * e_ij_in_j_0;
     const jg_real t322 = v_i[1] * t315;
     const jg_real t323 = t321 - (t320 - e_ij_in_j_1 * t208) - t322;
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t318 + A_ji_0 * t319 + A_ji_2 * t323;
-    jac_phi_q_v_A_j[19] = t315 * v_3_in_j_2 + A_ji_5 * t323 + (A_ji_3 * t319 - t207 * v_3_in_j_0 - A_ji_4 * t318);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t318 + A_ji_6 * t319 + A_ji_8 * t323;
-    const jg_real t324 = C_j[6] * t316;
+    const jg_real t324 = t316 * C_j[6];
     const jg_real t325 = t324 + t222;
-    const jg_real t326 = t226 - C_j[7] * t316;
+    const jg_real t326 = t226 - t316 * C_j[7];
     const jg_real t327 = t315 * C_i[1];
-    const jg_real t328 = C_j[6] * t213;
-    const jg_real t329 = t328 + C_j[7] * t208;
-    jac_phi_q_v_A_j[21] = omega_j_cross_h_j_in_j_1 * t221 - t225 * omega_j_cross_h_j_in_j_0 + t327 *
-        omega_j_cross_h_j_in_j_2 - (t327 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t329 + (f_i_in_j_0 * t326 - t225
-        * omega_i_cross_h_j_in_j_0 + (t221 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t325)));
+    const jg_real t328 = t213 * C_j[6];
+    const jg_real t329 = t328 + t208 * C_j[7];
     const jg_real t330 = t315 * C_i[4];
-    jac_phi_q_v_A_j[22] = omega_j_cross_h_j_in_j_1 * t231 - t232 * omega_j_cross_h_j_in_j_0 + t330 *
-        omega_j_cross_h_j_in_j_2 - (t330 * omega_i_cross_h_j_in_j_2 - t329 * g_i_in_j_2 + (g_i_in_j_0 * t326 - t232
-        * omega_i_cross_h_j_in_j_0 + (t325 * g_i_in_j_1 + t231 * omega_i_cross_h_j_in_j_1)));
     const jg_real t331 = t327 * C_j[0];
     const jg_real t332 = t234 + t331;
     const jg_real t333 = t237 - t327 * C_j[1];
     const jg_real t334 = t221 * C_j[0];
     const jg_real t335 = t334 + t225 * C_j[1];
-    jac_phi_q_v_A_j[23] = t316 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t335 + (omega_i_in_j_0 * t333 - t208 *
-        f_i_cross_f_j_in_j_0 + (t213 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t332)) - (omega_j[0] * t333 +
-        omega_j[1] * t332 - omega_j[2] * t335);
     const jg_real t336 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
     const jg_real t337 = omega_i[1] * t336;
     const jg_real t338 = t337 * e_ij_in_j_0;
     const jg_real t339 = t338 + t246 + t247;
-    const jg_real t340 = e_ij_in_j_1 * t337 + t249 - t251 + t252;
+    const jg_real t340 = t337 * e_ij_in_j_1 + t249 - t251 + t252;
     const jg_real t341 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t342 = e_ij_in_j_0 * t250;
+    const jg_real t342 = t250 * e_ij_in_j_0;
     const jg_real t343 = v_i[1] * t336;
     const jg_real t344 = t342 - (t341 - e_ij_in_j_1 * t245) - t343;
+    jac_phi_q_v_A_j[17] = t279 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t314 + (t287 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t310 + (t282 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t312)) - (omega_j[0] * t310 +
+        omega_j[1] * t312 + omega_j[2] * t314);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t318 + A_ji_0 * t319 + A_ji_2 * t323;
+    jac_phi_q_v_A_j[19] = t315 * v_3_in_j_2 + A_ji_5 * t323 + (A_ji_3 * t319 - t207 * v_3_in_j_0 - A_ji_4 * t318);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t318 + A_ji_6 * t319 + A_ji_8 * t323;
+    jac_phi_q_v_A_j[21] = t221 * omega_j_cross_h_j_in_j_1 - t225 * omega_j_cross_h_j_in_j_0 + t327 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_0 * t326 - t225 * omega_i_cross_h_j_in_j_0 + (t221 *
+        omega_i_cross_h_j_in_j_1 + t325 * f_i_in_j_1) + (t327 * omega_i_cross_h_j_in_j_2 - t329 * f_i_in_j_2));
+    jac_phi_q_v_A_j[22] = omega_j_cross_h_j_in_j_1 * t231 - omega_j_cross_h_j_in_j_0 * t232 + t330 *
+        omega_j_cross_h_j_in_j_2 - (t326 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t232 + (t325 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t231) + (omega_i_cross_h_j_in_j_2 * t330 - t329 * g_i_in_j_2));
+    jac_phi_q_v_A_j[23] = t316 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t335 + (omega_i_in_j_0 * t333 - t208 *
+        f_i_cross_f_j_in_j_0 + (t213 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t332)) - (omega_j[0] * t333 +
+        omega_j[1] * t332 - omega_j[2] * t335);
     jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t339 + A_ji_0 * t340 + A_ji_2 * t344;
-    jac_phi_q_v_A_j[25] = t336 * v_3_in_j_2 + A_ji_5 * t344 + (A_ji_3 * t340 - t244 * v_3_in_j_0 - A_ji_4 * t339);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t339 + A_ji_6 * t340 + A_ji_8 * t344;
-    const jg_real t345 = C_j[6] * t337;
+    const jg_real t345 = t337 * C_j[6];
     const jg_real t346 = t345 + t259;
-    const jg_real t347 = t263 - C_j[7] * t337;
+    const jg_real t347 = t263 - t337 * C_j[7];
     const jg_real t348 = t336 * C_i[1];
-    const jg_real t349 = C_j[6] * t250;
-    const jg_real t350 = t349 + C_j[7] * t245;
-    jac_phi_q_v_A_j[27] = omega_j_cross_h_j_in_j_1 * t258 - t262 * omega_j_cross_h_j_in_j_0 + t348 *
-        omega_j_cross_h_j_in_j_2 - (t348 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t350 + (f_i_in_j_0 * t347 - t262
-        * omega_i_cross_h_j_in_j_0 + (t258 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t346)));
+    const jg_real t349 = t250 * C_j[6];
+    const jg_real t350 = t349 + t245 * C_j[7];
     const jg_real t351 = t336 * C_i[4];
-    jac_phi_q_v_A_j[28] = omega_j_cross_h_j_in_j_1 * t268 - t269 * omega_j_cross_h_j_in_j_0 + t351 *
-        omega_j_cross_h_j_in_j_2 - (t351 * omega_i_cross_h_j_in_j_2 - t350 * g_i_in_j_2 + (g_i_in_j_0 * t347 - t269
-        * omega_i_cross_h_j_in_j_0 + (t346 * g_i_in_j_1 + t268 * omega_i_cross_h_j_in_j_1)));
     const jg_real t352 = t348 * C_j[0];
     const jg_real t353 = t271 + t352;
     const jg_real t354 = t274 - t348 * C_j[1];
     const jg_real t355 = t258 * C_j[0];
     const jg_real t356 = t355 + t262 * C_j[1];
-    jac_phi_q_v_A_j[29] = t337 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t356 + (omega_i_in_j_0 * t354 - t245 *
-        f_i_cross_f_j_in_j_0 + (t250 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t353)) - (omega_j[0] * t354 +
-        omega_j[1] * t353 - omega_j[2] * t356);
     const jg_real t357 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
     const jg_real t358 = omega_i[1] * t357;
     const jg_real t359 = t358 * e_ij_in_j_0;
     const jg_real t360 = t359 + t283 + t284;
-    const jg_real t361 = e_ij_in_j_1 * t358 + t286 - t288 + t289;
+    const jg_real t361 = t358 * e_ij_in_j_1 + t286 - t288 + t289;
     const jg_real t362 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t363 = e_ij_in_j_0 * t287;
+    const jg_real t363 = t287 * e_ij_in_j_0;
     const jg_real t364 = v_i[1] * t357;
     const jg_real t365 = t363 - (t362 - e_ij_in_j_1 * t282) - t364;
+    jac_phi_q_v_A_j[25] = t336 * v_3_in_j_2 + A_ji_5 * t344 + (A_ji_3 * t340 - t244 * v_3_in_j_0 - A_ji_4 * t339);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t339 + A_ji_6 * t340 + A_ji_8 * t344;
+    jac_phi_q_v_A_j[27] = t258 * omega_j_cross_h_j_in_j_1 - t262 * omega_j_cross_h_j_in_j_0 + t348 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_0 * t347 - t262 * omega_i_cross_h_j_in_j_0 + (t258 *
+        omega_i_cross_h_j_in_j_1 + t346 * f_i_in_j_1) + (t348 * omega_i_cross_h_j_in_j_2 - t350 * f_i_in_j_2));
+    jac_phi_q_v_A_j[28] = omega_j_cross_h_j_in_j_1 * t268 - omega_j_cross_h_j_in_j_0 * t269 + t351 *
+        omega_j_cross_h_j_in_j_2 - (t347 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t269 + (t346 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t268) + (omega_i_cross_h_j_in_j_2 * t351 - t350 * g_i_in_j_2));
+    jac_phi_q_v_A_j[29] = t337 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t356 + (omega_i_in_j_0 * t354 - t245 *
+        f_i_cross_f_j_in_j_0 + (t250 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t353)) - (omega_j[0] * t354 +
+        omega_j[1] * t353 - omega_j[2] * t356);
     jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t360 + A_ji_0 * t361 + A_ji_2 * t365;
     jac_phi_q_v_A_j[31] = t357 * v_3_in_j_2 + A_ji_5 * t365 + (A_ji_3 * t361 - t281 * v_3_in_j_0 - A_ji_4 * t360);
     jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t360 + A_ji_6 * t361 + A_ji_8 * t365;
-    const jg_real t366 = C_j[6] * t358;
+    const jg_real t366 = t358 * C_j[6];
     const jg_real t367 = t366 + t296;
-    const jg_real t368 = t300 - C_j[7] * t358;
+    const jg_real t368 = t300 - t358 * C_j[7];
     const jg_real t369 = t357 * C_i[1];
-    const jg_real t370 = C_j[6] * t287;
-    const jg_real t371 = t370 + C_j[7] * t282;
-    jac_phi_q_v_A_j[33] = omega_j_cross_h_j_in_j_1 * t295 - t299 * omega_j_cross_h_j_in_j_0 + t369 *
-        omega_j_cross_h_j_in_j_2 - (t369 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t371 + (f_i_in_j_0 * t368 - t299
-        * omega_i_cross_h_j_in_j_0 + (t295 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t367)));
+    const jg_real t370 = t287 * C_j[6];
+    const jg_real t371 = t370 + t282 * C_j[7];
     const jg_real t372 = t357 * C_i[4];
-    jac_phi_q_v_A_j[34] = omega_j_cross_h_j_in_j_1 * t305 - t306 * omega_j_cross_h_j_in_j_0 + t372 *
-        omega_j_cross_h_j_in_j_2 - (t372 * omega_i_cross_h_j_in_j_2 - t371 * g_i_in_j_2 + (g_i_in_j_0 * t368 - t306
-        * omega_i_cross_h_j_in_j_0 + (t367 * g_i_in_j_1 + t305 * omega_i_cross_h_j_in_j_1)));
     const jg_real t373 = t369 * C_j[0];
     const jg_real t374 = t308 + t373;
     const jg_real t375 = t311 - t369 * C_j[1];
     const jg_real t376 = t295 * C_j[0];
     const jg_real t377 = t376 + t299 * C_j[1];
+    const jg_real t378 = t206 - t317 - t210;
+    const jg_real t379 = t218 - (t217 - t316 * e_ij_in_j_2) + t219;
+    const jg_real t380 = t320 - t205 * e_ij_in_j_2 - t321 + t322;
+    const jg_real t381 = t328 + t205 * C_j[8];
+    const jg_real t382 = t229 + t316 * C_j[8];
+    const jg_real t383 = t324 - t223;
+    jac_phi_q_v_A_j[33] = t295 * omega_j_cross_h_j_in_j_1 - t299 * omega_j_cross_h_j_in_j_0 + t369 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_0 * t368 - t299 * omega_i_cross_h_j_in_j_0 + (t295 *
+        omega_i_cross_h_j_in_j_1 + t367 * f_i_in_j_1) + (t369 * omega_i_cross_h_j_in_j_2 - t371 * f_i_in_j_2));
+    jac_phi_q_v_A_j[34] = omega_j_cross_h_j_in_j_1 * t305 - omega_j_cross_h_j_in_j_0 * t306 + t372 *
+        omega_j_cross_h_j_in_j_2 - (t368 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t306 + (t367 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t305) + (omega_i_cross_h_j_in_j_2 * t372 - t371 * g_i_in_j_2));
     jac_phi_q_v_A_j[35] = t358 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t377 + (omega_i_in_j_0 * t375 - t282 *
         f_i_cross_f_j_in_j_0 + (t287 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t374)) - (omega_j[0] * t375 +
         omega_j[1] * t374 - omega_j[2] * t377);
-    const jg_real t378 = t206 - t317 - t210;
-    const jg_real t379 = t218 - (t217 - e_ij_in_j_2 * t316) + t219;
-    const jg_real t380 = t320 - e_ij_in_j_2 * t205 - t321 + t322;
     jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t378 + (A_ji_0 * t379 + A_ji_1 * t380);
     jac_phi_q_v_A_j[37] = A_ji_3 * t379 - t204 * v_3_in_j_0 + (A_ji_4 * t380 - t315 * v_3_in_j_1) + A_ji_5 * t378;
     jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t378 + (A_ji_6 * t379 + A_ji_7 * t380);
-    const jg_real t381 = t324 - t223;
-    const jg_real t382 = t328 + C_j[8] * t205;
-    const jg_real t383 = t229 + C_j[8] * t316;
-    jac_phi_q_v_A_j[39] = omega_j_cross_h_j_in_j_2 * t221 - (t228 * omega_j_cross_h_j_in_j_0 + t327 *
-        omega_j_cross_h_j_in_j_1) - (t221 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t381 + (f_i_in_j_1 * t382 - t327
-        * omega_i_cross_h_j_in_j_1 - (t228 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t383)));
-    jac_phi_q_v_A_j[40] = omega_j_cross_h_j_in_j_2 * t231 - (t233 * omega_j_cross_h_j_in_j_0 +
-        omega_j_cross_h_j_in_j_1 * t330) - (t381 * g_i_in_j_2 + t231 * omega_i_cross_h_j_in_j_2 + (t382 * g_i_in_j_1
-        - t330 * omega_i_cross_h_j_in_j_1 - (g_i_in_j_0 * t383 + t233 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[39] = t221 * omega_j_cross_h_j_in_j_2 - (t228 * omega_j_cross_h_j_in_j_0 + t327 *
+        omega_j_cross_h_j_in_j_1) - (t381 * f_i_in_j_1 - t327 * omega_i_cross_h_j_in_j_1 - (t228 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t382) + (t221 * omega_i_cross_h_j_in_j_2 + t383 * f_i_in_j_2));
+    jac_phi_q_v_A_j[40] = omega_j_cross_h_j_in_j_2 * t231 - (omega_j_cross_h_j_in_j_0 * t233 +
+        omega_j_cross_h_j_in_j_1 * t330) - (t381 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t330 - (t382 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t233) + (t383 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t231));
     const jg_real t384 = t331 - t235;
     const jg_real t385 = t334 + t228 * C_j[2];
     const jg_real t386 = t327 * C_j[2] + t239;
-    jac_phi_q_v_A_j[41] = t213 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t384 + (omega_i_in_j_1 * t385 - t316 *
-        f_i_cross_f_j_in_j_1 - (t205 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t386)) - (omega_j[1] * t385 -
-        omega_j[0] * t386 + omega_j[2] * t384);
     const jg_real t387 = t243 - t338 - t247;
-    const jg_real t388 = t255 - (t254 - e_ij_in_j_2 * t337) + t256;
-    const jg_real t389 = t341 - e_ij_in_j_2 * t242 - t342 + t343;
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t387 + (A_ji_0 * t388 + A_ji_1 * t389);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t388 - t241 * v_3_in_j_0 + (A_ji_4 * t389 - t336 * v_3_in_j_1) + A_ji_5 * t387;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t387 + (A_ji_6 * t388 + A_ji_7 * t389);
-    const jg_real t390 = t345 - t260;
-    const jg_real t391 = t349 + C_j[8] * t242;
-    const jg_real t392 = t266 + C_j[8] * t337;
-    jac_phi_q_v_A_j[45] = omega_j_cross_h_j_in_j_2 * t258 - (t265 * omega_j_cross_h_j_in_j_0 + t348 *
-        omega_j_cross_h_j_in_j_1) - (t258 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t390 + (f_i_in_j_1 * t391 - t348
-        * omega_i_cross_h_j_in_j_1 - (t265 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t392)));
-    jac_phi_q_v_A_j[46] = omega_j_cross_h_j_in_j_2 * t268 - (t270 * omega_j_cross_h_j_in_j_0 +
-        omega_j_cross_h_j_in_j_1 * t351) - (t390 * g_i_in_j_2 + t268 * omega_i_cross_h_j_in_j_2 + (t391 * g_i_in_j_1
-        - t351 * omega_i_cross_h_j_in_j_1 - (g_i_in_j_0 * t392 + t270 * omega_i_cross_h_j_in_j_0)));
+    const jg_real t388 = t255 - (t254 - t337 * e_ij_in_j_2) + t256;
+    const jg_real t389 = t341 - t242 * e_ij_in_j_2 - t342 + t343;
+    const jg_real t390 = t349 + t242 * C_j[8];
+    const jg_real t391 = t266 + t337 * C_j[8];
+    const jg_real t392 = t345 - t260;
     const jg_real t393 = t352 - t272;
     const jg_real t394 = t355 + t265 * C_j[2];
     const jg_real t395 = t348 * C_j[2] + t276;
+    const jg_real t396 = t280 - t359 - t284;
+    const jg_real t397 = t292 - (t291 - t358 * e_ij_in_j_2) + t293;
+    const jg_real t398 = t362 - t279 * e_ij_in_j_2 - t363 + t364;
+    jac_phi_q_v_A_j[41] = t213 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t384 + (omega_i_in_j_1 * t385 - t316 *
+        f_i_cross_f_j_in_j_1 - (t205 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t386)) - (omega_j[1] * t385 -
+        omega_j[0] * t386 + omega_j[2] * t384);
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t387 + (A_ji_0 * t388 + A_ji_1 * t389);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t388 - t241 * v_3_in_j_0 + (A_ji_4 * t389 - t336 * v_3_in_j_1) + A_ji_5 * t387;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t387 + (A_ji_6 * t388 + A_ji_7 * t389);
+    jac_phi_q_v_A_j[45] = t258 * omega_j_cross_h_j_in_j_2 - (t265 * omega_j_cross_h_j_in_j_0 + t348 *
+        omega_j_cross_h_j_in_j_1) - (t390 * f_i_in_j_1 - t348 * omega_i_cross_h_j_in_j_1 - (t265 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t391) + (t258 * omega_i_cross_h_j_in_j_2 + t392 * f_i_in_j_2));
+    jac_phi_q_v_A_j[46] = omega_j_cross_h_j_in_j_2 * t268 - (omega_j_cross_h_j_in_j_0 * t270 +
+        omega_j_cross_h_j_in_j_1 * t351) - (t390 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t351 - (t391 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t270) + (t392 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t268));
     jac_phi_q_v_A_j[47] = t250 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t393 + (omega_i_in_j_1 * t394 - t337 *
         f_i_cross_f_j_in_j_1 - (t242 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t395)) - (omega_j[1] * t394 -
         omega_j[0] * t395 + omega_j[2] * t393);
-    const jg_real t396 = t280 - t359 - t284;
-    const jg_real t397 = t292 - (t291 - e_ij_in_j_2 * t358) + t293;
-    const jg_real t398 = t362 - e_ij_in_j_2 * t279 - t363 + t364;
     jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t396 + (A_ji_0 * t397 + A_ji_1 * t398);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t397 - t278 * v_3_in_j_0 + (A_ji_4 * t398 - t357 * v_3_in_j_1) + A_ji_5 * t396;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t396 + (A_ji_6 * t397 + A_ji_7 * t398);
-    const jg_real t399 = t366 - t297;
-    const jg_real t400 = t370 + C_j[8] * t279;
-    const jg_real t401 = t303 + C_j[8] * t358;
-    jac_phi_q_v_A_j[51] = omega_j_cross_h_j_in_j_2 * t295 - (t302 * omega_j_cross_h_j_in_j_0 + t369 *
-        omega_j_cross_h_j_in_j_1) - (t295 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t399 + (f_i_in_j_1 * t400 - t369
-        * omega_i_cross_h_j_in_j_1 - (t302 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t401)));
-    jac_phi_q_v_A_j[52] = omega_j_cross_h_j_in_j_2 * t305 - (t307 * omega_j_cross_h_j_in_j_0 +
-        omega_j_cross_h_j_in_j_1 * t372) - (t399 * g_i_in_j_2 + t305 * omega_i_cross_h_j_in_j_2 + (t400 * g_i_in_j_1
-        - t372 * omega_i_cross_h_j_in_j_1 - (g_i_in_j_0 * t401 + t307 * omega_i_cross_h_j_in_j_0)));
+    const jg_real t399 = t370 + t279 * C_j[8];
+    const jg_real t400 = t303 + t358 * C_j[8];
+    const jg_real t401 = t366 - t297;
     const jg_real t402 = t373 - t309;
     const jg_real t403 = t376 + t302 * C_j[2];
     const jg_real t404 = t369 * C_j[2] + t313;
-    jac_phi_q_v_A_j[53] = t287 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t402 + (omega_i_in_j_1 * t403 - t358 *
-        f_i_cross_f_j_in_j_1 - (t279 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t404)) - (omega_j[1] * t403 -
-        omega_j[0] * t404 + omega_j[2] * t402);
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jac_phi_q_v_alpha[0] = alphadot * cosine_0;
     const jg_real t407 = A_ji_0 * omega_j_cross_h_j_in_j_0 + A_ji_1 * omega_j_cross_h_j_in_j_1 + A_ji_2 *
         omega_j_cross_h_j_in_j_2 - (A_ji_0 * omega_i_cross_h_j_in_j_0 + A_ji_1 * omega_i_cross_h_j_in_j_1 + A_ji_2 *
         omega_i_cross_h_j_in_j_2);
+    jac_phi_q_v_A_j[49] = A_ji_3 * t397 - t278 * v_3_in_j_0 + (A_ji_4 * t398 - t357 * v_3_in_j_1) + A_ji_5 * t396;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t396 + (A_ji_6 * t397 + A_ji_7 * t398);
+    jac_phi_q_v_A_j[51] = t295 * omega_j_cross_h_j_in_j_2 - (t302 * omega_j_cross_h_j_in_j_0 + t369 *
+        omega_j_cross_h_j_in_j_1) - (t399 * f_i_in_j_1 - t369 * omega_i_cross_h_j_in_j_1 - (t302 *
+        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t400) + (t295 * omega_i_cross_h_j_in_j_2 + t401 * f_i_in_j_2));
+    jac_phi_q_v_A_j[52] = omega_j_cross_h_j_in_j_2 * t305 - (omega_j_cross_h_j_in_j_0 * t307 +
+        omega_j_cross_h_j_in_j_1 * t372) - (t399 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t372 - (t400 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t307) + (t401 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t305));
+    jac_phi_q_v_A_j[53] = t287 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t402 + (omega_i_in_j_1 * t403 - t358 *
+        f_i_cross_f_j_in_j_1 - (t279 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t404)) - (omega_j[1] * t403 -
+        omega_j[0] * t404 + omega_j[2] * t402);
+    jac_phi_q_v_alpha[0] = alphadot * cosine_0;
     jac_phi_q_v_geometry[0] = t407;
     jac_phi_q_v_geometry[6] = t407;
     const jg_real t408 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
     const jg_real t409 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
     const jg_real t410 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t408 + omega_i_in_j_1 * t409 + omega_i_in_j_2 * t410 - (omega_j[0] *
-        t408 + omega_j[1] * t409 + omega_j[2] * t410);
     const jg_real t411 = A_ji_3 * omega_j_cross_h_j_in_j_0 + A_ji_4 * omega_j_cross_h_j_in_j_1 + A_ji_5 *
         omega_j_cross_h_j_in_j_2 - (A_ji_3 * omega_i_cross_h_j_in_j_0 + A_ji_4 * omega_i_cross_h_j_in_j_1 + A_ji_5 *
         omega_i_cross_h_j_in_j_2);
-    jac_phi_q_v_geometry[2] = t411;
-    jac_phi_q_v_geometry[7] = t411;
     const jg_real t412 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
     const jg_real t413 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
     const jg_real t414 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t412 + omega_i_in_j_1 * t413 + omega_i_in_j_2 * t414 - (omega_j[0] *
-        t412 + omega_j[1] * t413 + omega_j[2] * t414);
     const jg_real t415 = A_ji_6 * omega_j_cross_h_j_in_j_0 + A_ji_7 * omega_j_cross_h_j_in_j_1 + A_ji_8 *
         omega_j_cross_h_j_in_j_2 - (A_ji_6 * omega_i_cross_h_j_in_j_0 + A_ji_7 * omega_i_cross_h_j_in_j_1 + A_ji_8 *
         omega_i_cross_h_j_in_j_2);
-    jac_phi_q_v_geometry[4] = t415;
-    jac_phi_q_v_geometry[8] = t415;
     const jg_real t416 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
     const jg_real t417 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
     const jg_real t418 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
+    const jg_real t419 = -(alphadot * pitch);
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t408 + omega_i_in_j_1 * t409 + omega_i_in_j_2 * t410 - (omega_j[0] *
+        t408 + omega_j[1] * t409 + omega_j[2] * t410);
+    jac_phi_q_v_geometry[2] = t411;
+    jac_phi_q_v_geometry[7] = t411;
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t412 + omega_i_in_j_1 * t413 + omega_i_in_j_2 * t414 - (omega_j[0] *
+        t412 + omega_j[1] * t413 + omega_j[2] * t414);
+    jac_phi_q_v_geometry[4] = t415;
+    jac_phi_q_v_geometry[8] = t415;
     jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t416 + omega_i_in_j_1 * t417 + omega_i_in_j_2 * t418 - (omega_j[0] *
         t416 + omega_j[1] * t417 + omega_j[2] * t418);
-    const jg_real t419 = -(alphadot * pitch);
     jac_phi_q_v_geometry[9] = t419;
     jac_phi_q_v_geometry[10] = t419;
     jac_phi_q_v_geometry[11] = t419;
     const jg_real t420 = omega_i_in_j_2 - omega_j[2];
     const jg_real t421 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t422 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[12] = -(A_ji_1 * t420 + A_ji_2 * t421);
     jac_phi_q_v_geometry[13] = -(A_ji_4 * t420 + A_ji_5 * t421);
     jac_phi_q_v_geometry[14] = -(A_ji_7 * t420 + A_ji_8 * t421);
-    const jg_real t422 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[15] = A_ji_0 * t420 - A_ji_2 * t422;
     jac_phi_q_v_geometry[16] = A_ji_3 * t420 - A_ji_5 * t422;
     jac_phi_q_v_geometry[17] = A_ji_6 * t420 - A_ji_8 * t422;
     jac_phi_q_v_geometry[18] = A_ji_0 * t421 + A_ji_1 * t422;
     jac_phi_q_v_geometry[19] = A_ji_3 * t421 + A_ji_4 * t422;
-    jac_phi_q_v_geometry[20] = A_ji_6 * t421 + A_ji_7 * t422;
     const jg_real t423 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2 - (omega_i_in_j_2 * f_i_in_j_1 -
-        f_i_in_j_2 * omega_i_in_j_1);
-    jac_phi_q_v_geometry[21] = t423;
-    jac_phi_q_v_geometry[24] = t423;
-    const jg_real t424 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (f_i_in_j_2 * omega_i_in_j_0 -
+        omega_i_in_j_1 * f_i_in_j_2);
+    const jg_real t424 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (omega_i_in_j_0 * f_i_in_j_2 -
         omega_i_in_j_2 * f_i_in_j_0);
-    jac_phi_q_v_geometry[22] = t424;
-    jac_phi_q_v_geometry[26] = t424;
     const jg_real t425 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1 - (omega_i_in_j_1 * f_i_in_j_0 -
         omega_i_in_j_0 * f_i_in_j_1);
+    jac_phi_q_v_geometry[20] = A_ji_6 * t421 + A_ji_7 * t422;
+    jac_phi_q_v_geometry[21] = t423;
+    jac_phi_q_v_geometry[24] = t423;
+    jac_phi_q_v_geometry[22] = t424;
+    jac_phi_q_v_geometry[26] = t424;
     jac_phi_q_v_geometry[23] = t425;
     jac_phi_q_v_geometry[28] = t425;
     jac_phi_q_v_geometry[25] = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2 - (omega_i_in_j_2 * g_i_in_j_1 -
         omega_i_in_j_1 * g_i_in_j_2);
+    const jg_real t426 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_geometry[27] = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0 - (omega_i_in_j_0 * g_i_in_j_2 -
         omega_i_in_j_2 * g_i_in_j_0);
     jac_phi_q_v_geometry[29] = omega_j[1] * g_i_in_j_0 - omega_j[0] * g_i_in_j_1 - (omega_i_in_j_1 * g_i_in_j_0 -
@@ -951,57 +949,56 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_v_geometry[31] = -(alphadot * C_i[7]);
     jac_phi_q_v_geometry[32] = -(alphadot * C_i[8]);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t426 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_velocity[1] = t426;
     jac_phi_q_v_velocity[3] = t426;
     const jg_real t427 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
-    jac_phi_q_v_velocity[2] = t427;
-    jac_phi_q_v_velocity[6] = t427;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
     const jg_real t428 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t428;
-    jac_phi_q_v_velocity[7] = t428;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t429 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t430 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t431 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[2] = t427;
+    jac_phi_q_v_velocity[6] = t427;
+    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
+    jac_phi_q_v_velocity[5] = t428;
+    jac_phi_q_v_velocity[7] = t428;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t429 + A_ji_1 * t430 + A_ji_2 * t431;
     jac_phi_q_v_velocity[10] = A_ji_3 * t429 + A_ji_4 * t430 + A_ji_5 * t431;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t429 + A_ji_7 * t430 + A_ji_8 * t431;
     const jg_real t432 = A_ji_1 * C_j[8] - A_ji_2 * C_j[7];
     const jg_real t433 = A_ji_2 * C_j[6] - A_ji_0 * C_j[8];
     const jg_real t434 = A_ji_0 * C_j[7] - A_ji_1 * C_j[6];
-    jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t432 + f_i_in_j_1 * t433 + f_i_in_j_2 * t434);
-    jac_phi_q_v_velocity[13] = -(g_i_in_j_0 * t432 + t433 * g_i_in_j_1 + t434 * g_i_in_j_2);
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
-        f_i_cross_f_j_in_j_2;
     const jg_real t435 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
     const jg_real t436 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
     const jg_real t437 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    const jg_real t438 = A_ji_4 * C_j[8] - A_ji_5 * C_j[7];
+    const jg_real t439 = A_ji_5 * C_j[6] - A_ji_3 * C_j[8];
+    const jg_real t440 = A_ji_3 * C_j[7] - A_ji_4 * C_j[6];
+    jac_phi_q_v_velocity[11] = A_ji_6 * t429 + A_ji_7 * t430 + A_ji_8 * t431;
+    jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t432 + t433 * f_i_in_j_1 + t434 * f_i_in_j_2);
+    jac_phi_q_v_velocity[13] = -(t432 * g_i_in_j_0 + t433 * g_i_in_j_1 + t434 * g_i_in_j_2);
+    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
+        f_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[15] = A_ji_0 * t435 + A_ji_1 * t436 + A_ji_2 * t437;
     jac_phi_q_v_velocity[16] = A_ji_3 * t435 + A_ji_4 * t436 + A_ji_5 * t437;
     jac_phi_q_v_velocity[17] = A_ji_6 * t435 + A_ji_7 * t436 + A_ji_8 * t437;
-    const jg_real t438 = C_j[8] * A_ji_4 - A_ji_5 * C_j[7];
-    const jg_real t439 = A_ji_5 * C_j[6] - C_j[8] * A_ji_3;
-    const jg_real t440 = C_j[7] * A_ji_3 - A_ji_4 * C_j[6];
-    jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t438 + f_i_in_j_1 * t439 + f_i_in_j_2 * t440);
-    jac_phi_q_v_velocity[19] = -(g_i_in_j_0 * t438 + t439 * g_i_in_j_1 + t440 * g_i_in_j_2);
-    jac_phi_q_v_velocity[20] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
-        f_i_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t438 + t439 * f_i_in_j_1 + t440 * f_i_in_j_2);
     const jg_real t441 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
     const jg_real t442 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
     const jg_real t443 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t441 + A_ji_1 * t442 + A_ji_2 * t443;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t441 + A_ji_4 * t442 + A_ji_5 * t443;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t441 + A_ji_7 * t442 + A_ji_8 * t443;
     const jg_real t444 = A_ji_7 * C_j[8] - A_ji_8 * C_j[7];
     const jg_real t445 = A_ji_8 * C_j[6] - A_ji_6 * C_j[8];
     const jg_real t446 = A_ji_6 * C_j[7] - A_ji_7 * C_j[6];
-    jac_phi_q_v_velocity[24] = -(f_i_in_j_0 * t444 + f_i_in_j_1 * t445 + f_i_in_j_2 * t446);
-    jac_phi_q_v_velocity[25] = -(g_i_in_j_0 * t444 + t445 * g_i_in_j_1 + t446 * g_i_in_j_2);
+    jac_phi_q_v_velocity[19] = -(t438 * g_i_in_j_0 + t439 * g_i_in_j_1 + t440 * g_i_in_j_2);
+    jac_phi_q_v_velocity[20] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
+        f_i_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[21] = A_ji_0 * t441 + A_ji_1 * t442 + A_ji_2 * t443;
+    jac_phi_q_v_velocity[22] = A_ji_3 * t441 + A_ji_4 * t442 + A_ji_5 * t443;
+    jac_phi_q_v_velocity[23] = A_ji_6 * t441 + A_ji_7 * t442 + A_ji_8 * t443;
+    jac_phi_q_v_velocity[24] = -(f_i_in_j_0 * t444 + t445 * f_i_in_j_1 + t446 * f_i_in_j_2);
+    jac_phi_q_v_velocity[25] = -(t444 * g_i_in_j_0 + t445 * g_i_in_j_1 + t446 * g_i_in_j_2);
     jac_phi_q_v_velocity[26] = A_ji_6 * f_i_cross_f_j_in_j_0 + A_ji_7 * f_i_cross_f_j_in_j_1 + A_ji_8 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
     jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_v_velocity[39] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
@@ -1013,7 +1010,7 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RESTRI
     jac_phi_q_v_velocity[45] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     jac_phi_q_v_velocity[46] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
     jac_phi_q_v_velocity[47] = -f_i_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
     jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_v_velocity[51] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
@@ -1038,79 +1035,75 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t10 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[0] = t10;
     const jg_real t11 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = -t11;
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t13 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[2] = t13;
     const jg_real t14 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[3] = -t14;
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t16 = lambda[2] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[4] = t16;
     const jg_real t17 = lambda[1] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[5] = -t17;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_A_i[0] = t10;
+    jac_phi_q_t_lambda_A_i[1] = -t11;
+    jac_phi_q_t_lambda_A_i[2] = t13;
+    jac_phi_q_t_lambda_A_i[3] = -t14;
+    jac_phi_q_t_lambda_A_i[4] = t16;
+    jac_phi_q_t_lambda_A_i[5] = -t17;
     jac_phi_q_t_lambda_lambda[15] = A_ji_3;
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_t_lambda_lambda[27] = A_ji_7;
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    jac_phi_q_t_lambda_lambda[16] = A_ji_4;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ji_6;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[17] = A_ji_5;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_t_lambda_lambda[28] = A_ji_8;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_2 = C_i[1] * A_ji_5 + C_i[0] * A_ji_2 + C_i[2] * A_ji_8;
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = C_i[4] * A_ji_5 + C_i[3] * A_ji_2 + C_i[5] * A_ji_8;
     /* v_2_in_j = lambda_3 f_i + lambda_4 g_i, axes of body j */
     const jg_real v_2_in_j_2 = lambda[3] * f_i_in_j_2 + lambda[4] * g_i_in_j_2;
-    jac_phi_q_t_lambda_geometry[77] = v_2_in_j_2;
     const jg_real A_ji_1 = A_ji_6 * A_ji_5 - A_ji_3 * A_ji_8;
+    jac_phi_q_t_lambda_lambda[27] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_4;
+    jac_phi_q_t_lambda_lambda[26] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
+    jac_phi_q_t_lambda_lambda[17] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[28] = A_ji_8;
+    jac_phi_q_t_lambda_geometry[77] = v_2_in_j_2;
     jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real f_i_in_j_1 = C_i[1] * A_ji_4 + C_i[0] * A_ji_1 + C_i[2] * A_ji_7;
     const jg_real g_i_in_j_1 = C_i[4] * A_ji_4 + C_i[3] * A_ji_1 + C_i[5] * A_ji_7;
     const jg_real v_2_in_j_1 = lambda[3] * f_i_in_j_1 + lambda[4] * g_i_in_j_1;
-    jac_phi_q_t_lambda_geometry[73] = v_2_in_j_1;
     /* v_3_in_j = lambda_4 h_j x g_i + lambda_3 h_j x f_i, axes of body j */
     const jg_real v_3_in_j_0 = C_j[7] * v_2_in_j_2 - C_j[8] * v_2_in_j_1;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ji_5 + lambda[0] * A_ji_2 + lambda[2] * A_ji_8;
-    jac_phi_q_t_lambda_geometry[47] = lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = lambda[1] * A_ji_4 + lambda[0] * A_ji_1 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[43] = lambda_0_1_2_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
     const jg_real f_j_cross_f_i_in_j_0 = C_j[1] * f_i_in_j_2 - C_j[2] * f_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[48] = f_j_cross_f_i_in_j_0;
     /* v_4_in_j = lambda_5 f_j x f_i, axes of body j */
     const jg_real v_4_in_j_0 = lambda[5] * f_j_cross_f_i_in_j_0;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_4 h_j x g_i + lambda_5 f_j x f_i + lambda_3 h_j x f_i, axes of ... */
@@ -1123,50 +1116,52 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t44 = A_j[3] * C_i[1] + C_i[0] * t43;
     const jg_real t45 = lambda[3] * t44 + lambda[4] * (A_j[3] * C_i[4] + C_i[3] * t43);
     const jg_real t46 = lambda[1] * A_j[6] + lambda[0] * t40;
-    jac_phi_q_t_lambda_A_i[11] = t46;
     const jg_real t47 = lambda[1] * A_j[3] + lambda[0] * t43;
-    jac_phi_q_t_lambda_A_i[10] = t47;
     const jg_real t48 = s_j[1] * t46 - s_j[2] * t47 + (C_j[7] * t42 - C_j[8] * t45) + lambda[5] * (C_j[1] * t41 -
         C_j[2] * t44);
-    jac_phi_q_t_lambda_A_i[12] = t48;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_7 * A_ji_5;
+    jac_phi_q_t_lambda_geometry[73] = v_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[47] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[43] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[48] = f_j_cross_f_i_in_j_0;
+    jac_phi_q_t_lambda_A_i[11] = t46;
+    jac_phi_q_t_lambda_A_i[10] = t47;
+    jac_phi_q_t_lambda_A_i[12] = t48;
     jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real f_i_in_j_0 = C_i[1] * A_ji_3 + C_i[0] * A_ji_0 + C_i[2] * A_ji_6;
     const jg_real g_i_in_j_0 = C_i[4] * A_ji_3 + C_i[3] * A_ji_0 + C_i[5] * A_ji_6;
     const jg_real v_2_in_j_0 = lambda[3] * f_i_in_j_0 + lambda[4] * g_i_in_j_0;
-    jac_phi_q_t_lambda_geometry[83] = v_2_in_j_0;
     const jg_real v_3_in_j_1 = C_j[8] * v_2_in_j_0 - C_j[6] * v_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[1] * A_ji_3 + lambda[0] * A_ji_0 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[53] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_j_cross_f_i_in_j_1 = C_j[2] * f_i_in_j_0 - C_j[0] * f_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[49] = f_j_cross_f_i_in_j_1;
     const jg_real v_4_in_j_1 = lambda[5] * f_j_cross_f_i_in_j_1;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
     const jg_real t59 = A_j[0] * C_i[1] + C_i[0] * t39;
     const jg_real t60 = lambda[3] * t59 + lambda[4] * (A_j[0] * C_i[4] + C_i[3] * t39);
     const jg_real t61 = lambda[1] * A_j[0] + lambda[0] * t39;
-    jac_phi_q_t_lambda_A_i[9] = t61;
     const jg_real t62 = s_j[2] * t61 - s_j[0] * t46 + (C_j[8] * t60 - C_j[6] * t42) + lambda[5] * (C_j[2] * t59 -
         C_j[0] * t41);
-    jac_phi_q_t_lambda_A_i[13] = t62;
     const jg_real v_3_in_j_2 = C_j[6] * v_2_in_j_1 - C_j[7] * v_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_f_i_in_j_2 = C_j[0] * f_i_in_j_1 - C_j[1] * f_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[50] = f_j_cross_f_i_in_j_2;
     const jg_real v_4_in_j_2 = lambda[5] * f_j_cross_f_i_in_j_2;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
     const jg_real t68 = s_j[0] * t47 - s_j[1] * t61 + (C_j[6] * t45 - C_j[7] * t60) + lambda[5] * (C_j[0] * t44 -
         C_j[1] * t59);
+    jac_phi_q_t_lambda_geometry[83] = v_2_in_j_0;
+    jac_phi_q_t_lambda_geometry[53] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_lambda[49] = f_j_cross_f_i_in_j_1;
+    jac_phi_q_t_lambda_A_i[9] = t61;
+    jac_phi_q_t_lambda_A_i[13] = t62;
+    jac_phi_q_t_lambda_lambda[50] = f_j_cross_f_i_in_j_2;
     jac_phi_q_t_lambda_A_i[14] = t68;
     jac_phi_q_t_lambda_A_i[6] = -(t40 * v_5_in_j_2 + A_ji_2 * t68 + (t39 * v_5_in_j_0 + A_ji_0 * t48 + (t43 *
         v_5_in_j_1 + A_ji_1 * t62)) + t10);
     const jg_real t69 = A_j[0] * v_5_in_j_0;
     const jg_real t70 = A_j[3] * v_5_in_j_1;
     const jg_real t71 = A_j[6] * v_5_in_j_2;
-    jac_phi_q_t_lambda_A_i[7] = -(t71 + A_ji_5 * t68 + (t69 + A_ji_3 * t48 + (t70 + A_ji_4 * t62)));
     const jg_real t72 = lambda[0] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[8] = t72 - (A_ji_6 * t48 + A_ji_7 * t62 + A_ji_8 * t68);
     const jg_real t73 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t74 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
     const jg_real t75 = A_j[7] * C_i[1] + C_i[0] * t74;
@@ -1175,30 +1170,28 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t78 = A_j[4] * C_i[1] + C_i[0] * t77;
     const jg_real t79 = lambda[3] * t78 + lambda[4] * (A_j[4] * C_i[4] + C_i[3] * t77);
     const jg_real t80 = lambda[1] * A_j[7] + lambda[0] * t74;
-    jac_phi_q_t_lambda_A_i[20] = t80;
     const jg_real t81 = lambda[1] * A_j[4] + lambda[0] * t77;
-    jac_phi_q_t_lambda_A_i[19] = t81;
     const jg_real t82 = s_j[1] * t80 - s_j[2] * t81 + (C_j[7] * t76 - C_j[8] * t79) + lambda[5] * (C_j[1] * t75 -
         C_j[2] * t78);
-    jac_phi_q_t_lambda_A_i[21] = t82;
     const jg_real t83 = A_j[1] * C_i[1] + C_i[0] * t73;
     const jg_real t84 = lambda[3] * t83 + lambda[4] * (A_j[1] * C_i[4] + C_i[3] * t73);
     const jg_real t85 = lambda[1] * A_j[1] + lambda[0] * t73;
-    jac_phi_q_t_lambda_A_i[18] = t85;
     const jg_real t86 = s_j[2] * t85 - s_j[0] * t80 + (C_j[8] * t84 - C_j[6] * t76) + lambda[5] * (C_j[2] * t83 -
         C_j[0] * t75);
-    jac_phi_q_t_lambda_A_i[22] = t86;
     const jg_real t87 = s_j[0] * t81 - s_j[1] * t85 + (C_j[6] * t79 - C_j[7] * t84) + lambda[5] * (C_j[0] * t78 -
         C_j[1] * t83);
+    jac_phi_q_t_lambda_A_i[7] = -(t71 + A_ji_5 * t68 + (t69 + A_ji_3 * t48 + (t70 + A_ji_4 * t62)));
+    jac_phi_q_t_lambda_A_i[8] = t72 - (A_ji_6 * t48 + A_ji_7 * t62 + A_ji_8 * t68);
+    jac_phi_q_t_lambda_A_i[20] = t80;
+    jac_phi_q_t_lambda_A_i[19] = t81;
+    jac_phi_q_t_lambda_A_i[21] = t82;
+    jac_phi_q_t_lambda_A_i[18] = t85;
+    jac_phi_q_t_lambda_A_i[22] = t86;
     jac_phi_q_t_lambda_A_i[23] = t87;
-    jac_phi_q_t_lambda_A_i[15] = -(t74 * v_5_in_j_2 + A_ji_2 * t87 + (t73 * v_5_in_j_0 + A_ji_0 * t82 + (t77 *
-        v_5_in_j_1 + A_ji_1 * t86)) + t13);
     const jg_real t88 = A_j[1] * v_5_in_j_0;
     const jg_real t89 = A_j[4] * v_5_in_j_1;
     const jg_real t90 = A_j[7] * v_5_in_j_2;
-    jac_phi_q_t_lambda_A_i[16] = -(t90 + A_ji_5 * t87 + (t88 + A_ji_3 * t82 + (t89 + A_ji_4 * t86)));
     const jg_real t91 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[17] = t91 - (A_ji_6 * t82 + A_ji_7 * t86 + A_ji_8 * t87);
     const jg_real t92 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t93 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
     const jg_real t94 = A_j[8] * C_i[1] + C_i[0] * t93;
@@ -1207,30 +1200,29 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t97 = A_j[5] * C_i[1] + C_i[0] * t96;
     const jg_real t98 = lambda[3] * t97 + lambda[4] * (A_j[5] * C_i[4] + C_i[3] * t96);
     const jg_real t99 = lambda[1] * A_j[8] + lambda[0] * t93;
-    jac_phi_q_t_lambda_A_i[29] = t99;
     const jg_real t100 = lambda[1] * A_j[5] + lambda[0] * t96;
-    jac_phi_q_t_lambda_A_i[28] = t100;
     const jg_real t101 = s_j[1] * t99 - s_j[2] * t100 + (C_j[7] * t95 - C_j[8] * t98) + lambda[5] * (C_j[1] * t94 -
         C_j[2] * t97);
-    jac_phi_q_t_lambda_A_i[30] = t101;
     const jg_real t102 = A_j[2] * C_i[1] + C_i[0] * t92;
     const jg_real t103 = lambda[3] * t102 + lambda[4] * (A_j[2] * C_i[4] + C_i[3] * t92);
     const jg_real t104 = lambda[1] * A_j[2] + lambda[0] * t92;
-    jac_phi_q_t_lambda_A_i[27] = t104;
     const jg_real t105 = s_j[2] * t104 - s_j[0] * t99 + (C_j[8] * t103 - C_j[6] * t95) + lambda[5] * (C_j[2] * t102
         - C_j[0] * t94);
+    jac_phi_q_t_lambda_A_i[15] = -(t74 * v_5_in_j_2 + A_ji_2 * t87 + (t73 * v_5_in_j_0 + A_ji_0 * t82 + (t77 *
+        v_5_in_j_1 + A_ji_1 * t86)) + t13);
+    jac_phi_q_t_lambda_A_i[16] = -(t90 + A_ji_5 * t87 + (t88 + A_ji_3 * t82 + (t89 + A_ji_4 * t86)));
+    jac_phi_q_t_lambda_A_i[17] = t91 - (A_ji_6 * t82 + A_ji_7 * t86 + A_ji_8 * t87);
+    jac_phi_q_t_lambda_A_i[29] = t99;
+    jac_phi_q_t_lambda_A_i[28] = t100;
+    jac_phi_q_t_lambda_A_i[30] = t101;
+    jac_phi_q_t_lambda_A_i[27] = t104;
     jac_phi_q_t_lambda_A_i[31] = t105;
     const jg_real t106 = s_j[0] * t100 - s_j[1] * t104 + (C_j[6] * t98 - C_j[7] * t103) + lambda[5] * (C_j[0] * t97
         - C_j[1] * t102);
-    jac_phi_q_t_lambda_A_i[32] = t106;
-    jac_phi_q_t_lambda_A_i[24] = -(t93 * v_5_in_j_2 + A_ji_2 * t106 + (t92 * v_5_in_j_0 + A_ji_0 * t101 + (t96 *
-        v_5_in_j_1 + A_ji_1 * t105)) + t16);
     const jg_real t107 = A_j[2] * v_5_in_j_0;
     const jg_real t108 = A_j[5] * v_5_in_j_1;
     const jg_real t109 = A_j[8] * v_5_in_j_2;
-    jac_phi_q_t_lambda_A_i[25] = -(t109 + A_ji_5 * t106 + (t107 + A_ji_3 * t101 + (t108 + A_ji_4 * t105)));
     const jg_real t110 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[26] = t110 - (A_ji_6 * t101 + A_ji_7 * t105 + A_ji_8 * t106);
     const jg_real t111 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
     const jg_real t112 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
     const jg_real t113 = A_j[6] * C_i[2] + C_i[0] * t112;
@@ -1239,26 +1231,25 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t116 = A_j[3] * C_i[2] + C_i[0] * t115;
     const jg_real t117 = lambda[3] * t116 + lambda[4] * (A_j[3] * C_i[5] + C_i[3] * t115);
     const jg_real t118 = lambda[2] * A_j[6] + lambda[0] * t112;
-    jac_phi_q_t_lambda_A_i[38] = t118;
     const jg_real t119 = lambda[2] * A_j[3] + lambda[0] * t115;
-    jac_phi_q_t_lambda_A_i[37] = t119;
     const jg_real t120 = s_j[1] * t118 - s_j[2] * t119 + (C_j[7] * t114 - C_j[8] * t117) + lambda[5] * (C_j[1] *
         t113 - C_j[2] * t116);
-    jac_phi_q_t_lambda_A_i[39] = t120;
     const jg_real t121 = A_j[0] * C_i[2] + C_i[0] * t111;
     const jg_real t122 = lambda[3] * t121 + lambda[4] * (A_j[0] * C_i[5] + C_i[3] * t111);
     const jg_real t123 = lambda[2] * A_j[0] + lambda[0] * t111;
+    jac_phi_q_t_lambda_A_i[32] = t106;
+    jac_phi_q_t_lambda_A_i[24] = -(t93 * v_5_in_j_2 + A_ji_2 * t106 + (t92 * v_5_in_j_0 + A_ji_0 * t101 + (t96 *
+        v_5_in_j_1 + A_ji_1 * t105)) + t16);
+    jac_phi_q_t_lambda_A_i[25] = -(t109 + A_ji_5 * t106 + (t107 + A_ji_3 * t101 + (t108 + A_ji_4 * t105)));
+    jac_phi_q_t_lambda_A_i[26] = t110 - (A_ji_6 * t101 + A_ji_7 * t105 + A_ji_8 * t106);
+    jac_phi_q_t_lambda_A_i[38] = t118;
+    jac_phi_q_t_lambda_A_i[37] = t119;
+    jac_phi_q_t_lambda_A_i[39] = t120;
     jac_phi_q_t_lambda_A_i[36] = t123;
     const jg_real t124 = s_j[2] * t123 - s_j[0] * t118 + (C_j[8] * t122 - C_j[6] * t114) + lambda[5] * (C_j[2] *
         t121 - C_j[0] * t113);
-    jac_phi_q_t_lambda_A_i[40] = t124;
     const jg_real t125 = s_j[0] * t119 - s_j[1] * t123 + (C_j[6] * t117 - C_j[7] * t122) + lambda[5] * (C_j[0] *
         t116 - C_j[1] * t121);
-    jac_phi_q_t_lambda_A_i[41] = t125;
-    jac_phi_q_t_lambda_A_i[33] = t11 - (t112 * v_5_in_j_2 + A_ji_2 * t125 + (t111 * v_5_in_j_0 + A_ji_0 * t120 +
-        (t115 * v_5_in_j_1 + A_ji_1 * t124)));
-    jac_phi_q_t_lambda_A_i[34] = -(A_ji_3 * t120 + A_ji_4 * t124 + A_ji_5 * t125 + t72);
-    jac_phi_q_t_lambda_A_i[35] = -(t71 + A_ji_8 * t125 + (t69 + A_ji_6 * t120 + (t70 + A_ji_7 * t124)));
     const jg_real t126 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
     const jg_real t127 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
     const jg_real t128 = A_j[7] * C_i[2] + C_i[0] * t127;
@@ -1267,26 +1258,25 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t131 = A_j[4] * C_i[2] + C_i[0] * t130;
     const jg_real t132 = lambda[3] * t131 + lambda[4] * (A_j[4] * C_i[5] + C_i[3] * t130);
     const jg_real t133 = lambda[2] * A_j[7] + lambda[0] * t127;
-    jac_phi_q_t_lambda_A_i[47] = t133;
     const jg_real t134 = lambda[2] * A_j[4] + lambda[0] * t130;
-    jac_phi_q_t_lambda_A_i[46] = t134;
     const jg_real t135 = s_j[1] * t133 - s_j[2] * t134 + (C_j[7] * t129 - C_j[8] * t132) + lambda[5] * (C_j[1] *
         t128 - C_j[2] * t131);
+    jac_phi_q_t_lambda_A_i[40] = t124;
+    jac_phi_q_t_lambda_A_i[41] = t125;
+    jac_phi_q_t_lambda_A_i[33] = t11 - (t112 * v_5_in_j_2 + A_ji_2 * t125 + (t111 * v_5_in_j_0 + A_ji_0 * t120 +
+        (t115 * v_5_in_j_1 + A_ji_1 * t124)));
+    jac_phi_q_t_lambda_A_i[34] = -(A_ji_3 * t120 + A_ji_4 * t124 + A_ji_5 * t125 + t72);
+    jac_phi_q_t_lambda_A_i[35] = -(t71 + A_ji_8 * t125 + (t69 + A_ji_6 * t120 + (t70 + A_ji_7 * t124)));
+    jac_phi_q_t_lambda_A_i[47] = t133;
+    jac_phi_q_t_lambda_A_i[46] = t134;
     jac_phi_q_t_lambda_A_i[48] = t135;
     const jg_real t136 = A_j[1] * C_i[2] + C_i[0] * t126;
     const jg_real t137 = lambda[3] * t136 + lambda[4] * (A_j[1] * C_i[5] + C_i[3] * t126);
     const jg_real t138 = lambda[2] * A_j[1] + lambda[0] * t126;
-    jac_phi_q_t_lambda_A_i[45] = t138;
     const jg_real t139 = s_j[2] * t138 - s_j[0] * t133 + (C_j[8] * t137 - C_j[6] * t129) + lambda[5] * (C_j[2] *
         t136 - C_j[0] * t128);
-    jac_phi_q_t_lambda_A_i[49] = t139;
     const jg_real t140 = s_j[0] * t134 - s_j[1] * t138 + (C_j[6] * t132 - C_j[7] * t137) + lambda[5] * (C_j[0] *
         t131 - C_j[1] * t136);
-    jac_phi_q_t_lambda_A_i[50] = t140;
-    jac_phi_q_t_lambda_A_i[42] = t14 - (t127 * v_5_in_j_2 + A_ji_2 * t140 + (t126 * v_5_in_j_0 + A_ji_0 * t135 +
-        (t130 * v_5_in_j_1 + A_ji_1 * t139)));
-    jac_phi_q_t_lambda_A_i[43] = -(A_ji_3 * t135 + A_ji_4 * t139 + A_ji_5 * t140 + t91);
-    jac_phi_q_t_lambda_A_i[44] = -(t90 + A_ji_8 * t140 + (t88 + A_ji_6 * t135 + (t89 + A_ji_7 * t139)));
     const jg_real t141 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
     const jg_real t142 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
     const jg_real t143 = A_j[8] * C_i[2] + C_i[0] * t142;
@@ -1295,21 +1285,28 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t146 = A_j[5] * C_i[2] + C_i[0] * t145;
     const jg_real t147 = lambda[3] * t146 + lambda[4] * (A_j[5] * C_i[5] + C_i[3] * t145);
     const jg_real t148 = lambda[2] * A_j[8] + lambda[0] * t142;
-    jac_phi_q_t_lambda_A_i[56] = t148;
     const jg_real t149 = lambda[2] * A_j[5] + lambda[0] * t145;
+    jac_phi_q_t_lambda_A_i[45] = t138;
+    jac_phi_q_t_lambda_A_i[49] = t139;
+    jac_phi_q_t_lambda_A_i[50] = t140;
+    jac_phi_q_t_lambda_A_i[42] = t14 - (t127 * v_5_in_j_2 + A_ji_2 * t140 + (t126 * v_5_in_j_0 + A_ji_0 * t135 +
+        (t130 * v_5_in_j_1 + A_ji_1 * t139)));
+    jac_phi_q_t_lambda_A_i[43] = -(A_ji_3 * t135 + A_ji_4 * t139 + A_ji_5 * t140 + t91);
+    jac_phi_q_t_lambda_A_i[44] = -(t90 + A_ji_8 * t140 + (t88 + A_ji_6 * t135 + (t89 + A_ji_7 * t139)));
+    jac_phi_q_t_lambda_A_i[56] = t148;
     jac_phi_q_t_lambda_A_i[55] = t149;
     const jg_real t150 = s_j[1] * t148 - s_j[2] * t149 + (C_j[7] * t144 - C_j[8] * t147) + lambda[5] * (C_j[1] *
         t143 - C_j[2] * t146);
-    jac_phi_q_t_lambda_A_i[57] = t150;
     const jg_real t151 = A_j[2] * C_i[2] + C_i[0] * t141;
     const jg_real t152 = lambda[3] * t151 + lambda[4] * (A_j[2] * C_i[5] + C_i[3] * t141);
     const jg_real t153 = lambda[2] * A_j[2] + lambda[0] * t141;
-    jac_phi_q_t_lambda_A_i[54] = t153;
     const jg_real t154 = s_j[2] * t153 - s_j[0] * t148 + (C_j[8] * t152 - C_j[6] * t144) + lambda[5] * (C_j[2] *
         t151 - C_j[0] * t143);
-    jac_phi_q_t_lambda_A_i[58] = t154;
     const jg_real t155 = s_j[0] * t149 - s_j[1] * t153 + (C_j[6] * t147 - C_j[7] * t152) + lambda[5] * (C_j[0] *
         t146 - C_j[1] * t151);
+    jac_phi_q_t_lambda_A_i[57] = t150;
+    jac_phi_q_t_lambda_A_i[54] = t153;
+    jac_phi_q_t_lambda_A_i[58] = t154;
     jac_phi_q_t_lambda_A_i[59] = t155;
     jac_phi_q_t_lambda_A_i[51] = t17 - (t142 * v_5_in_j_2 + A_ji_2 * t155 + (t141 * v_5_in_j_0 + A_ji_0 * t150 +
         (t145 * v_5_in_j_1 + A_ji_1 * t154)));
@@ -1332,24 +1329,17 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t161 = lambda[3] * t160 + lambda[4] * (A_i[3] * C_i[4] + A_i[6] * C_i[5]);
     const jg_real t162 = C_j[7] * t161;
     const jg_real t163 = lambda[0] * t157;
-    jac_phi_q_t_lambda_A_j[4] = t163;
     const jg_real t164 = lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t164;
-    jac_phi_q_t_lambda_A_j[31] = t164;
-    jac_phi_q_t_lambda_A_j[59] = t164;
     const jg_real t165 = s_j[1] * t164;
     const jg_real t166 = C_j[1] * t160;
     const jg_real t167 = s_j[0] * t163 - t165 + (C_j[6] * t159 - t162) + lambda[5] * (C_j[0] * t158 - t166);
-    jac_phi_q_t_lambda_A_j[8] = t167;
     const jg_real t168 = C_i[0] * t156;
     const jg_real t169 = lambda[3] * t168 + C_i[3] * t156 * lambda[4];
     const jg_real t170 = C_j[8] * t161;
     const jg_real t171 = lambda[0] * t156;
-    jac_phi_q_t_lambda_A_j[5] = t171;
     const jg_real t172 = s_j[2] * t164;
     const jg_real t173 = C_j[2] * t160;
     const jg_real t174 = t172 - s_j[0] * t171 + (t170 - C_j[6] * t169) + lambda[5] * (t173 - C_j[0] * t168);
-    jac_phi_q_t_lambda_A_j[7] = t174;
     const jg_real t175 = C_j[7] * t169;
     const jg_real t176 = C_j[8] * t159;
     const jg_real t177 = s_j[1] * t171;
@@ -1357,11 +1347,14 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t179 = C_j[1] * t168;
     const jg_real t180 = C_j[2] * t158;
     const jg_real t181 = t177 - t178 + (t175 - t176) + lambda[5] * (t179 - t180);
+    jac_phi_q_t_lambda_A_j[4] = t163;
+    jac_phi_q_t_lambda_A_j[3] = t164;
+    jac_phi_q_t_lambda_A_j[31] = t164;
+    jac_phi_q_t_lambda_A_j[59] = t164;
+    jac_phi_q_t_lambda_A_j[8] = t167;
+    jac_phi_q_t_lambda_A_j[5] = t171;
+    jac_phi_q_t_lambda_A_j[7] = t174;
     jac_phi_q_t_lambda_A_j[6] = t181;
-    jac_phi_q_t_lambda_A_j[0] = -(t156 * v_5_in_j_2 + A_ji_2 * t167 + (t157 * v_5_in_j_1 + A_ji_1 * t174 + A_ji_0 *
-        t181));
-    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_5_in_j_0 + A_ji_3 * t181 + A_ji_4 * t174 + A_ji_5 * t167);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ji_6 * t181 + A_ji_7 * t174 + A_ji_8 * t167);
     const jg_real t182 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
     const jg_real t183 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
     const jg_real t184 = C_i[0] * t183;
@@ -1370,24 +1363,26 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t187 = lambda[3] * t186 + lambda[4] * (A_i[4] * C_i[4] + A_i[7] * C_i[5]);
     const jg_real t188 = C_j[7] * t187;
     const jg_real t189 = lambda[0] * t183;
-    jac_phi_q_t_lambda_A_j[13] = t189;
     const jg_real t190 = lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[12] = t190;
-    jac_phi_q_t_lambda_A_j[40] = t190;
-    jac_phi_q_t_lambda_A_j[68] = t190;
     const jg_real t191 = s_j[1] * t190;
     const jg_real t192 = C_j[1] * t186;
     const jg_real t193 = s_j[0] * t189 - t191 + (C_j[6] * t185 - t188) + lambda[5] * (C_j[0] * t184 - t192);
+    jac_phi_q_t_lambda_A_j[0] = -(t156 * v_5_in_j_2 + A_ji_2 * t167 + (t157 * v_5_in_j_1 + A_ji_1 * t174 + A_ji_0 *
+        t181));
+    jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_5_in_j_0 + A_ji_3 * t181 + A_ji_4 * t174 + A_ji_5 * t167);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ji_6 * t181 + A_ji_7 * t174 + A_ji_8 * t167);
+    jac_phi_q_t_lambda_A_j[13] = t189;
+    jac_phi_q_t_lambda_A_j[12] = t190;
+    jac_phi_q_t_lambda_A_j[40] = t190;
+    jac_phi_q_t_lambda_A_j[68] = t190;
     jac_phi_q_t_lambda_A_j[17] = t193;
     const jg_real t194 = C_i[0] * t182;
     const jg_real t195 = lambda[3] * t194 + C_i[3] * t182 * lambda[4];
     const jg_real t196 = C_j[8] * t187;
     const jg_real t197 = lambda[0] * t182;
-    jac_phi_q_t_lambda_A_j[14] = t197;
     const jg_real t198 = s_j[2] * t190;
     const jg_real t199 = C_j[2] * t186;
     const jg_real t200 = t198 - s_j[0] * t197 + (t196 - C_j[6] * t195) + lambda[5] * (t199 - C_j[0] * t194);
-    jac_phi_q_t_lambda_A_j[16] = t200;
     const jg_real t201 = C_j[7] * t195;
     const jg_real t202 = C_j[8] * t185;
     const jg_real t203 = s_j[1] * t197;
@@ -1395,11 +1390,6 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t205 = C_j[1] * t194;
     const jg_real t206 = C_j[2] * t184;
     const jg_real t207 = t203 - t204 + (t201 - t202) + lambda[5] * (t205 - t206);
-    jac_phi_q_t_lambda_A_j[15] = t207;
-    jac_phi_q_t_lambda_A_j[9] = -(t182 * v_5_in_j_2 + A_ji_2 * t193 + (t183 * v_5_in_j_1 + A_ji_1 * t200 + A_ji_0 *
-        t207));
-    jac_phi_q_t_lambda_A_j[10] = -(A_i[4] * v_5_in_j_0 + A_ji_3 * t207 + A_ji_4 * t200 + A_ji_5 * t193);
-    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_5_in_j_0 + A_ji_6 * t207 + A_ji_7 * t200 + A_ji_8 * t193);
     const jg_real t208 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
     const jg_real t209 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
     const jg_real t210 = C_i[0] * t209;
@@ -1408,24 +1398,28 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t213 = lambda[3] * t212 + lambda[4] * (A_i[5] * C_i[4] + A_i[8] * C_i[5]);
     const jg_real t214 = C_j[7] * t213;
     const jg_real t215 = lambda[0] * t209;
-    jac_phi_q_t_lambda_A_j[22] = t215;
     const jg_real t216 = lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[14] = t197;
+    jac_phi_q_t_lambda_A_j[16] = t200;
+    jac_phi_q_t_lambda_A_j[15] = t207;
+    jac_phi_q_t_lambda_A_j[9] = -(t182 * v_5_in_j_2 + A_ji_2 * t193 + (t183 * v_5_in_j_1 + A_ji_1 * t200 + A_ji_0 *
+        t207));
+    jac_phi_q_t_lambda_A_j[10] = -(A_i[4] * v_5_in_j_0 + A_ji_3 * t207 + A_ji_4 * t200 + A_ji_5 * t193);
+    jac_phi_q_t_lambda_A_j[11] = -(A_i[7] * v_5_in_j_0 + A_ji_6 * t207 + A_ji_7 * t200 + A_ji_8 * t193);
+    jac_phi_q_t_lambda_A_j[22] = t215;
     jac_phi_q_t_lambda_A_j[21] = t216;
     jac_phi_q_t_lambda_A_j[49] = t216;
     jac_phi_q_t_lambda_A_j[77] = t216;
     const jg_real t217 = s_j[1] * t216;
     const jg_real t218 = C_j[1] * t212;
     const jg_real t219 = s_j[0] * t215 - t217 + (C_j[6] * t211 - t214) + lambda[5] * (C_j[0] * t210 - t218);
-    jac_phi_q_t_lambda_A_j[26] = t219;
     const jg_real t220 = C_i[0] * t208;
     const jg_real t221 = lambda[3] * t220 + C_i[3] * t208 * lambda[4];
     const jg_real t222 = C_j[8] * t213;
     const jg_real t223 = lambda[0] * t208;
-    jac_phi_q_t_lambda_A_j[23] = t223;
     const jg_real t224 = s_j[2] * t216;
     const jg_real t225 = C_j[2] * t212;
     const jg_real t226 = t224 - s_j[0] * t223 + (t222 - C_j[6] * t221) + lambda[5] * (t225 - C_j[0] * t220);
-    jac_phi_q_t_lambda_A_j[25] = t226;
     const jg_real t227 = C_j[7] * t221;
     const jg_real t228 = C_j[8] * t211;
     const jg_real t229 = s_j[1] * t223;
@@ -1433,81 +1427,85 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t231 = C_j[1] * t220;
     const jg_real t232 = C_j[2] * t210;
     const jg_real t233 = t229 - t230 + (t227 - t228) + lambda[5] * (t231 - t232);
-    jac_phi_q_t_lambda_A_j[24] = t233;
-    jac_phi_q_t_lambda_A_j[18] = -(t208 * v_5_in_j_2 + A_ji_2 * t219 + (t209 * v_5_in_j_1 + A_ji_1 * t226 + A_ji_0 *
-        t233));
-    jac_phi_q_t_lambda_A_j[19] = -(A_i[5] * v_5_in_j_0 + A_ji_3 * t233 + A_ji_4 * t226 + A_ji_5 * t219);
-    jac_phi_q_t_lambda_A_j[20] = -(A_i[8] * v_5_in_j_0 + A_ji_6 * t233 + A_ji_7 * t226 + A_ji_8 * t219);
     const jg_real t234 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
     const jg_real t235 = C_j[6] * t161;
     const jg_real t236 = s_j[0] * t164;
     const jg_real t237 = C_j[0] * t160;
     const jg_real t238 = t236 + s_j[1] * t163 + (t235 + C_j[7] * t159) + lambda[5] * (t237 + C_j[1] * t158);
+    jac_phi_q_t_lambda_A_j[26] = t219;
+    jac_phi_q_t_lambda_A_j[23] = t223;
+    jac_phi_q_t_lambda_A_j[25] = t226;
+    jac_phi_q_t_lambda_A_j[24] = t233;
+    jac_phi_q_t_lambda_A_j[18] = -(t208 * v_5_in_j_2 + A_ji_2 * t219 + (t209 * v_5_in_j_1 + A_ji_1 * t226 + A_ji_0 *
+        t233));
+    jac_phi_q_t_lambda_A_j[19] = -(A_i[5] * v_5_in_j_0 + A_ji_3 * t233 + A_ji_4 * t226 + A_ji_5 * t219);
+    jac_phi_q_t_lambda_A_j[20] = -(A_i[8] * v_5_in_j_0 + A_ji_6 * t233 + A_ji_7 * t226 + A_ji_8 * t219);
     jac_phi_q_t_lambda_A_j[35] = t238;
     const jg_real t239 = C_i[0] * t234;
     const jg_real t240 = lambda[3] * t239 + C_i[3] * t234 * lambda[4];
     const jg_real t241 = lambda[0] * t234;
-    jac_phi_q_t_lambda_A_j[32] = t241;
     const jg_real t242 = s_j[1] * t241 - t172 + (C_j[7] * t240 - t170) + lambda[5] * (C_j[1] * t239 - t173);
-    jac_phi_q_t_lambda_A_j[33] = t242;
     const jg_real t243 = C_j[6] * t240;
     const jg_real t244 = s_j[0] * t241;
     const jg_real t245 = C_j[0] * t239;
     const jg_real t246 = t244 + t178 + (t243 + t176) + lambda[5] * (t245 + t180);
+    const jg_real t247 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
+    const jg_real t248 = C_j[6] * t187;
+    const jg_real t249 = s_j[0] * t190;
+    const jg_real t250 = C_j[0] * t186;
+    const jg_real t251 = t249 + s_j[1] * t189 + (t248 + C_j[7] * t185) + lambda[5] * (t250 + C_j[1] * t184);
+    jac_phi_q_t_lambda_A_j[32] = t241;
+    jac_phi_q_t_lambda_A_j[33] = t242;
     jac_phi_q_t_lambda_A_j[27] = -(t234 * v_5_in_j_2 + A_ji_2 * t238 + (A_ji_0 * t242 - t157 * v_5_in_j_0 - A_ji_1 *
         t246));
     jac_phi_q_t_lambda_A_j[28] = -(A_i[3] * v_5_in_j_1 - A_ji_4 * t246 + A_ji_3 * t242 + A_ji_5 * t238);
     jac_phi_q_t_lambda_A_j[29] = -(A_i[6] * v_5_in_j_1 - A_ji_7 * t246 + A_ji_6 * t242 + A_ji_8 * t238);
     jac_phi_q_t_lambda_A_j[30] = -t163;
     jac_phi_q_t_lambda_A_j[34] = -t246;
-    const jg_real t247 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
-    const jg_real t248 = C_j[6] * t187;
-    const jg_real t249 = s_j[0] * t190;
-    const jg_real t250 = C_j[0] * t186;
-    const jg_real t251 = t249 + s_j[1] * t189 + (t248 + C_j[7] * t185) + lambda[5] * (t250 + C_j[1] * t184);
     jac_phi_q_t_lambda_A_j[44] = t251;
     const jg_real t252 = C_i[0] * t247;
     const jg_real t253 = lambda[3] * t252 + C_i[3] * t247 * lambda[4];
     const jg_real t254 = lambda[0] * t247;
-    jac_phi_q_t_lambda_A_j[41] = t254;
     const jg_real t255 = s_j[1] * t254 - t198 + (C_j[7] * t253 - t196) + lambda[5] * (C_j[1] * t252 - t199);
-    jac_phi_q_t_lambda_A_j[42] = t255;
     const jg_real t256 = C_j[6] * t253;
     const jg_real t257 = s_j[0] * t254;
     const jg_real t258 = C_j[0] * t252;
     const jg_real t259 = t257 + t204 + (t256 + t202) + lambda[5] * (t258 + t206);
+    const jg_real t260 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
+    const jg_real t261 = C_j[6] * t213;
+    const jg_real t262 = s_j[0] * t216;
+    const jg_real t263 = C_j[0] * t212;
+    const jg_real t264 = t262 + s_j[1] * t215 + (t261 + C_j[7] * t211) + lambda[5] * (t263 + C_j[1] * t210);
+    jac_phi_q_t_lambda_A_j[41] = t254;
+    jac_phi_q_t_lambda_A_j[42] = t255;
     jac_phi_q_t_lambda_A_j[36] = -(t247 * v_5_in_j_2 + A_ji_2 * t251 + (A_ji_0 * t255 - t183 * v_5_in_j_0 - A_ji_1 *
         t259));
     jac_phi_q_t_lambda_A_j[37] = -(A_i[4] * v_5_in_j_1 - A_ji_4 * t259 + A_ji_3 * t255 + A_ji_5 * t251);
     jac_phi_q_t_lambda_A_j[38] = -(A_i[7] * v_5_in_j_1 - A_ji_7 * t259 + A_ji_6 * t255 + A_ji_8 * t251);
     jac_phi_q_t_lambda_A_j[39] = -t189;
     jac_phi_q_t_lambda_A_j[43] = -t259;
-    const jg_real t260 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
-    const jg_real t261 = C_j[6] * t213;
-    const jg_real t262 = s_j[0] * t216;
-    const jg_real t263 = C_j[0] * t212;
-    const jg_real t264 = t262 + s_j[1] * t215 + (t261 + C_j[7] * t211) + lambda[5] * (t263 + C_j[1] * t210);
     jac_phi_q_t_lambda_A_j[53] = t264;
     const jg_real t265 = C_i[0] * t260;
     const jg_real t266 = lambda[3] * t265 + C_i[3] * t260 * lambda[4];
     const jg_real t267 = lambda[0] * t260;
-    jac_phi_q_t_lambda_A_j[50] = t267;
     const jg_real t268 = s_j[1] * t267 - t224 + (C_j[7] * t266 - t222) + lambda[5] * (C_j[1] * t265 - t225);
-    jac_phi_q_t_lambda_A_j[51] = t268;
     const jg_real t269 = C_j[6] * t266;
     const jg_real t270 = s_j[0] * t267;
     const jg_real t271 = C_j[0] * t265;
     const jg_real t272 = t270 + t230 + (t269 + t228) + lambda[5] * (t271 + t232);
+    const jg_real t273 = t165 + s_j[2] * t241 + (t162 + C_j[8] * t240) + lambda[5] * (t166 + C_j[2] * t239);
+    jac_phi_q_t_lambda_A_j[50] = t267;
+    jac_phi_q_t_lambda_A_j[51] = t268;
     jac_phi_q_t_lambda_A_j[45] = -(t260 * v_5_in_j_2 + A_ji_2 * t264 + (A_ji_0 * t268 - t209 * v_5_in_j_0 - A_ji_1 *
         t272));
     jac_phi_q_t_lambda_A_j[46] = -(A_i[5] * v_5_in_j_1 - A_ji_4 * t272 + A_ji_3 * t268 + A_ji_5 * t264);
     jac_phi_q_t_lambda_A_j[47] = -(A_i[8] * v_5_in_j_1 - A_ji_7 * t272 + A_ji_6 * t268 + A_ji_8 * t264);
     jac_phi_q_t_lambda_A_j[48] = -t215;
     jac_phi_q_t_lambda_A_j[52] = -t272;
-    const jg_real t273 = t165 + s_j[2] * t241 + (t162 + C_j[8] * t240) + lambda[5] * (t166 + C_j[2] * t239);
     jac_phi_q_t_lambda_A_j[60] = t273;
     const jg_real t274 = t236 + s_j[2] * t171 + (t235 + C_j[8] * t169) + lambda[5] * (t237 + C_j[2] * t168);
     const jg_real t275 = t177 - t244 + (t175 - t243) + lambda[5] * (t179 - t245);
+    const jg_real t276 = t191 + s_j[2] * t254 + (t188 + C_j[8] * t253) + lambda[5] * (t192 + C_j[2] * t252);
     jac_phi_q_t_lambda_A_j[62] = t275;
     jac_phi_q_t_lambda_A_j[54] = -(A_ji_0 * t273 - t156 * v_5_in_j_0 - (t234 * v_5_in_j_1 + A_ji_1 * t274) + A_ji_2
         * t275);
@@ -1516,10 +1514,10 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_A_j[57] = -t171;
     jac_phi_q_t_lambda_A_j[58] = -t241;
     jac_phi_q_t_lambda_A_j[61] = -t274;
-    const jg_real t276 = t191 + s_j[2] * t254 + (t188 + C_j[8] * t253) + lambda[5] * (t192 + C_j[2] * t252);
     jac_phi_q_t_lambda_A_j[69] = t276;
     const jg_real t277 = t249 + s_j[2] * t197 + (t248 + C_j[8] * t195) + lambda[5] * (t250 + C_j[2] * t194);
     const jg_real t278 = t203 - t257 + (t201 - t256) + lambda[5] * (t205 - t258);
+    const jg_real t279 = t217 + s_j[2] * t267 + (t214 + C_j[8] * t266) + lambda[5] * (t218 + C_j[2] * t265);
     jac_phi_q_t_lambda_A_j[71] = t278;
     jac_phi_q_t_lambda_A_j[63] = -(A_ji_0 * t276 - t182 * v_5_in_j_0 - (t247 * v_5_in_j_1 + A_ji_1 * t277) + A_ji_2
         * t278);
@@ -1528,10 +1526,12 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_A_j[66] = -t197;
     jac_phi_q_t_lambda_A_j[67] = -t254;
     jac_phi_q_t_lambda_A_j[70] = -t277;
-    const jg_real t279 = t217 + s_j[2] * t267 + (t214 + C_j[8] * t266) + lambda[5] * (t218 + C_j[2] * t265);
     jac_phi_q_t_lambda_A_j[78] = t279;
     const jg_real t280 = t262 + s_j[2] * t223 + (t261 + C_j[8] * t221) + lambda[5] * (t263 + C_j[2] * t220);
     const jg_real t281 = t229 - t270 + (t227 - t269) + lambda[5] * (t231 - t271);
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jac_phi_q_t_lambda_A_j[80] = t281;
     jac_phi_q_t_lambda_A_j[72] = -(A_ji_0 * t279 - t208 * v_5_in_j_0 - (t260 * v_5_in_j_1 + A_ji_1 * t280) + A_ji_2
         * t281);
@@ -1540,54 +1540,51 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_A_j[75] = -t223;
     jac_phi_q_t_lambda_A_j[76] = -t267;
     jac_phi_q_t_lambda_A_j[79] = -t280;
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jac_phi_q_t_lambda_alpha[0] = lambda[5] * cosine_0;
     const jg_real t284 = lambda[3] * A_ji_2;
     const jg_real t285 = lambda[3] * A_ji_1;
     const jg_real t286 = C_j[7] * t284 - C_j[8] * t285 + lambda[5] * (C_j[1] * A_ji_2 - C_j[2] * A_ji_1);
-    jac_phi_q_t_lambda_geometry[3] = t286;
     const jg_real t287 = lambda[3] * A_ji_0;
     const jg_real t288 = C_j[8] * t287 - C_j[6] * t284 + lambda[5] * (C_j[2] * A_ji_0 - C_j[0] * A_ji_2);
-    jac_phi_q_t_lambda_geometry[4] = t288;
     const jg_real t289 = C_j[6] * t285 - C_j[7] * t287 + lambda[5] * (C_j[0] * A_ji_1 - C_j[1] * A_ji_0);
+    const jg_real t290 = lambda[3] * A_ji_5;
+    const jg_real t291 = lambda[3] * A_ji_4;
+    const jg_real t292 = C_j[7] * t290 - C_j[8] * t291 + lambda[5] * (C_j[1] * A_ji_5 - C_j[2] * A_ji_4);
+    const jg_real t293 = lambda[3] * A_ji_3;
+    const jg_real t294 = C_j[8] * t293 - C_j[6] * t290 + lambda[5] * (C_j[2] * A_ji_3 - C_j[0] * A_ji_5);
+    jac_phi_q_t_lambda_geometry[3] = t286;
+    jac_phi_q_t_lambda_geometry[4] = t288;
     jac_phi_q_t_lambda_geometry[5] = t289;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t286 + A_ji_1 * t288 + A_ji_2 * t289);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t286 + A_ji_4 * t288 + A_ji_5 * t289);
     jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t286 + A_ji_7 * t288 + A_ji_8 * t289);
-    const jg_real t290 = lambda[3] * A_ji_5;
-    const jg_real t291 = lambda[3] * A_ji_4;
-    const jg_real t292 = C_j[7] * t290 - C_j[8] * t291 + lambda[5] * (C_j[1] * A_ji_5 - C_j[2] * A_ji_4);
     jac_phi_q_t_lambda_geometry[9] = t292;
-    const jg_real t293 = lambda[3] * A_ji_3;
-    const jg_real t294 = C_j[8] * t293 - C_j[6] * t290 + lambda[5] * (C_j[2] * A_ji_3 - C_j[0] * A_ji_5);
     jac_phi_q_t_lambda_geometry[10] = t294;
     const jg_real t295 = C_j[6] * t291 - C_j[7] * t293 + lambda[5] * (C_j[0] * A_ji_4 - C_j[1] * A_ji_3);
+    const jg_real t296 = lambda[3] * A_ji_8;
+    const jg_real t297 = lambda[3] * A_ji_7;
+    const jg_real t298 = C_j[7] * t296 - C_j[8] * t297 + lambda[5] * (C_j[1] * A_ji_8 - C_j[2] * A_ji_7);
+    const jg_real t299 = lambda[3] * A_ji_6;
+    const jg_real t300 = C_j[8] * t299 - C_j[6] * t296 + lambda[5] * (C_j[2] * A_ji_6 - C_j[0] * A_ji_8);
+    const jg_real t301 = C_j[6] * t297 - C_j[7] * t299 + lambda[5] * (C_j[0] * A_ji_7 - C_j[1] * A_ji_6);
     jac_phi_q_t_lambda_geometry[11] = t295;
     jac_phi_q_t_lambda_geometry[6] = -(A_ji_0 * t292 + A_ji_1 * t294 + A_ji_2 * t295);
     jac_phi_q_t_lambda_geometry[7] = -(A_ji_3 * t292 + A_ji_4 * t294 + A_ji_5 * t295);
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_6 * t292 + A_ji_7 * t294 + A_ji_8 * t295);
-    const jg_real t296 = lambda[3] * A_ji_8;
-    const jg_real t297 = lambda[3] * A_ji_7;
-    const jg_real t298 = C_j[7] * t296 - C_j[8] * t297 + lambda[5] * (C_j[1] * A_ji_8 - C_j[2] * A_ji_7);
     jac_phi_q_t_lambda_geometry[15] = t298;
-    const jg_real t299 = lambda[3] * A_ji_6;
-    const jg_real t300 = C_j[8] * t299 - C_j[6] * t296 + lambda[5] * (C_j[2] * A_ji_6 - C_j[0] * A_ji_8);
     jac_phi_q_t_lambda_geometry[16] = t300;
-    const jg_real t301 = C_j[6] * t297 - C_j[7] * t299 + lambda[5] * (C_j[0] * A_ji_7 - C_j[1] * A_ji_6);
     jac_phi_q_t_lambda_geometry[17] = t301;
     jac_phi_q_t_lambda_geometry[12] = -(A_ji_0 * t298 + A_ji_1 * t300 + A_ji_2 * t301);
-    jac_phi_q_t_lambda_geometry[13] = -(A_ji_3 * t298 + A_ji_4 * t300 + A_ji_5 * t301);
-    jac_phi_q_t_lambda_geometry[14] = -(A_ji_6 * t298 + A_ji_7 * t300 + A_ji_8 * t301);
     const jg_real t302 = lambda[4] * A_ji_2;
     const jg_real t303 = lambda[4] * A_ji_1;
     const jg_real t304 = C_j[7] * t302 - C_j[8] * t303;
-    jac_phi_q_t_lambda_geometry[21] = t304;
     const jg_real t305 = lambda[4] * A_ji_0;
     const jg_real t306 = C_j[8] * t305 - C_j[6] * t302;
-    jac_phi_q_t_lambda_geometry[22] = t306;
     const jg_real t307 = C_j[6] * t303 - C_j[7] * t305;
+    jac_phi_q_t_lambda_geometry[13] = -(A_ji_3 * t298 + A_ji_4 * t300 + A_ji_5 * t301);
+    jac_phi_q_t_lambda_geometry[14] = -(A_ji_6 * t298 + A_ji_7 * t300 + A_ji_8 * t301);
+    jac_phi_q_t_lambda_geometry[21] = t304;
+    jac_phi_q_t_lambda_geometry[22] = t306;
     jac_phi_q_t_lambda_geometry[23] = t307;
     jac_phi_q_t_lambda_geometry[18] = -(A_ji_0 * t304 + A_ji_1 * t306 + A_ji_2 * t307);
     jac_phi_q_t_lambda_geometry[19] = -(A_ji_3 * t304 + A_ji_4 * t306 + A_ji_5 * t307);
@@ -1595,21 +1592,21 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     const jg_real t308 = lambda[4] * A_ji_5;
     const jg_real t309 = lambda[4] * A_ji_4;
     const jg_real t310 = C_j[7] * t308 - C_j[8] * t309;
-    jac_phi_q_t_lambda_geometry[27] = t310;
     const jg_real t311 = lambda[4] * A_ji_3;
     const jg_real t312 = C_j[8] * t311 - C_j[6] * t308;
-    jac_phi_q_t_lambda_geometry[28] = t312;
     const jg_real t313 = C_j[6] * t309 - C_j[7] * t311;
+    const jg_real t314 = lambda[4] * A_ji_8;
+    const jg_real t315 = lambda[4] * A_ji_7;
+    const jg_real t316 = C_j[7] * t314 - C_j[8] * t315;
+    const jg_real t317 = lambda[4] * A_ji_6;
+    const jg_real t318 = C_j[8] * t317 - C_j[6] * t314;
+    jac_phi_q_t_lambda_geometry[27] = t310;
+    jac_phi_q_t_lambda_geometry[28] = t312;
     jac_phi_q_t_lambda_geometry[29] = t313;
     jac_phi_q_t_lambda_geometry[24] = -(A_ji_0 * t310 + A_ji_1 * t312 + A_ji_2 * t313);
     jac_phi_q_t_lambda_geometry[25] = -(A_ji_3 * t310 + A_ji_4 * t312 + A_ji_5 * t313);
     jac_phi_q_t_lambda_geometry[26] = -(A_ji_6 * t310 + A_ji_7 * t312 + A_ji_8 * t313);
-    const jg_real t314 = lambda[4] * A_ji_8;
-    const jg_real t315 = lambda[4] * A_ji_7;
-    const jg_real t316 = C_j[7] * t314 - C_j[8] * t315;
     jac_phi_q_t_lambda_geometry[33] = t316;
-    const jg_real t317 = lambda[4] * A_ji_6;
-    const jg_real t318 = C_j[8] * t317 - C_j[6] * t314;
     jac_phi_q_t_lambda_geometry[34] = t318;
     const jg_real t319 = C_j[6] * t315 - C_j[7] * t317;
     jac_phi_q_t_lambda_geometry[35] = t319;
@@ -1628,18 +1625,18 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_geometry[46] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[48] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[49] = A_ji_0 * lambda_0_1_2_in_j_1 - A_ji_1 * lambda_0_1_2_in_j_0;
+    const jg_real t320 = lambda[5] * f_i_in_j_2;
+    const jg_real t321 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[50] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[51] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[52] = -lambda_0_1_2_in_j_1;
-    const jg_real t320 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[62] = t320;
-    const jg_real t321 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[58] = t321;
     jac_phi_q_t_lambda_geometry[54] = A_ji_1 * t320 - A_ji_2 * t321;
     jac_phi_q_t_lambda_geometry[55] = A_ji_4 * t320 - A_ji_5 * t321;
     jac_phi_q_t_lambda_geometry[56] = A_ji_7 * t320 - A_ji_8 * t321;
-    jac_phi_q_t_lambda_geometry[57] = -t320;
     const jg_real t322 = lambda[5] * f_i_in_j_0;
+    jac_phi_q_t_lambda_geometry[57] = -t320;
     jac_phi_q_t_lambda_geometry[68] = t322;
     jac_phi_q_t_lambda_geometry[59] = A_ji_2 * t322 - A_ji_0 * t320;
     jac_phi_q_t_lambda_geometry[60] = A_ji_5 * t322 - A_ji_3 * t320;
@@ -1655,66 +1652,66 @@ static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG
     jac_phi_q_t_lambda_geometry[72] = -v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[74] = A_ji_2 * v_2_in_j_0 - A_ji_0 * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[75] = A_ji_5 * v_2_in_j_0 - A_ji_3 * v_2_in_j_2;
+    /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
+    const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     jac_phi_q_t_lambda_geometry[76] = A_ji_8 * v_2_in_j_0 - A_ji_6 * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[78] = -v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[79] = A_ji_0 * v_2_in_j_1 - A_ji_1 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[80] = A_ji_3 * v_2_in_j_1 - A_ji_4 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[81] = A_ji_6 * v_2_in_j_1 - A_ji_7 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[82] = -v_2_in_j_1;
-    /* lambda_0_1_2_dot_h_i = lambda_0_1_2 . h_i */
-    const jg_real lambda_0_1_2_dot_h_i = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     jac_phi_q_t_lambda_geometry[84] = -lambda_0_1_2_dot_h_i;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
     const jg_real t324 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    jac_phi_q_t_lambda_lambda[7] = t324;
     const jg_real t325 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_t_lambda_lambda[8] = t325;
     const jg_real t326 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_t_lambda_lambda[9] = t326;
-    jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t324 + A_ji_1 * t325 + A_ji_2 * t326);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t324 + A_ji_4 * t325 + A_ji_5 * t326 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real t329 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_t_lambda_lambda[7] = t324;
+    jac_phi_q_t_lambda_lambda[8] = t325;
+    jac_phi_q_t_lambda_lambda[9] = t326;
+    jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t324 + A_ji_1 * t325 + A_ji_2 * t326);
+    jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t324 + A_ji_4 * t325 + A_ji_5 * t326 + v_0_in_i_2);
     jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ji_6 * t324 + A_ji_7 * t325 + A_ji_8 * t326);
     jac_phi_q_t_lambda_lambda[10] = -(C_i[6] * pitch);
-    const jg_real t329 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_t_lambda_lambda[18] = t329;
     const jg_real t330 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_t_lambda_lambda[19] = t330;
     const jg_real t331 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
+    const jg_real t333 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    const jg_real t334 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_t_lambda_lambda[19] = t330;
     jac_phi_q_t_lambda_lambda[20] = t331;
     jac_phi_q_t_lambda_lambda[12] = v_0_in_i_2 - (A_ji_0 * t329 + A_ji_1 * t330 + A_ji_2 * t331);
     jac_phi_q_t_lambda_lambda[13] = -(A_ji_3 * t329 + A_ji_4 * t330 + A_ji_5 * t331);
-    const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
     jac_phi_q_t_lambda_lambda[14] = -(A_ji_6 * t329 + A_ji_7 * t330 + A_ji_8 * t331 + v_0_in_i_0);
     jac_phi_q_t_lambda_lambda[21] = -(C_i[7] * pitch);
-    const jg_real t333 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_t_lambda_lambda[29] = t333;
-    const jg_real t334 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_t_lambda_lambda[30] = t334;
     const jg_real t335 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    const jg_real t336 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    const jg_real t337 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
+    const jg_real t338 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
     jac_phi_q_t_lambda_lambda[31] = t335;
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_0 * t333 + A_ji_1 * t334 + A_ji_2 * t335 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[24] = v_0_in_i_0 - (A_ji_3 * t333 + A_ji_4 * t334 + A_ji_5 * t335);
     jac_phi_q_t_lambda_lambda[25] = -(A_ji_6 * t333 + A_ji_7 * t334 + A_ji_8 * t335);
     jac_phi_q_t_lambda_lambda[32] = -(C_i[8] * pitch);
-    const jg_real t336 = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
     jac_phi_q_t_lambda_lambda[36] = t336;
-    const jg_real t337 = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
     jac_phi_q_t_lambda_lambda[37] = t337;
-    const jg_real t338 = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
     jac_phi_q_t_lambda_lambda[38] = t338;
+    const jg_real t339 = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    const jg_real t340 = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    const jg_real t341 = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
     jac_phi_q_t_lambda_lambda[33] = -(A_ji_0 * t336 + A_ji_1 * t337 + A_ji_2 * t338);
     jac_phi_q_t_lambda_lambda[34] = -(A_ji_3 * t336 + A_ji_4 * t337 + A_ji_5 * t338);
     jac_phi_q_t_lambda_lambda[35] = -(A_ji_6 * t336 + A_ji_7 * t337 + A_ji_8 * t338);
-    const jg_real t339 = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
     jac_phi_q_t_lambda_lambda[42] = t339;
-    const jg_real t340 = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
     jac_phi_q_t_lambda_lambda[43] = t340;
-    const jg_real t341 = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
     jac_phi_q_t_lambda_lambda[44] = t341;
     jac_phi_q_t_lambda_lambda[39] = -(A_ji_0 * t339 + A_ji_1 * t340 + A_ji_2 * t341);
     jac_phi_q_t_lambda_lambda[40] = -(A_ji_3 * t339 + A_ji_4 * t340 + A_ji_5 * t341);

@@ -46,213 +46,213 @@ static void jg_translational_parametric_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
     const jg_real g_j_world_2 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_2 = A_i[6] * g_j_world_0 + A_i[7] * g_j_world_1 + A_i[8] * g_j_world_2;
-    jac_phi_geometry[5] = g_j_in_i_2;
     /* f_j_world = f_j, world axes */
     const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[14] = f_j_in_i_2;
     const jg_real t11 = f_j_world_0 * g_j_in_i_2 - g_j_world_0 * f_j_in_i_2;
     const jg_real f_j_in_i_1 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_geometry[5] = g_j_in_i_2;
+    jac_phi_geometry[14] = f_j_in_i_2;
     jac_phi_geometry[12] = f_j_in_i_1;
     const jg_real g_j_in_i_1 = A_i[3] * g_j_world_0 + A_i[4] * g_j_world_1 + A_i[5] * g_j_world_2;
-    jac_phi_geometry[4] = g_j_in_i_1;
     const jg_real t14 = g_j_world_0 * f_j_in_i_1 - f_j_world_0 * g_j_in_i_1;
-    jac_phi_A_i[1] = -(C_i[4] * t11 + C_i[5] * t14);
-    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
-    jac_phi_A_i[3] = C_i[0] * g_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real t18 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
+    const jg_real t19 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
+    jac_phi_geometry[4] = g_j_in_i_1;
+    jac_phi_A_i[1] = -(C_i[4] * t11 + C_i[5] * t14);
+    jac_phi_A_i[2] = C_i[6] * f_j_world_0;
+    jac_phi_A_i[3] = g_j_world_0 * C_i[0];
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
-    const jg_real t18 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
-    const jg_real t19 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[5] = -(C_i[4] * t18 + C_i[5] * t19);
-    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
-    jac_phi_A_i[7] = C_i[0] * g_j_world_1;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real t23 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
+    const jg_real t24 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
+    jac_phi_A_i[6] = C_i[6] * f_j_world_1;
+    jac_phi_A_i[7] = g_j_world_1 * C_i[0];
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t23 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
-    const jg_real t24 = g_j_world_2 * f_j_in_i_1 - f_j_world_2 * g_j_in_i_1;
     jac_phi_A_i[9] = -(C_i[4] * t23 + C_i[5] * t24);
     jac_phi_A_i[10] = C_i[6] * f_j_world_2;
-    jac_phi_A_i[11] = C_i[0] * g_j_world_2;
+    jac_phi_A_i[11] = g_j_world_2 * C_i[0];
     const jg_real g_j_in_i_0 = A_i[0] * g_j_world_0 + A_i[1] * g_j_world_1 + A_i[2] * g_j_world_2;
-    jac_phi_geometry[3] = g_j_in_i_0;
     const jg_real f_j_in_i_0 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[10] = f_j_in_i_0;
     const jg_real t27 = f_j_world_0 * g_j_in_i_0 - g_j_world_0 * f_j_in_i_0;
+    const jg_real t28 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
+    jac_phi_geometry[3] = g_j_in_i_0;
+    jac_phi_geometry[10] = f_j_in_i_0;
     jac_phi_A_i[13] = C_i[3] * t11 - C_i[5] * t27;
     jac_phi_A_i[14] = C_i[7] * f_j_world_0;
-    jac_phi_A_i[15] = C_i[1] * g_j_world_0;
-    const jg_real t28 = f_j_world_1 * g_j_in_i_0 - g_j_world_1 * f_j_in_i_0;
+    jac_phi_A_i[15] = g_j_world_0 * C_i[1];
     jac_phi_A_i[17] = C_i[3] * t18 - C_i[5] * t28;
     jac_phi_A_i[18] = C_i[7] * f_j_world_1;
-    jac_phi_A_i[19] = C_i[1] * g_j_world_1;
+    jac_phi_A_i[19] = g_j_world_1 * C_i[1];
     const jg_real t29 = f_j_world_2 * g_j_in_i_0 - g_j_world_2 * f_j_in_i_0;
     jac_phi_A_i[21] = C_i[3] * t23 - C_i[5] * t29;
     jac_phi_A_i[22] = C_i[7] * f_j_world_2;
-    jac_phi_A_i[23] = C_i[1] * g_j_world_2;
+    jac_phi_A_i[23] = g_j_world_2 * C_i[1];
     jac_phi_A_i[25] = C_i[3] * t14 + C_i[4] * t27;
     jac_phi_A_i[26] = C_i[8] * f_j_world_0;
-    jac_phi_A_i[27] = C_i[2] * g_j_world_0;
+    jac_phi_A_i[27] = g_j_world_0 * C_i[2];
     jac_phi_A_i[29] = C_i[3] * t19 + C_i[4] * t28;
     jac_phi_A_i[30] = C_i[8] * f_j_world_1;
-    jac_phi_A_i[31] = C_i[2] * g_j_world_1;
-    jac_phi_A_i[33] = C_i[3] * t24 + C_i[4] * t29;
-    jac_phi_A_i[34] = C_i[8] * f_j_world_2;
-    jac_phi_A_i[35] = C_i[2] * g_j_world_2;
-    jac_phi_A_j[0] = s_j[0] * A_i[0];
-    jac_phi_A_j[1] = s_j[0] * A_i[3];
-    jac_phi_A_j[2] = s_j[0] * A_i[6];
     const jg_real t30 = A_i[3] * C_j[0];
     const jg_real t31 = A_i[6] * C_j[3];
     const jg_real t32 = A_i[6] * C_j[0];
     const jg_real t33 = A_i[3] * C_j[3];
     const jg_real t34 = A_i[0] * C_j[3];
     const jg_real t35 = A_i[0] * C_j[0];
+    jac_phi_A_i[31] = g_j_world_1 * C_i[2];
+    jac_phi_A_i[33] = C_i[3] * t24 + C_i[4] * t29;
+    jac_phi_A_i[34] = C_i[8] * f_j_world_2;
+    jac_phi_A_i[35] = g_j_world_2 * C_i[2];
+    jac_phi_A_j[0] = s_j[0] * A_i[0];
+    jac_phi_A_j[1] = s_j[0] * A_i[3];
+    jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = C_i[3] * (t30 * g_j_in_i_2 + t31 * f_j_in_i_1 - (t32 * g_j_in_i_1 + t33 * f_j_in_i_2)) + C_i[4]
         * (t32 * g_j_in_i_0 + t34 * f_j_in_i_2 - (t35 * g_j_in_i_2 + t31 * f_j_in_i_0)) + C_i[5] * (t35 * g_j_in_i_1
         + t33 * f_j_in_i_0 - (t30 * g_j_in_i_0 + t34 * f_j_in_i_1));
-    jac_phi_A_j[4] = C_i[7] * t30 + C_i[6] * t35 + C_i[8] * t32;
-    jac_phi_A_j[5] = C_i[1] * t33 + C_i[0] * t34 + C_i[2] * t31;
-    jac_phi_A_j[6] = s_j[0] * A_i[1];
-    jac_phi_A_j[7] = s_j[0] * A_i[4];
-    jac_phi_A_j[8] = s_j[0] * A_i[7];
     const jg_real t36 = A_i[4] * C_j[0];
     const jg_real t37 = A_i[7] * C_j[3];
     const jg_real t38 = A_i[7] * C_j[0];
     const jg_real t39 = A_i[4] * C_j[3];
     const jg_real t40 = A_i[1] * C_j[3];
     const jg_real t41 = A_i[1] * C_j[0];
+    jac_phi_A_j[4] = C_i[7] * t30 + C_i[6] * t35 + C_i[8] * t32;
+    jac_phi_A_j[5] = t34 * C_i[0] + t33 * C_i[1] + t31 * C_i[2];
+    jac_phi_A_j[6] = s_j[0] * A_i[1];
+    jac_phi_A_j[7] = s_j[0] * A_i[4];
+    jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_i[3] * (t36 * g_j_in_i_2 + t37 * f_j_in_i_1 - (t38 * g_j_in_i_1 + t39 * f_j_in_i_2)) + C_i[4]
         * (t38 * g_j_in_i_0 + t40 * f_j_in_i_2 - (t41 * g_j_in_i_2 + t37 * f_j_in_i_0)) + C_i[5] * (t41 * g_j_in_i_1
-        + t39 * f_j_in_i_0 - (t36 * g_j_in_i_0 + t40 * f_j_in_i_1));
+        + t39 * f_j_in_i_0 - (t36 * g_j_in_i_0 + f_j_in_i_1 * t40));
     jac_phi_A_j[10] = C_i[7] * t36 + C_i[6] * t41 + C_i[8] * t38;
-    jac_phi_A_j[11] = C_i[1] * t39 + C_i[0] * t40 + C_i[2] * t37;
-    jac_phi_A_j[12] = s_j[0] * A_i[2];
-    jac_phi_A_j[13] = s_j[0] * A_i[5];
-    jac_phi_A_j[14] = s_j[0] * A_i[8];
+    jac_phi_A_j[11] = t40 * C_i[0] + t39 * C_i[1] + t37 * C_i[2];
     const jg_real t42 = A_i[5] * C_j[0];
     const jg_real t43 = A_i[8] * C_j[3];
     const jg_real t44 = A_i[8] * C_j[0];
     const jg_real t45 = A_i[5] * C_j[3];
     const jg_real t46 = A_i[2] * C_j[3];
     const jg_real t47 = A_i[2] * C_j[0];
-    jac_phi_A_j[15] = C_i[3] * (t42 * g_j_in_i_2 + t43 * f_j_in_i_1 - (t44 * g_j_in_i_1 + t45 * f_j_in_i_2)) +
-        C_i[4] * (t44 * g_j_in_i_0 + t46 * f_j_in_i_2 - (t47 * g_j_in_i_2 + t43 * f_j_in_i_0)) + C_i[5] * (t47 *
-        g_j_in_i_1 + t45 * f_j_in_i_0 - (t42 * g_j_in_i_0 + t46 * f_j_in_i_1));
+    jac_phi_A_j[12] = s_j[0] * A_i[2];
+    jac_phi_A_j[13] = s_j[0] * A_i[5];
+    jac_phi_A_j[14] = s_j[0] * A_i[8];
+    jac_phi_A_j[15] = C_i[3] * (t42 * g_j_in_i_2 + f_j_in_i_1 * t43 - (t44 * g_j_in_i_1 + f_j_in_i_2 * t45)) +
+        C_i[4] * (t44 * g_j_in_i_0 + f_j_in_i_2 * t46 - (t47 * g_j_in_i_2 + t43 * f_j_in_i_0)) + C_i[5] * (t47 *
+        g_j_in_i_1 + t45 * f_j_in_i_0 - (t42 * g_j_in_i_0 + f_j_in_i_1 * t46));
     jac_phi_A_j[16] = C_i[7] * t42 + C_i[6] * t47 + C_i[8] * t44;
-    jac_phi_A_j[17] = C_i[1] * t45 + C_i[0] * t46 + C_i[2] * t43;
+    jac_phi_A_j[17] = C_i[0] * t46 + C_i[1] * t45 + C_i[2] * t43;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
-    jac_phi_A_j[20] = s_j[1] * A_i[6];
     const jg_real t48 = A_i[3] * C_j[1];
     const jg_real t49 = A_i[6] * C_j[4];
     const jg_real t50 = A_i[6] * C_j[1];
     const jg_real t51 = A_i[3] * C_j[4];
     const jg_real t52 = A_i[0] * C_j[4];
     const jg_real t53 = A_i[0] * C_j[1];
-    jac_phi_A_j[21] = C_i[3] * (t48 * g_j_in_i_2 + t49 * f_j_in_i_1 - (t50 * g_j_in_i_1 + t51 * f_j_in_i_2)) +
-        C_i[4] * (t50 * g_j_in_i_0 + t52 * f_j_in_i_2 - (t53 * g_j_in_i_2 + t49 * f_j_in_i_0)) + C_i[5] * (t53 *
-        g_j_in_i_1 + t51 * f_j_in_i_0 - (t48 * g_j_in_i_0 + t52 * f_j_in_i_1));
-    jac_phi_A_j[22] = C_i[7] * t48 + C_i[6] * t53 + C_i[8] * t50;
-    jac_phi_A_j[23] = C_i[1] * t51 + C_i[0] * t52 + C_i[2] * t49;
-    jac_phi_A_j[24] = s_j[1] * A_i[1];
-    jac_phi_A_j[25] = s_j[1] * A_i[4];
-    jac_phi_A_j[26] = s_j[1] * A_i[7];
     const jg_real t54 = A_i[4] * C_j[1];
     const jg_real t55 = A_i[7] * C_j[4];
     const jg_real t56 = A_i[7] * C_j[1];
     const jg_real t57 = A_i[4] * C_j[4];
     const jg_real t58 = A_i[1] * C_j[4];
     const jg_real t59 = A_i[1] * C_j[1];
+    jac_phi_A_j[20] = s_j[1] * A_i[6];
+    jac_phi_A_j[21] = C_i[3] * (t48 * g_j_in_i_2 + t49 * f_j_in_i_1 - (t50 * g_j_in_i_1 + t51 * f_j_in_i_2)) +
+        C_i[4] * (t50 * g_j_in_i_0 + t52 * f_j_in_i_2 - (t53 * g_j_in_i_2 + t49 * f_j_in_i_0)) + C_i[5] * (t53 *
+        g_j_in_i_1 + t51 * f_j_in_i_0 - (t48 * g_j_in_i_0 + t52 * f_j_in_i_1));
+    jac_phi_A_j[22] = C_i[7] * t48 + C_i[6] * t53 + C_i[8] * t50;
+    jac_phi_A_j[23] = t52 * C_i[0] + t51 * C_i[1] + t49 * C_i[2];
+    jac_phi_A_j[24] = s_j[1] * A_i[1];
+    jac_phi_A_j[25] = s_j[1] * A_i[4];
+    jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = C_i[3] * (t54 * g_j_in_i_2 + t55 * f_j_in_i_1 - (t56 * g_j_in_i_1 + t57 * f_j_in_i_2)) +
         C_i[4] * (t56 * g_j_in_i_0 + t58 * f_j_in_i_2 - (t59 * g_j_in_i_2 + t55 * f_j_in_i_0)) + C_i[5] * (t59 *
-        g_j_in_i_1 + t57 * f_j_in_i_0 - (t54 * g_j_in_i_0 + t58 * f_j_in_i_1));
-    jac_phi_A_j[28] = C_i[7] * t54 + C_i[6] * t59 + C_i[8] * t56;
-    jac_phi_A_j[29] = C_i[1] * t57 + C_i[0] * t58 + C_i[2] * t55;
-    jac_phi_A_j[30] = s_j[1] * A_i[2];
-    jac_phi_A_j[31] = s_j[1] * A_i[5];
-    jac_phi_A_j[32] = s_j[1] * A_i[8];
+        g_j_in_i_1 + t57 * f_j_in_i_0 - (t54 * g_j_in_i_0 + f_j_in_i_1 * t58));
     const jg_real t60 = A_i[5] * C_j[1];
     const jg_real t61 = A_i[8] * C_j[4];
     const jg_real t62 = A_i[8] * C_j[1];
     const jg_real t63 = A_i[5] * C_j[4];
     const jg_real t64 = A_i[2] * C_j[4];
     const jg_real t65 = A_i[2] * C_j[1];
-    jac_phi_A_j[33] = C_i[3] * (t60 * g_j_in_i_2 + t61 * f_j_in_i_1 - (t62 * g_j_in_i_1 + t63 * f_j_in_i_2)) +
-        C_i[4] * (t62 * g_j_in_i_0 + t64 * f_j_in_i_2 - (t65 * g_j_in_i_2 + t61 * f_j_in_i_0)) + C_i[5] * (t65 *
-        g_j_in_i_1 + t63 * f_j_in_i_0 - (t60 * g_j_in_i_0 + t64 * f_j_in_i_1));
+    jac_phi_A_j[28] = C_i[7] * t54 + C_i[6] * t59 + C_i[8] * t56;
+    jac_phi_A_j[29] = t58 * C_i[0] + t57 * C_i[1] + t55 * C_i[2];
+    jac_phi_A_j[30] = s_j[1] * A_i[2];
+    jac_phi_A_j[31] = s_j[1] * A_i[5];
+    jac_phi_A_j[32] = s_j[1] * A_i[8];
+    jac_phi_A_j[33] = C_i[3] * (t60 * g_j_in_i_2 + f_j_in_i_1 * t61 - (t62 * g_j_in_i_1 + f_j_in_i_2 * t63)) +
+        C_i[4] * (t62 * g_j_in_i_0 + f_j_in_i_2 * t64 - (t65 * g_j_in_i_2 + t61 * f_j_in_i_0)) + C_i[5] * (t65 *
+        g_j_in_i_1 + t63 * f_j_in_i_0 - (t60 * g_j_in_i_0 + f_j_in_i_1 * t64));
     jac_phi_A_j[34] = C_i[7] * t60 + C_i[6] * t65 + C_i[8] * t62;
-    jac_phi_A_j[35] = C_i[1] * t63 + C_i[0] * t64 + C_i[2] * t61;
-    jac_phi_A_j[36] = s_j[2] * A_i[0];
-    jac_phi_A_j[37] = s_j[2] * A_i[3];
-    jac_phi_A_j[38] = s_j[2] * A_i[6];
+    jac_phi_A_j[35] = C_i[0] * t64 + C_i[1] * t63 + C_i[2] * t61;
     const jg_real t66 = A_i[3] * C_j[2];
     const jg_real t67 = A_i[6] * C_j[5];
     const jg_real t68 = A_i[6] * C_j[2];
     const jg_real t69 = A_i[3] * C_j[5];
     const jg_real t70 = A_i[0] * C_j[5];
     const jg_real t71 = A_i[0] * C_j[2];
+    jac_phi_A_j[36] = s_j[2] * A_i[0];
+    jac_phi_A_j[37] = s_j[2] * A_i[3];
+    jac_phi_A_j[38] = s_j[2] * A_i[6];
     jac_phi_A_j[39] = C_i[3] * (t66 * g_j_in_i_2 + t67 * f_j_in_i_1 - (t68 * g_j_in_i_1 + t69 * f_j_in_i_2)) +
         C_i[4] * (t68 * g_j_in_i_0 + t70 * f_j_in_i_2 - (t71 * g_j_in_i_2 + t67 * f_j_in_i_0)) + C_i[5] * (t71 *
         g_j_in_i_1 + t69 * f_j_in_i_0 - (t66 * g_j_in_i_0 + t70 * f_j_in_i_1));
     jac_phi_A_j[40] = C_i[7] * t66 + C_i[6] * t71 + C_i[8] * t68;
-    jac_phi_A_j[41] = C_i[1] * t69 + C_i[0] * t70 + C_i[2] * t67;
+    jac_phi_A_j[41] = t70 * C_i[0] + t69 * C_i[1] + t67 * C_i[2];
     jac_phi_A_j[42] = s_j[2] * A_i[1];
     jac_phi_A_j[43] = s_j[2] * A_i[4];
-    jac_phi_A_j[44] = s_j[2] * A_i[7];
     const jg_real t72 = A_i[4] * C_j[2];
     const jg_real t73 = A_i[7] * C_j[5];
     const jg_real t74 = A_i[7] * C_j[2];
     const jg_real t75 = A_i[4] * C_j[5];
     const jg_real t76 = A_i[1] * C_j[5];
     const jg_real t77 = A_i[1] * C_j[2];
-    jac_phi_A_j[45] = C_i[3] * (t72 * g_j_in_i_2 + t73 * f_j_in_i_1 - (t74 * g_j_in_i_1 + t75 * f_j_in_i_2)) +
-        C_i[4] * (t74 * g_j_in_i_0 + t76 * f_j_in_i_2 - (t77 * g_j_in_i_2 + t73 * f_j_in_i_0)) + C_i[5] * (t77 *
-        g_j_in_i_1 + t75 * f_j_in_i_0 - (t72 * g_j_in_i_0 + t76 * f_j_in_i_1));
-    jac_phi_A_j[46] = C_i[7] * t72 + C_i[6] * t77 + C_i[8] * t74;
-    jac_phi_A_j[47] = C_i[1] * t75 + C_i[0] * t76 + C_i[2] * t73;
-    jac_phi_A_j[48] = s_j[2] * A_i[2];
-    jac_phi_A_j[49] = s_j[2] * A_i[5];
-    jac_phi_A_j[50] = s_j[2] * A_i[8];
     const jg_real t78 = A_i[5] * C_j[2];
     const jg_real t79 = A_i[8] * C_j[5];
     const jg_real t80 = A_i[8] * C_j[2];
     const jg_real t81 = A_i[5] * C_j[5];
     const jg_real t82 = A_i[2] * C_j[5];
     const jg_real t83 = A_i[2] * C_j[2];
-    jac_phi_A_j[51] = C_i[3] * (t78 * g_j_in_i_2 + t79 * f_j_in_i_1 - (t80 * g_j_in_i_1 + t81 * f_j_in_i_2)) +
-        C_i[4] * (t80 * g_j_in_i_0 + t82 * f_j_in_i_2 - (t83 * g_j_in_i_2 + t79 * f_j_in_i_0)) + C_i[5] * (t83 *
-        g_j_in_i_1 + t81 * f_j_in_i_0 - (t78 * g_j_in_i_0 + t82 * f_j_in_i_1));
+    jac_phi_A_j[44] = s_j[2] * A_i[7];
+    jac_phi_A_j[45] = C_i[3] * (t72 * g_j_in_i_2 + t73 * f_j_in_i_1 - (t74 * g_j_in_i_1 + t75 * f_j_in_i_2)) +
+        C_i[4] * (t74 * g_j_in_i_0 + t76 * f_j_in_i_2 - (t77 * g_j_in_i_2 + t73 * f_j_in_i_0)) + C_i[5] * (t77 *
+        g_j_in_i_1 + t75 * f_j_in_i_0 - (t72 * g_j_in_i_0 + f_j_in_i_1 * t76));
+    jac_phi_A_j[46] = C_i[7] * t72 + C_i[6] * t77 + C_i[8] * t74;
+    jac_phi_A_j[47] = t76 * C_i[0] + t75 * C_i[1] + t73 * C_i[2];
+    jac_phi_A_j[48] = s_j[2] * A_i[2];
+    jac_phi_A_j[49] = s_j[2] * A_i[5];
+    jac_phi_A_j[50] = s_j[2] * A_i[8];
+    jac_phi_A_j[51] = C_i[3] * (t78 * g_j_in_i_2 + f_j_in_i_1 * t79 - (t80 * g_j_in_i_1 + f_j_in_i_2 * t81)) +
+        C_i[4] * (t80 * g_j_in_i_0 + f_j_in_i_2 * t82 - (t83 * g_j_in_i_2 + t79 * f_j_in_i_0)) + C_i[5] * (t83 *
+        g_j_in_i_1 + t81 * f_j_in_i_0 - (t78 * g_j_in_i_0 + f_j_in_i_1 * t82));
     jac_phi_A_j[52] = C_i[7] * t78 + C_i[6] * t83 + C_i[8] * t80;
-    jac_phi_A_j[53] = C_i[1] * t81 + C_i[0] * t82 + C_i[2] * t79;
+    jac_phi_A_j[53] = C_i[0] * t82 + C_i[1] * t81 + C_i[2] * t79;
     jac_phi_alpha[0] = -C_i[6];
     jac_phi_alpha[1] = -C_i[7];
     jac_phi_alpha[2] = -C_i[8];
@@ -261,32 +261,32 @@ static void jg_translational_parametric_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[2] = JG_REAL(-1.0);
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    jac_phi_geometry[6] = h_j_in_i_0;
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    jac_phi_geometry[7] = h_j_in_i_1;
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
-    jac_phi_geometry[8] = h_j_in_i_2;
+    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - g_j_in_i_2 * f_j_in_i_0;
+    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - f_j_in_i_1 * g_j_in_i_0;
     const jg_real t87 = -alpha[0];
+    const jg_real t88 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t89 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    jac_phi_geometry[6] = h_j_in_i_0;
+    jac_phi_geometry[7] = h_j_in_i_1;
+    jac_phi_geometry[8] = h_j_in_i_2;
     jac_phi_geometry[9] = t87;
     jac_phi_geometry[11] = t87;
     jac_phi_geometry[13] = t87;
-    const jg_real t88 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[15] = t88;
-    const jg_real t89 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[16] = t89;
     const jg_real t90 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_geometry[17] = t90;
     const jg_real t91 = A_j[3] * A_i[0] + A_j[4] * A_i[1] + A_j[5] * A_i[2];
-    jac_phi_geometry[18] = t91;
     const jg_real t92 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_geometry[19] = t92;
     const jg_real t93 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_geometry[20] = t93;
     const jg_real t94 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
-    jac_phi_geometry[21] = t94;
     const jg_real t95 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[22] = t95;
     const jg_real t96 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[17] = t90;
+    jac_phi_geometry[18] = t91;
+    jac_phi_geometry[19] = t92;
+    jac_phi_geometry[20] = t93;
+    jac_phi_geometry[21] = t94;
+    jac_phi_geometry[22] = t95;
     jac_phi_geometry[23] = t96;
     jac_phi_geometry[24] = C_i[3] * (t89 * g_j_in_i_2 - t90 * g_j_in_i_1) + C_i[4] * (t90 * g_j_in_i_0 - t88 *
         g_j_in_i_2) + C_i[5] * (t88 * g_j_in_i_1 - t89 * g_j_in_i_0);
@@ -297,23 +297,21 @@ static void jg_translational_parametric_phi_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_geometry[28] = C_i[3] * (t95 * g_j_in_i_2 - t96 * g_j_in_i_1) + C_i[4] * (t96 * g_j_in_i_0 - t94 *
         g_j_in_i_2) + C_i[5] * (t94 * g_j_in_i_1 - t95 * g_j_in_i_0);
     jac_phi_geometry[29] = C_i[7] * t95 + C_i[6] * t94 + C_i[8] * t96;
-    jac_phi_geometry[30] = C_i[3] * (f_j_in_i_1 * t90 - t89 * f_j_in_i_2) + C_i[4] * (t88 * f_j_in_i_2 - t90 *
-        f_j_in_i_0) + C_i[5] * (t89 * f_j_in_i_0 - f_j_in_i_1 * t88);
-    jac_phi_geometry[31] = C_i[1] * t89 + C_i[0] * t88 + C_i[2] * t90;
-    jac_phi_geometry[32] = C_i[3] * (f_j_in_i_1 * t93 - t92 * f_j_in_i_2) + C_i[4] * (t91 * f_j_in_i_2 - t93 *
-        f_j_in_i_0) + C_i[5] * (t92 * f_j_in_i_0 - f_j_in_i_1 * t91);
-    jac_phi_geometry[33] = C_i[1] * t92 + C_i[0] * t91 + C_i[2] * t93;
-    jac_phi_geometry[34] = C_i[3] * (f_j_in_i_1 * t96 - t95 * f_j_in_i_2) + C_i[4] * (t94 * f_j_in_i_2 - t96 *
-        f_j_in_i_0) + C_i[5] * (t95 * f_j_in_i_0 - f_j_in_i_1 * t94);
-    jac_phi_geometry[35] = C_i[1] * t95 + C_i[0] * t94 + C_i[2] * t96;
+    jac_phi_geometry[30] = C_i[3] * (t90 * f_j_in_i_1 - t89 * f_j_in_i_2) + C_i[4] * (t88 * f_j_in_i_2 - t90 *
+        f_j_in_i_0) + C_i[5] * (t89 * f_j_in_i_0 - t88 * f_j_in_i_1);
+    jac_phi_geometry[31] = t88 * C_i[0] + t89 * C_i[1] + t90 * C_i[2];
+    jac_phi_geometry[32] = C_i[3] * (t93 * f_j_in_i_1 - t92 * f_j_in_i_2) + C_i[4] * (t91 * f_j_in_i_2 - t93 *
+        f_j_in_i_0) + C_i[5] * (t92 * f_j_in_i_0 - t91 * f_j_in_i_1);
+    jac_phi_geometry[33] = t91 * C_i[0] + t92 * C_i[1] + t93 * C_i[2];
+    jac_phi_geometry[34] = C_i[3] * (t96 * f_j_in_i_1 - t95 * f_j_in_i_2) + C_i[4] * (t94 * f_j_in_i_2 - t96 *
+        f_j_in_i_0) + C_i[5] * (t95 * f_j_in_i_0 - t94 * f_j_in_i_1);
+    jac_phi_geometry[35] = t94 * C_i[0] + t95 * C_i[1] + t96 * C_i[2];
 }
 
-static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
-    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_v_velocity)
+static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
+    const jg_real *A_j, const jg_real *geometry, const jg_real *velocity, jg_real *jac_phi_q_v_r_i,
+    jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j, jg_real *jac_phi_q_v_geometry,
+    jg_real *jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -325,63 +323,60 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real alphadot = velocity[12];
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_4 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
-    jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[1] * A_ji_5 + omega_i[0] * A_ji_2 + omega_i[2] * A_ji_8;
     const jg_real A_ji_1 = A_ji_6 * A_ji_5 - A_ji_3 * A_ji_8;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real omega_i_in_j_1 = omega_i[1] * A_ji_4 + omega_i[0] * A_ji_1 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_7 * A_ji_5;
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real omega_i_in_j_0 = omega_i[1] * A_ji_3 + omega_i[0] * A_ji_0 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -397,13 +392,13 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[1] * A_ji_3 + v_i[0] * A_ji_0 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_3 * v_i[1] + v_i[0] * A_ji_0 + v_i[2] * A_ji_6;
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
     const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
     /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = C_i[7] * A_ji_3 + C_i[6] * A_ji_0 + C_i[8] * A_ji_6;
+    const jg_real h_i_in_j_0 = A_ji_3 * C_i[7] + C_i[6] * A_ji_0 + C_i[8] * A_ji_6;
     /* v_4_in_j = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
     const jg_real v_4_in_j_0 = v_3_in_j_0 - alphadot * h_i_in_j_0;
     const jg_real t44 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
@@ -415,76 +410,76 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t50 = e_ij_in_j_1 * t46 - e_ij_in_j_2 * t48 - (A_j[0] * v_i[1] + v_i[0] * t44) - alphadot * t49;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[1] * A_ji_4 + v_i[0] * A_ji_1 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_4 * v_i[1] + v_i[0] * A_ji_1 + A_ji_7 * v_i[2];
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real h_i_in_j_1 = C_i[7] * A_ji_4 + C_i[6] * A_ji_1 + C_i[8] * A_ji_7;
+    const jg_real h_i_in_j_1 = A_ji_4 * C_i[7] + C_i[6] * A_ji_1 + A_ji_7 * C_i[8];
     const jg_real v_4_in_j_1 = v_3_in_j_1 - alphadot * h_i_in_j_1;
     const jg_real t60 = A_j[0] * omega_i[1] + omega_i[0] * t44;
     const jg_real t61 = A_j[3] * C_i[7] + C_i[6] * t47;
-    const jg_real t62 = e_ij_in_j_2 * t60 - e_ij_in_j_0 * t46 - (A_j[3] * v_i[1] + v_i[0] * t47) - alphadot * t61;
+    const jg_real t62 = e_ij_in_j_2 * t60 - t46 * e_ij_in_j_0 - (A_j[3] * v_i[1] + v_i[0] * t47) - alphadot * t61;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real h_i_in_j_2 = C_i[7] * A_ji_5 + C_i[6] * A_ji_2 + C_i[8] * A_ji_8;
+    const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
     const jg_real v_4_in_j_2 = v_3_in_j_2 - alphadot * h_i_in_j_2;
-    const jg_real t70 = A_j[6] * C_i[7] + C_i[6] * t45;
-    const jg_real t71 = e_ij_in_j_0 * t48 - e_ij_in_j_1 * t60 - (A_j[6] * v_i[1] + v_i[0] * t45) - alphadot * t70;
-    jac_phi_q_v_A_i[0] = t45 * v_4_in_j_2 + A_ji_2 * t71 + (t44 * v_4_in_j_0 + A_ji_0 * t50 + (t47 * v_4_in_j_1 +
-        A_ji_1 * t62));
+    const jg_real t70 = C_i[6] * t45 + A_j[6] * C_i[7];
+    const jg_real t71 = t48 * e_ij_in_j_0 - e_ij_in_j_1 * t60 - (v_i[0] * t45 + A_j[6] * v_i[1]) - alphadot * t70;
     const jg_real t72 = A_j[0] * v_4_in_j_0;
     const jg_real t73 = A_j[3] * v_4_in_j_1;
     const jg_real t74 = A_j[6] * v_4_in_j_2;
-    jac_phi_q_v_A_i[1] = t74 + A_ji_5 * t71 + (t72 + A_ji_3 * t50 + (t73 + A_ji_4 * t62));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t50 + A_ji_7 * t62 + A_ji_8 * t71;
     /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = A_ji_3 * C_i[1] + C_i[0] * A_ji_0 + C_i[2] * A_ji_6;
-    const jg_real f_i_in_j_2 = C_i[1] * A_ji_5 + C_i[0] * A_ji_2 + C_i[2] * A_ji_8;
+    const jg_real f_i_in_j_0 = A_ji_0 * C_i[0] + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
+    const jg_real f_i_in_j_2 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
     /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - f_i_in_j_2 * h_i_in_j_0;
-    const jg_real f_i_in_j_1 = C_i[1] * A_ji_4 + C_i[0] * A_ji_1 + C_i[2] * A_ji_7;
+    const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - h_i_in_j_0 * f_i_in_j_2;
+    const jg_real f_i_in_j_1 = A_ji_1 * C_i[0] + A_ji_4 * C_i[1] + A_ji_7 * C_i[2];
     const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
     /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
     const jg_real g_i_cross_h_j_in_j_0 = C_j[8] * g_i_in_j_1 - C_j[7] * g_i_in_j_2;
-    const jg_real t81 = A_j[0] * C_i[1] + C_i[0] * t44;
-    const jg_real t82 = A_j[6] * C_i[1] + C_i[0] * t45;
-    const jg_real t83 = t70 * f_i_in_j_0 + t81 * h_i_in_j_2 - (t49 * f_i_in_j_2 + t82 * h_i_in_j_0);
-    const jg_real t84 = A_j[3] * C_i[1] + C_i[0] * t47;
-    const jg_real t85 = t49 * f_i_in_j_1 + t84 * h_i_in_j_0 - (t61 * f_i_in_j_0 + t81 * h_i_in_j_1);
+    const jg_real t81 = t44 * C_i[0] + A_j[0] * C_i[1];
+    const jg_real t82 = t45 * C_i[0] + A_j[6] * C_i[1];
+    const jg_real t83 = t70 * f_i_in_j_0 + h_i_in_j_2 * t81 - (t49 * f_i_in_j_2 + h_i_in_j_0 * t82);
+    const jg_real t84 = t47 * C_i[0] + A_j[3] * C_i[1];
+    const jg_real t85 = t49 * f_i_in_j_1 + h_i_in_j_0 * t84 - (t61 * f_i_in_j_0 + h_i_in_j_1 * t81);
     const jg_real t86 = C_j[8] * t83 - C_j[7] * t85;
-    const jg_real g_i_in_j_0 = f_i_in_j_2 * h_i_in_j_1 - h_i_in_j_2 * f_i_in_j_1;
+    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
     const jg_real g_i_cross_h_j_in_j_1 = C_j[6] * g_i_in_j_2 - C_j[8] * g_i_in_j_0;
-    const jg_real t89 = t61 * f_i_in_j_2 + t82 * h_i_in_j_1 - (t70 * f_i_in_j_1 + t84 * h_i_in_j_2);
+    const jg_real t89 = t61 * f_i_in_j_2 + h_i_in_j_1 * t82 - (t70 * f_i_in_j_1 + h_i_in_j_2 * t84);
     const jg_real t90 = C_j[6] * t85 - C_j[8] * t89;
     const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
     const jg_real t92 = C_j[7] * t89 - C_j[6] * t83;
+    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
+    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
+    const jg_real t94 = t61 * C_j[2] - t70 * C_j[1];
+    const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
+    const jg_real t96 = t70 * C_j[0] - t49 * C_j[2];
+    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
+    const jg_real t98 = t49 * C_j[1] - t61 * C_j[0];
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t45 * v_4_in_j_2 + A_ji_2 * t71 + (t44 * v_4_in_j_0 + A_ji_0 * t50 + (t47 * v_4_in_j_1 +
+        A_ji_1 * t62));
+    jac_phi_q_v_A_i[1] = t74 + A_ji_5 * t71 + (t72 + A_ji_3 * t50 + (t73 + A_ji_4 * t62));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t50 + A_ji_7 * t62 + A_ji_8 * t71;
     jac_phi_q_v_A_i[3] = t46 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t92 + (t60 * g_i_cross_h_j_in_j_0 +
         omega_i_in_j_0 * t86 + (t48 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t90)) - (omega_j[0] * t86 + omega_j[1]
         * t90 + omega_j[2] * t92);
-    /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
-    const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - C_j[1] * h_i_in_j_2;
-    const jg_real t94 = C_j[2] * t61 - C_j[1] * t70;
-    const jg_real h_i_cross_f_j_in_j_1 = C_j[0] * h_i_in_j_2 - C_j[2] * h_i_in_j_0;
-    const jg_real t96 = C_j[0] * t70 - C_j[2] * t49;
-    const jg_real h_i_cross_f_j_in_j_2 = C_j[1] * h_i_in_j_0 - C_j[0] * h_i_in_j_1;
-    const jg_real t98 = C_j[1] * t49 - C_j[0] * t61;
     jac_phi_q_v_A_i[4] = t46 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t98 + (t60 * h_i_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t94 + (t48 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t96)) - (omega_j[0] * t94 + omega_j[1]
         * t96 + omega_j[2] * t98);
     /* f_i_cross_g_j_in_j = f_i x g_j, axes of body j */
     const jg_real f_i_cross_g_j_in_j_0 = C_j[5] * f_i_in_j_1 - C_j[4] * f_i_in_j_2;
-    const jg_real t100 = C_j[5] * t84 - C_j[4] * t82;
-    const jg_real f_i_cross_g_j_in_j_1 = C_j[3] * f_i_in_j_2 - C_j[5] * f_i_in_j_0;
-    const jg_real t102 = C_j[3] * t82 - C_j[5] * t81;
-    const jg_real f_i_cross_g_j_in_j_2 = C_j[4] * f_i_in_j_0 - C_j[3] * f_i_in_j_1;
-    const jg_real t104 = C_j[4] * t81 - C_j[3] * t84;
-    jac_phi_q_v_A_i[5] = t60 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t100 + (t48 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t102) + (t46 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t104) - (omega_j[0] * t100 +
-        omega_j[1] * t102 + omega_j[2] * t104);
+    const jg_real t100 = t84 * C_j[5] - t82 * C_j[4];
+    const jg_real f_i_cross_g_j_in_j_1 = C_j[3] * f_i_in_j_2 - f_i_in_j_0 * C_j[5];
+    const jg_real t102 = t82 * C_j[3] - t81 * C_j[5];
+    const jg_real f_i_cross_g_j_in_j_2 = f_i_in_j_0 * C_j[4] - C_j[3] * f_i_in_j_1;
+    const jg_real t104 = t81 * C_j[4] - t84 * C_j[3];
     const jg_real t105 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
     const jg_real t106 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
     const jg_real t107 = A_j[7] * omega_i[1] + omega_i[0] * t106;
@@ -495,42 +490,29 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
         t110;
     const jg_real t112 = A_j[1] * omega_i[1] + omega_i[0] * t105;
     const jg_real t113 = A_j[4] * C_i[7] + C_i[6] * t108;
-    const jg_real t114 = e_ij_in_j_2 * t112 - e_ij_in_j_0 * t107 - (A_j[4] * v_i[1] + v_i[0] * t108) - alphadot *
+    const jg_real t114 = e_ij_in_j_2 * t112 - t107 * e_ij_in_j_0 - (A_j[4] * v_i[1] + v_i[0] * t108) - alphadot *
         t113;
-    const jg_real t115 = A_j[7] * C_i[7] + C_i[6] * t106;
-    const jg_real t116 = e_ij_in_j_0 * t109 - e_ij_in_j_1 * t112 - (A_j[7] * v_i[1] + v_i[0] * t106) - alphadot *
+    const jg_real t115 = C_i[6] * t106 + A_j[7] * C_i[7];
+    const jg_real t116 = t109 * e_ij_in_j_0 - e_ij_in_j_1 * t112 - (v_i[0] * t106 + A_j[7] * v_i[1]) - alphadot *
         t115;
-    jac_phi_q_v_A_i[6] = t106 * v_4_in_j_2 + A_ji_2 * t116 + (t105 * v_4_in_j_0 + A_ji_0 * t111 + (t108 * v_4_in_j_1
-        + A_ji_1 * t114));
     const jg_real t117 = A_j[1] * v_4_in_j_0;
     const jg_real t118 = A_j[4] * v_4_in_j_1;
     const jg_real t119 = A_j[7] * v_4_in_j_2;
-    jac_phi_q_v_A_i[7] = t119 + A_ji_5 * t116 + (t117 + A_ji_3 * t111 + (t118 + A_ji_4 * t114));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t111 + A_ji_7 * t114 + A_ji_8 * t116;
-    const jg_real t120 = A_j[1] * C_i[1] + C_i[0] * t105;
-    const jg_real t121 = A_j[7] * C_i[1] + C_i[0] * t106;
-    const jg_real t122 = t115 * f_i_in_j_0 + t120 * h_i_in_j_2 - (t110 * f_i_in_j_2 + t121 * h_i_in_j_0);
-    const jg_real t123 = A_j[4] * C_i[1] + C_i[0] * t108;
-    const jg_real t124 = t110 * f_i_in_j_1 + t123 * h_i_in_j_0 - (t113 * f_i_in_j_0 + t120 * h_i_in_j_1);
+    const jg_real t120 = t105 * C_i[0] + A_j[1] * C_i[1];
+    const jg_real t121 = t106 * C_i[0] + A_j[7] * C_i[1];
+    const jg_real t122 = t115 * f_i_in_j_0 + h_i_in_j_2 * t120 - (t110 * f_i_in_j_2 + h_i_in_j_0 * t121);
+    const jg_real t123 = t108 * C_i[0] + A_j[4] * C_i[1];
+    const jg_real t124 = t110 * f_i_in_j_1 + h_i_in_j_0 * t123 - (t113 * f_i_in_j_0 + h_i_in_j_1 * t120);
     const jg_real t125 = C_j[8] * t122 - C_j[7] * t124;
-    const jg_real t126 = t113 * f_i_in_j_2 + t121 * h_i_in_j_1 - (t115 * f_i_in_j_1 + t123 * h_i_in_j_2);
+    const jg_real t126 = t113 * f_i_in_j_2 + h_i_in_j_1 * t121 - (t115 * f_i_in_j_1 + h_i_in_j_2 * t123);
     const jg_real t127 = C_j[6] * t124 - C_j[8] * t126;
     const jg_real t128 = C_j[7] * t126 - C_j[6] * t122;
-    jac_phi_q_v_A_i[9] = t107 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t128 + (t112 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t125 + (t109 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t127)) - (omega_j[0] * t125 +
-        omega_j[1] * t127 + omega_j[2] * t128);
-    const jg_real t129 = C_j[2] * t113 - C_j[1] * t115;
-    const jg_real t130 = C_j[0] * t115 - C_j[2] * t110;
-    const jg_real t131 = C_j[1] * t110 - C_j[0] * t113;
-    jac_phi_q_v_A_i[10] = t107 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t131 + (t112 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t129 + (t109 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t130)) - (omega_j[0] * t129 +
-        omega_j[1] * t130 + omega_j[2] * t131);
-    const jg_real t132 = C_j[5] * t123 - C_j[4] * t121;
-    const jg_real t133 = C_j[3] * t121 - C_j[5] * t120;
-    const jg_real t134 = C_j[4] * t120 - C_j[3] * t123;
-    jac_phi_q_v_A_i[11] = t112 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t132 + (t109 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t133) + (t107 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t134) - (omega_j[0] * t132 +
-        omega_j[1] * t133 + omega_j[2] * t134);
+    const jg_real t129 = t113 * C_j[2] - t115 * C_j[1];
+    const jg_real t130 = t115 * C_j[0] - t110 * C_j[2];
+    const jg_real t131 = t110 * C_j[1] - t113 * C_j[0];
+    const jg_real t132 = t123 * C_j[5] - t121 * C_j[4];
+    const jg_real t133 = t121 * C_j[3] - t120 * C_j[5];
+    const jg_real t134 = t120 * C_j[4] - t123 * C_j[3];
     const jg_real t135 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
     const jg_real t136 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
     const jg_real t137 = A_j[8] * omega_i[1] + omega_i[0] * t136;
@@ -541,42 +523,47 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
         t140;
     const jg_real t142 = A_j[2] * omega_i[1] + omega_i[0] * t135;
     const jg_real t143 = A_j[5] * C_i[7] + C_i[6] * t138;
-    const jg_real t144 = e_ij_in_j_2 * t142 - e_ij_in_j_0 * t137 - (A_j[5] * v_i[1] + v_i[0] * t138) - alphadot *
+    const jg_real t144 = e_ij_in_j_2 * t142 - t137 * e_ij_in_j_0 - (A_j[5] * v_i[1] + v_i[0] * t138) - alphadot *
         t143;
-    const jg_real t145 = A_j[8] * C_i[7] + C_i[6] * t136;
-    const jg_real t146 = e_ij_in_j_0 * t139 - e_ij_in_j_1 * t142 - (A_j[8] * v_i[1] + v_i[0] * t136) - alphadot *
+    const jg_real t145 = C_i[6] * t136 + A_j[8] * C_i[7];
+    const jg_real t146 = t139 * e_ij_in_j_0 - e_ij_in_j_1 * t142 - (v_i[0] * t136 + A_j[8] * v_i[1]) - alphadot *
         t145;
+    jac_phi_q_v_A_i[5] = t60 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t100 + (t48 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t102) + (t46 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t104) - (omega_j[0] * t100 +
+        omega_j[1] * t102 + omega_j[2] * t104);
+    jac_phi_q_v_A_i[6] = t106 * v_4_in_j_2 + A_ji_2 * t116 + (t105 * v_4_in_j_0 + A_ji_0 * t111 + (t108 * v_4_in_j_1
+        + A_ji_1 * t114));
+    jac_phi_q_v_A_i[7] = t119 + A_ji_5 * t116 + (t117 + A_ji_3 * t111 + (t118 + A_ji_4 * t114));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t111 + A_ji_7 * t114 + A_ji_8 * t116;
+    jac_phi_q_v_A_i[9] = t107 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t128 + (t112 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t125 + (t109 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t127)) - (omega_j[0] * t125 +
+        omega_j[1] * t127 + omega_j[2] * t128);
+    jac_phi_q_v_A_i[10] = t107 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t131 + (t112 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t129 + (t109 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t130)) - (omega_j[0] * t129 +
+        omega_j[1] * t130 + omega_j[2] * t131);
+    jac_phi_q_v_A_i[11] = t112 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t132 + (t109 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t133) + (t107 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t134) - (omega_j[0] * t132 +
+        omega_j[1] * t133 + omega_j[2] * t134);
     jac_phi_q_v_A_i[12] = t136 * v_4_in_j_2 + A_ji_2 * t146 + (t135 * v_4_in_j_0 + A_ji_0 * t141 + (t138 *
         v_4_in_j_1 + A_ji_1 * t144));
     const jg_real t147 = A_j[2] * v_4_in_j_0;
     const jg_real t148 = A_j[5] * v_4_in_j_1;
     const jg_real t149 = A_j[8] * v_4_in_j_2;
-    jac_phi_q_v_A_i[13] = t149 + A_ji_5 * t146 + (t147 + A_ji_3 * t141 + (t148 + A_ji_4 * t144));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t141 + A_ji_7 * t144 + A_ji_8 * t146;
-    const jg_real t150 = A_j[2] * C_i[1] + C_i[0] * t135;
-    const jg_real t151 = A_j[8] * C_i[1] + C_i[0] * t136;
-    const jg_real t152 = t145 * f_i_in_j_0 + t150 * h_i_in_j_2 - (t140 * f_i_in_j_2 + t151 * h_i_in_j_0);
-    const jg_real t153 = A_j[5] * C_i[1] + C_i[0] * t138;
-    const jg_real t154 = t140 * f_i_in_j_1 + t153 * h_i_in_j_0 - (t143 * f_i_in_j_0 + t150 * h_i_in_j_1);
+    const jg_real t150 = t135 * C_i[0] + A_j[2] * C_i[1];
+    const jg_real t151 = t136 * C_i[0] + A_j[8] * C_i[1];
+    const jg_real t152 = t145 * f_i_in_j_0 + h_i_in_j_2 * t150 - (t140 * f_i_in_j_2 + h_i_in_j_0 * t151);
+    const jg_real t153 = t138 * C_i[0] + A_j[5] * C_i[1];
+    const jg_real t154 = t140 * f_i_in_j_1 + h_i_in_j_0 * t153 - (t143 * f_i_in_j_0 + h_i_in_j_1 * t150);
     const jg_real t155 = C_j[8] * t152 - C_j[7] * t154;
-    const jg_real t156 = t143 * f_i_in_j_2 + t151 * h_i_in_j_1 - (t145 * f_i_in_j_1 + t153 * h_i_in_j_2);
+    const jg_real t156 = t143 * f_i_in_j_2 + h_i_in_j_1 * t151 - (t145 * f_i_in_j_1 + h_i_in_j_2 * t153);
     const jg_real t157 = C_j[6] * t154 - C_j[8] * t156;
     const jg_real t158 = C_j[7] * t156 - C_j[6] * t152;
-    jac_phi_q_v_A_i[15] = t137 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t158 + (t142 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t155 + (t139 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t157)) - (omega_j[0] * t155 +
-        omega_j[1] * t157 + omega_j[2] * t158);
-    const jg_real t159 = C_j[2] * t143 - C_j[1] * t145;
-    const jg_real t160 = C_j[0] * t145 - C_j[2] * t140;
-    const jg_real t161 = C_j[1] * t140 - C_j[0] * t143;
-    jac_phi_q_v_A_i[16] = t137 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t161 + (t142 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t159 + (t139 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t160)) - (omega_j[0] * t159 +
-        omega_j[1] * t160 + omega_j[2] * t161);
-    const jg_real t162 = C_j[5] * t153 - C_j[4] * t151;
-    const jg_real t163 = C_j[3] * t151 - C_j[5] * t150;
-    const jg_real t164 = C_j[4] * t150 - C_j[3] * t153;
-    jac_phi_q_v_A_i[17] = t142 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t162 + (t139 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t163) + (t137 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t164) - (omega_j[0] * t162 +
-        omega_j[1] * t163 + omega_j[2] * t164);
+    const jg_real t159 = t143 * C_j[2] - t145 * C_j[1];
+    const jg_real t160 = t145 * C_j[0] - t140 * C_j[2];
+    const jg_real t161 = t140 * C_j[1] - t143 * C_j[0];
+    const jg_real t162 = t153 * C_j[5] - t151 * C_j[4];
+    const jg_real t163 = t151 * C_j[3] - t150 * C_j[5];
+    const jg_real t164 = t150 * C_j[4] - t153 * C_j[3];
     const jg_real t165 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
     const jg_real t166 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
     const jg_real t167 = A_j[6] * omega_i[2] + omega_i[0] * t166;
@@ -587,39 +574,41 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
         t170;
     const jg_real t172 = A_j[0] * omega_i[2] + omega_i[0] * t165;
     const jg_real t173 = A_j[3] * C_i[8] + C_i[6] * t168;
-    const jg_real t174 = e_ij_in_j_2 * t172 - e_ij_in_j_0 * t167 - (A_j[3] * v_i[2] + v_i[0] * t168) - alphadot *
+    const jg_real t174 = e_ij_in_j_2 * t172 - t167 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[0] * t168) - alphadot *
         t173;
-    const jg_real t175 = A_j[6] * C_i[8] + C_i[6] * t166;
-    const jg_real t176 = e_ij_in_j_0 * t169 - e_ij_in_j_1 * t172 - (A_j[6] * v_i[2] + v_i[0] * t166) - alphadot *
+    const jg_real t175 = C_i[6] * t166 + A_j[6] * C_i[8];
+    const jg_real t176 = e_ij_in_j_0 * t169 - e_ij_in_j_1 * t172 - (v_i[0] * t166 + A_j[6] * v_i[2]) - alphadot *
         t175;
+    jac_phi_q_v_A_i[13] = t149 + A_ji_5 * t146 + (t147 + A_ji_3 * t141 + (t148 + A_ji_4 * t144));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t141 + A_ji_7 * t144 + A_ji_8 * t146;
+    jac_phi_q_v_A_i[15] = t137 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t158 + (t142 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t155 + (t139 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t157)) - (omega_j[0] * t155 +
+        omega_j[1] * t157 + omega_j[2] * t158);
+    jac_phi_q_v_A_i[16] = t137 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t161 + (t142 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t159 + (t139 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t160)) - (omega_j[0] * t159 +
+        omega_j[1] * t160 + omega_j[2] * t161);
+    jac_phi_q_v_A_i[17] = t142 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t162 + (t139 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t163) + (t137 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t164) - (omega_j[0] * t162 +
+        omega_j[1] * t163 + omega_j[2] * t164);
     jac_phi_q_v_A_i[18] = t166 * v_4_in_j_2 + A_ji_2 * t176 + (t165 * v_4_in_j_0 + A_ji_0 * t171 + (t168 *
         v_4_in_j_1 + A_ji_1 * t174));
     jac_phi_q_v_A_i[19] = A_ji_3 * t171 + A_ji_4 * t174 + A_ji_5 * t176;
     jac_phi_q_v_A_i[20] = t74 + A_ji_8 * t176 + (t72 + A_ji_6 * t171 + (t73 + A_ji_7 * t174));
-    const jg_real t177 = A_j[0] * C_i[2] + C_i[0] * t165;
-    const jg_real t178 = C_i[0] * t166 + A_j[6] * C_i[2];
-    const jg_real t179 = t175 * f_i_in_j_0 + h_i_in_j_2 * t177 - (f_i_in_j_2 * t170 + t178 * h_i_in_j_0);
-    const jg_real t180 = A_j[3] * C_i[2] + C_i[0] * t168;
+    const jg_real t177 = t165 * C_i[0] + A_j[0] * C_i[2];
+    const jg_real t178 = t166 * C_i[0] + A_j[6] * C_i[2];
+    const jg_real t179 = t175 * f_i_in_j_0 + h_i_in_j_2 * t177 - (t170 * f_i_in_j_2 + h_i_in_j_0 * t178);
+    const jg_real t180 = t168 * C_i[0] + A_j[3] * C_i[2];
     const jg_real t181 = t170 * f_i_in_j_1 + h_i_in_j_0 * t180 - (t173 * f_i_in_j_0 + h_i_in_j_1 * t177);
     const jg_real t182 = C_j[8] * t179 - C_j[7] * t181;
-    const jg_real t183 = f_i_in_j_2 * t173 + t178 * h_i_in_j_1 - (t175 * f_i_in_j_1 + h_i_in_j_2 * t180);
+    const jg_real t183 = t173 * f_i_in_j_2 + h_i_in_j_1 * t178 - (t175 * f_i_in_j_1 + h_i_in_j_2 * t180);
     const jg_real t184 = C_j[6] * t181 - C_j[8] * t183;
     const jg_real t185 = C_j[7] * t183 - C_j[6] * t179;
-    jac_phi_q_v_A_i[21] = t167 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t185 + (t172 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t182 + (t169 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t184)) - (omega_j[0] * t182 +
-        omega_j[1] * t184 + omega_j[2] * t185);
-    const jg_real t186 = C_j[2] * t173 - C_j[1] * t175;
-    const jg_real t187 = C_j[0] * t175 - C_j[2] * t170;
-    const jg_real t188 = C_j[1] * t170 - C_j[0] * t173;
-    jac_phi_q_v_A_i[22] = t167 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t188 + (t172 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t186 + (t169 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t187)) - (omega_j[0] * t186 +
-        omega_j[1] * t187 + omega_j[2] * t188);
+    const jg_real t186 = t173 * C_j[2] - t175 * C_j[1];
+    const jg_real t187 = t175 * C_j[0] - t170 * C_j[2];
+    const jg_real t188 = t170 * C_j[1] - t173 * C_j[0];
     const jg_real t189 = C_j[5] * t180 - C_j[4] * t178;
-    const jg_real t190 = C_j[3] * t178 - C_j[5] * t177;
-    const jg_real t191 = C_j[4] * t177 - C_j[3] * t180;
-    jac_phi_q_v_A_i[23] = t172 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t189 + (t169 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t190) + (t167 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t191) - (omega_j[0] * t189 +
-        omega_j[1] * t190 + omega_j[2] * t191);
+    const jg_real t190 = C_j[3] * t178 - t177 * C_j[5];
+    const jg_real t191 = t177 * C_j[4] - C_j[3] * t180;
     const jg_real t192 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
     const jg_real t193 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
     const jg_real t194 = A_j[7] * omega_i[2] + omega_i[0] * t193;
@@ -630,39 +619,45 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
         t197;
     const jg_real t199 = A_j[1] * omega_i[2] + omega_i[0] * t192;
     const jg_real t200 = A_j[4] * C_i[8] + C_i[6] * t195;
-    const jg_real t201 = e_ij_in_j_2 * t199 - e_ij_in_j_0 * t194 - (A_j[4] * v_i[2] + v_i[0] * t195) - alphadot *
+    const jg_real t201 = e_ij_in_j_2 * t199 - t194 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[0] * t195) - alphadot *
         t200;
-    const jg_real t202 = A_j[7] * C_i[8] + C_i[6] * t193;
-    const jg_real t203 = e_ij_in_j_0 * t196 - e_ij_in_j_1 * t199 - (A_j[7] * v_i[2] + v_i[0] * t193) - alphadot *
+    const jg_real t202 = C_i[6] * t193 + A_j[7] * C_i[8];
+    const jg_real t203 = e_ij_in_j_0 * t196 - e_ij_in_j_1 * t199 - (v_i[0] * t193 + A_j[7] * v_i[2]) - alphadot *
         t202;
+    const jg_real t204 = t192 * C_i[0] + A_j[1] * C_i[2];
+    const jg_real t205 = t193 * C_i[0] + A_j[7] * C_i[2];
+    const jg_real t206 = t202 * f_i_in_j_0 + h_i_in_j_2 * t204 - (t197 * f_i_in_j_2 + h_i_in_j_0 * t205);
+    const jg_real t207 = t195 * C_i[0] + A_j[4] * C_i[2];
+    const jg_real t208 = t197 * f_i_in_j_1 + h_i_in_j_0 * t207 - (t200 * f_i_in_j_0 + h_i_in_j_1 * t204);
+    const jg_real t209 = C_j[8] * t206 - C_j[7] * t208;
+    const jg_real t210 = t200 * f_i_in_j_2 + h_i_in_j_1 * t205 - (t202 * f_i_in_j_1 + h_i_in_j_2 * t207);
+    const jg_real t211 = C_j[6] * t208 - C_j[8] * t210;
+    const jg_real t212 = C_j[7] * t210 - C_j[6] * t206;
+    const jg_real t213 = t200 * C_j[2] - t202 * C_j[1];
+    const jg_real t214 = t202 * C_j[0] - t197 * C_j[2];
+    const jg_real t215 = t197 * C_j[1] - t200 * C_j[0];
+    jac_phi_q_v_A_i[21] = t167 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t185 + (t172 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t182 + (t169 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t184)) - (omega_j[0] * t182 +
+        omega_j[1] * t184 + omega_j[2] * t185);
+    jac_phi_q_v_A_i[22] = t167 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t188 + (t172 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t186 + (t169 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t187)) - (omega_j[0] * t186 +
+        omega_j[1] * t187 + omega_j[2] * t188);
+    jac_phi_q_v_A_i[23] = t172 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t189 + (t169 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t190) + (t167 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t191) - (omega_j[0] * t189 +
+        omega_j[1] * t190 + omega_j[2] * t191);
     jac_phi_q_v_A_i[24] = t193 * v_4_in_j_2 + A_ji_2 * t203 + (t192 * v_4_in_j_0 + A_ji_0 * t198 + (t195 *
         v_4_in_j_1 + A_ji_1 * t201));
     jac_phi_q_v_A_i[25] = A_ji_3 * t198 + A_ji_4 * t201 + A_ji_5 * t203;
     jac_phi_q_v_A_i[26] = t119 + A_ji_8 * t203 + (t117 + A_ji_6 * t198 + (t118 + A_ji_7 * t201));
-    const jg_real t204 = A_j[1] * C_i[2] + C_i[0] * t192;
-    const jg_real t205 = C_i[0] * t193 + A_j[7] * C_i[2];
-    const jg_real t206 = t202 * f_i_in_j_0 + h_i_in_j_2 * t204 - (f_i_in_j_2 * t197 + t205 * h_i_in_j_0);
-    const jg_real t207 = A_j[4] * C_i[2] + C_i[0] * t195;
-    const jg_real t208 = t197 * f_i_in_j_1 + h_i_in_j_0 * t207 - (t200 * f_i_in_j_0 + h_i_in_j_1 * t204);
-    const jg_real t209 = C_j[8] * t206 - C_j[7] * t208;
-    const jg_real t210 = f_i_in_j_2 * t200 + t205 * h_i_in_j_1 - (t202 * f_i_in_j_1 + h_i_in_j_2 * t207);
-    const jg_real t211 = C_j[6] * t208 - C_j[8] * t210;
-    const jg_real t212 = C_j[7] * t210 - C_j[6] * t206;
     jac_phi_q_v_A_i[27] = t194 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t212 + (t199 * g_i_cross_h_j_in_j_0 +
         omega_i_in_j_0 * t209 + (t196 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t211)) - (omega_j[0] * t209 +
         omega_j[1] * t211 + omega_j[2] * t212);
-    const jg_real t213 = C_j[2] * t200 - C_j[1] * t202;
-    const jg_real t214 = C_j[0] * t202 - C_j[2] * t197;
-    const jg_real t215 = C_j[1] * t197 - C_j[0] * t200;
     jac_phi_q_v_A_i[28] = t194 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t215 + (t199 * h_i_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t213 + (t196 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t214)) - (omega_j[0] * t213 +
         omega_j[1] * t214 + omega_j[2] * t215);
     const jg_real t216 = C_j[5] * t207 - C_j[4] * t205;
-    const jg_real t217 = C_j[3] * t205 - C_j[5] * t204;
-    const jg_real t218 = C_j[4] * t204 - C_j[3] * t207;
-    jac_phi_q_v_A_i[29] = t199 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t216 + (t196 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t217) + (t194 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t218) - (omega_j[0] * t216 +
-        omega_j[1] * t217 + omega_j[2] * t218);
+    const jg_real t217 = C_j[3] * t205 - t204 * C_j[5];
+    const jg_real t218 = t204 * C_j[4] - C_j[3] * t207;
     const jg_real t219 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
     const jg_real t220 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
     const jg_real t221 = A_j[8] * omega_i[2] + omega_i[0] * t220;
@@ -673,44 +668,31 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
         t224;
     const jg_real t226 = A_j[2] * omega_i[2] + omega_i[0] * t219;
     const jg_real t227 = A_j[5] * C_i[8] + C_i[6] * t222;
-    const jg_real t228 = e_ij_in_j_2 * t226 - e_ij_in_j_0 * t221 - (A_j[5] * v_i[2] + v_i[0] * t222) - alphadot *
+    const jg_real t228 = e_ij_in_j_2 * t226 - t221 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[0] * t222) - alphadot *
         t227;
-    const jg_real t229 = A_j[8] * C_i[8] + C_i[6] * t220;
-    const jg_real t230 = e_ij_in_j_0 * t223 - e_ij_in_j_1 * t226 - (A_j[8] * v_i[2] + v_i[0] * t220) - alphadot *
+    const jg_real t229 = C_i[6] * t220 + A_j[8] * C_i[8];
+    const jg_real t230 = e_ij_in_j_0 * t223 - e_ij_in_j_1 * t226 - (v_i[0] * t220 + A_j[8] * v_i[2]) - alphadot *
         t229;
-    jac_phi_q_v_A_i[30] = t220 * v_4_in_j_2 + A_ji_2 * t230 + (t219 * v_4_in_j_0 + A_ji_0 * t225 + (t222 *
-        v_4_in_j_1 + A_ji_1 * t228));
-    jac_phi_q_v_A_i[31] = A_ji_3 * t225 + A_ji_4 * t228 + A_ji_5 * t230;
-    jac_phi_q_v_A_i[32] = t149 + A_ji_8 * t230 + (t147 + A_ji_6 * t225 + (t148 + A_ji_7 * t228));
-    const jg_real t231 = A_j[2] * C_i[2] + C_i[0] * t219;
-    const jg_real t232 = C_i[0] * t220 + A_j[8] * C_i[2];
-    const jg_real t233 = t229 * f_i_in_j_0 + h_i_in_j_2 * t231 - (f_i_in_j_2 * t224 + t232 * h_i_in_j_0);
-    const jg_real t234 = A_j[5] * C_i[2] + C_i[0] * t222;
+    const jg_real t231 = t219 * C_i[0] + A_j[2] * C_i[2];
+    const jg_real t232 = t220 * C_i[0] + A_j[8] * C_i[2];
+    const jg_real t233 = t229 * f_i_in_j_0 + h_i_in_j_2 * t231 - (t224 * f_i_in_j_2 + h_i_in_j_0 * t232);
+    const jg_real t234 = t222 * C_i[0] + A_j[5] * C_i[2];
     const jg_real t235 = t224 * f_i_in_j_1 + h_i_in_j_0 * t234 - (t227 * f_i_in_j_0 + h_i_in_j_1 * t231);
     const jg_real t236 = C_j[8] * t233 - C_j[7] * t235;
-    const jg_real t237 = f_i_in_j_2 * t227 + t232 * h_i_in_j_1 - (t229 * f_i_in_j_1 + h_i_in_j_2 * t234);
+    const jg_real t237 = t227 * f_i_in_j_2 + h_i_in_j_1 * t232 - (t229 * f_i_in_j_1 + h_i_in_j_2 * t234);
     const jg_real t238 = C_j[6] * t235 - C_j[8] * t237;
     const jg_real t239 = C_j[7] * t237 - C_j[6] * t233;
-    jac_phi_q_v_A_i[33] = t221 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t239 + (t226 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t236 + (t223 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t238)) - (omega_j[0] * t236 +
-        omega_j[1] * t238 + omega_j[2] * t239);
-    const jg_real t240 = C_j[2] * t227 - C_j[1] * t229;
-    const jg_real t241 = C_j[0] * t229 - C_j[2] * t224;
-    const jg_real t242 = C_j[1] * t224 - C_j[0] * t227;
-    jac_phi_q_v_A_i[34] = t221 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t242 + (t226 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t240 + (t223 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t241)) - (omega_j[0] * t240 +
-        omega_j[1] * t241 + omega_j[2] * t242);
+    const jg_real t240 = t227 * C_j[2] - t229 * C_j[1];
+    const jg_real t241 = t229 * C_j[0] - t224 * C_j[2];
+    const jg_real t242 = t224 * C_j[1] - t227 * C_j[0];
     const jg_real t243 = C_j[5] * t234 - C_j[4] * t232;
-    const jg_real t244 = C_j[3] * t232 - C_j[5] * t231;
-    const jg_real t245 = C_j[4] * t231 - C_j[3] * t234;
-    jac_phi_q_v_A_i[35] = t226 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t243 + (t223 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t244) + (t221 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t245) - (omega_j[0] * t243 +
-        omega_j[1] * t244 + omega_j[2] * t245);
+    const jg_real t244 = C_j[3] * t232 - t231 * C_j[5];
+    const jg_real t245 = t231 * C_j[4] - C_j[3] * t234;
     const jg_real t246 = A_i[3] * A_ji_7 - A_i[6] * A_ji_4;
     const jg_real t247 = v_0_world_0 * omega_i_in_j_1;
     const jg_real t248 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
     const jg_real t249 = omega_i[0] * t248;
-    const jg_real t250 = A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
+    const jg_real t250 = A_i[6] * omega_i[2] + A_i[3] * omega_i[1];
     const jg_real t251 = e_ij_in_j_1 * t250;
     const jg_real t252 = v_i[0] * t246;
     const jg_real t253 = C_i[6] * t246;
@@ -723,60 +705,65 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t260 = C_i[6] * t248;
     const jg_real t261 = alphadot * t260;
     const jg_real t262 = t258 - (t256 + t257 * e_ij_in_j_0) - t259 - t261;
-    const jg_real t263 = e_ij_in_j_1 * t257;
+    const jg_real t263 = t257 * e_ij_in_j_1;
     const jg_real t264 = e_ij_in_j_2 * t249;
     const jg_real t265 = A_i[3] * v_i[1] + A_i[6] * v_i[2];
     const jg_real t266 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t267 = alphadot * t266;
     const jg_real t268 = t263 - t264 - t265 - t267;
+    jac_phi_q_v_A_i[29] = t199 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t216 + (t196 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t217) + (t194 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t218) - (omega_j[0] * t216 +
+        omega_j[1] * t217 + omega_j[2] * t218);
+    jac_phi_q_v_A_i[30] = t220 * v_4_in_j_2 + A_ji_2 * t230 + (t219 * v_4_in_j_0 + A_ji_0 * t225 + (t222 *
+        v_4_in_j_1 + A_ji_1 * t228));
+    jac_phi_q_v_A_i[31] = A_ji_3 * t225 + A_ji_4 * t228 + A_ji_5 * t230;
+    jac_phi_q_v_A_i[32] = t149 + A_ji_8 * t230 + (t147 + A_ji_6 * t225 + (t148 + A_ji_7 * t228));
+    jac_phi_q_v_A_i[33] = t221 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t239 + (t226 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t236 + (t223 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t238)) - (omega_j[0] * t236 +
+        omega_j[1] * t238 + omega_j[2] * t239);
+    jac_phi_q_v_A_i[34] = t221 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t242 + (t226 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t240 + (t223 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t241)) - (omega_j[0] * t240 +
+        omega_j[1] * t241 + omega_j[2] * t242);
+    jac_phi_q_v_A_i[35] = t226 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t243 + (t223 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t244) + (t221 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t245) - (omega_j[0] * t243 +
+        omega_j[1] * t244 + omega_j[2] * t245);
     jac_phi_q_v_A_j[0] = t246 * v_4_in_j_2 + A_ji_2 * t255 + (t248 * v_4_in_j_1 + A_ji_1 * t262 + A_ji_0 * t268);
-    jac_phi_q_v_A_j[1] = A_i[3] * v_4_in_j_0 + A_ji_3 * t268 + A_ji_4 * t262 + A_ji_5 * t255;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_4_in_j_0 + A_ji_6 * t268 + A_ji_7 * t262 + A_ji_8 * t255;
     const jg_real t269 = A_i[3] * C_i[1] + A_i[6] * C_i[2];
     const jg_real t270 = h_i_in_j_2 * t269;
     const jg_real t271 = t266 * f_i_in_j_2;
-    const jg_real t272 = C_i[0] * t246;
-    const jg_real t273 = t253 * f_i_in_j_0 + t270 - (t271 + t272 * h_i_in_j_0);
+    const jg_real t272 = t246 * C_i[0];
+    const jg_real t273 = t253 * f_i_in_j_0 + t270 - (t271 + h_i_in_j_0 * t272);
     const jg_real t274 = t266 * f_i_in_j_1;
-    const jg_real t275 = C_i[0] * t248;
-    const jg_real t276 = t269 * h_i_in_j_1;
-    const jg_real t277 = t274 + t275 * h_i_in_j_0 - (t260 * f_i_in_j_0 + t276);
+    const jg_real t275 = t248 * C_i[0];
+    const jg_real t276 = h_i_in_j_1 * t269;
+    const jg_real t277 = t274 + h_i_in_j_0 * t275 - (t260 * f_i_in_j_0 + t276);
     const jg_real t278 = C_j[8] * t273 - C_j[7] * t277;
-    const jg_real t279 = t260 * f_i_in_j_2;
-    const jg_real t280 = t272 * h_i_in_j_1;
+    const jg_real t279 = h_i_in_j_1 * t272;
+    const jg_real t280 = t260 * f_i_in_j_2;
     const jg_real t281 = t275 * h_i_in_j_2;
     const jg_real t282 = t253 * f_i_in_j_1;
     const jg_real t283 = t279 + t280 - (t281 + t282);
     const jg_real t284 = C_j[6] * t277 - C_j[8] * t283;
     const jg_real t285 = C_j[7] * t283 - C_j[6] * t273;
-    jac_phi_q_v_A_j[3] = t257 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t285 + (t250 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t278 + (t249 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t284)) - (omega_j[0] * t278 +
-        omega_j[1] * t284 + omega_j[2] * t285);
-    const jg_real t286 = C_j[2] * t260;
-    const jg_real t287 = C_j[1] * t253;
+    const jg_real t286 = t260 * C_j[2];
+    const jg_real t287 = t253 * C_j[1];
     const jg_real t288 = t286 - t287;
-    const jg_real t289 = C_j[2] * t266;
-    const jg_real t290 = C_j[0] * t253 - t289;
-    const jg_real t291 = C_j[1] * t266;
-    const jg_real t292 = t291 - C_j[0] * t260;
-    jac_phi_q_v_A_j[4] = t257 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t292 + (t250 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t288 + (t249 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t290)) - (omega_j[0] * t288 +
-        omega_j[1] * t290 + omega_j[2] * t292);
-    const jg_real t293 = C_j[5] * t275;
-    const jg_real t294 = C_j[4] * t272;
+    const jg_real t289 = t266 * C_j[2];
+    const jg_real t290 = t253 * C_j[0] - t289;
+    const jg_real t291 = t266 * C_j[1];
+    const jg_real t292 = t291 - t260 * C_j[0];
+    const jg_real t293 = t275 * C_j[5];
+    const jg_real t294 = t272 * C_j[4];
     const jg_real t295 = t293 - t294;
-    const jg_real t296 = C_j[5] * t269;
-    const jg_real t297 = C_j[3] * t272 - t296;
-    const jg_real t298 = C_j[4] * t269;
-    const jg_real t299 = t298 - C_j[3] * t275;
-    jac_phi_q_v_A_j[5] = t250 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t295 + (t249 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t297) + (t257 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t299) - (omega_j[0] * t295 +
-        omega_j[1] * t297 + omega_j[2] * t299);
+    const jg_real t296 = t269 * C_j[5];
+    const jg_real t297 = t272 * C_j[3] - t296;
+    const jg_real t298 = t269 * C_j[4];
+    const jg_real t299 = t298 - t275 * C_j[3];
     const jg_real t300 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
     const jg_real t301 = v_0_world_1 * omega_i_in_j_1;
     const jg_real t302 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
     const jg_real t303 = omega_i[0] * t302;
-    const jg_real t304 = A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
+    const jg_real t304 = A_i[7] * omega_i[2] + A_i[4] * omega_i[1];
     const jg_real t305 = e_ij_in_j_1 * t304;
     const jg_real t306 = v_i[0] * t300;
     const jg_real t307 = C_i[6] * t300;
@@ -789,60 +776,62 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t314 = C_i[6] * t302;
     const jg_real t315 = alphadot * t314;
     const jg_real t316 = t312 - (t310 + t311 * e_ij_in_j_0) - t313 - t315;
-    const jg_real t317 = e_ij_in_j_1 * t311;
+    const jg_real t317 = t311 * e_ij_in_j_1;
     const jg_real t318 = e_ij_in_j_2 * t303;
     const jg_real t319 = A_i[4] * v_i[1] + A_i[7] * v_i[2];
     const jg_real t320 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t321 = alphadot * t320;
     const jg_real t322 = t317 - t318 - t319 - t321;
+    jac_phi_q_v_A_j[1] = A_i[3] * v_4_in_j_0 + A_ji_3 * t268 + A_ji_4 * t262 + A_ji_5 * t255;
+    jac_phi_q_v_A_j[2] = A_i[6] * v_4_in_j_0 + A_ji_6 * t268 + A_ji_7 * t262 + A_ji_8 * t255;
+    jac_phi_q_v_A_j[3] = t257 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t285 + (t250 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t278 + (t249 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t284)) - (omega_j[0] * t278 +
+        omega_j[1] * t284 + omega_j[2] * t285);
+    jac_phi_q_v_A_j[4] = t257 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t292 + (t250 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t288 + (t249 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t290)) - (omega_j[0] * t288 +
+        omega_j[1] * t290 + omega_j[2] * t292);
+    jac_phi_q_v_A_j[5] = t250 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t295 + (t249 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t297) + (t257 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t299) - (omega_j[0] * t295 +
+        omega_j[1] * t297 + omega_j[2] * t299);
     jac_phi_q_v_A_j[6] = t300 * v_4_in_j_2 + A_ji_2 * t309 + (t302 * v_4_in_j_1 + A_ji_1 * t316 + A_ji_0 * t322);
     jac_phi_q_v_A_j[7] = A_i[4] * v_4_in_j_0 + A_ji_3 * t322 + A_ji_4 * t316 + A_ji_5 * t309;
     jac_phi_q_v_A_j[8] = A_i[7] * v_4_in_j_0 + A_ji_6 * t322 + A_ji_7 * t316 + A_ji_8 * t309;
     const jg_real t323 = A_i[4] * C_i[1] + A_i[7] * C_i[2];
     const jg_real t324 = h_i_in_j_2 * t323;
     const jg_real t325 = t320 * f_i_in_j_2;
-    const jg_real t326 = C_i[0] * t300;
-    const jg_real t327 = t307 * f_i_in_j_0 + t324 - (t325 + t326 * h_i_in_j_0);
+    const jg_real t326 = t300 * C_i[0];
+    const jg_real t327 = t307 * f_i_in_j_0 + t324 - (t325 + h_i_in_j_0 * t326);
     const jg_real t328 = t320 * f_i_in_j_1;
-    const jg_real t329 = C_i[0] * t302;
-    const jg_real t330 = t323 * h_i_in_j_1;
-    const jg_real t331 = t328 + t329 * h_i_in_j_0 - (t314 * f_i_in_j_0 + t330);
+    const jg_real t329 = t302 * C_i[0];
+    const jg_real t330 = h_i_in_j_1 * t323;
+    const jg_real t331 = t328 + h_i_in_j_0 * t329 - (t314 * f_i_in_j_0 + t330);
     const jg_real t332 = C_j[8] * t327 - C_j[7] * t331;
-    const jg_real t333 = t314 * f_i_in_j_2;
-    const jg_real t334 = t326 * h_i_in_j_1;
+    const jg_real t333 = h_i_in_j_1 * t326;
+    const jg_real t334 = t314 * f_i_in_j_2;
     const jg_real t335 = t329 * h_i_in_j_2;
     const jg_real t336 = t307 * f_i_in_j_1;
     const jg_real t337 = t333 + t334 - (t335 + t336);
     const jg_real t338 = C_j[6] * t331 - C_j[8] * t337;
     const jg_real t339 = C_j[7] * t337 - C_j[6] * t327;
-    jac_phi_q_v_A_j[9] = t311 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t339 + (t304 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t332 + (t303 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t338)) - (omega_j[0] * t332 +
-        omega_j[1] * t338 + omega_j[2] * t339);
-    const jg_real t340 = C_j[2] * t314;
-    const jg_real t341 = C_j[1] * t307;
+    const jg_real t340 = t314 * C_j[2];
+    const jg_real t341 = t307 * C_j[1];
     const jg_real t342 = t340 - t341;
-    const jg_real t343 = C_j[2] * t320;
-    const jg_real t344 = C_j[0] * t307 - t343;
-    const jg_real t345 = C_j[1] * t320;
-    const jg_real t346 = t345 - C_j[0] * t314;
-    jac_phi_q_v_A_j[10] = t311 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t304 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t342 + (t303 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
-        omega_j[1] * t344 + omega_j[2] * t346);
-    const jg_real t347 = C_j[5] * t329;
-    const jg_real t348 = C_j[4] * t326;
+    const jg_real t343 = t320 * C_j[2];
+    const jg_real t344 = t307 * C_j[0] - t343;
+    const jg_real t345 = t320 * C_j[1];
+    const jg_real t346 = t345 - t314 * C_j[0];
+    const jg_real t347 = t329 * C_j[5];
+    const jg_real t348 = t326 * C_j[4];
     const jg_real t349 = t347 - t348;
-    const jg_real t350 = C_j[5] * t323;
-    const jg_real t351 = C_j[3] * t326 - t350;
-    const jg_real t352 = C_j[4] * t323;
-    const jg_real t353 = t352 - C_j[3] * t329;
-    jac_phi_q_v_A_j[11] = t304 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t349 + (t303 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t351) + (t311 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t353) - (omega_j[0] * t349 +
-        omega_j[1] * t351 + omega_j[2] * t353);
+    const jg_real t350 = t323 * C_j[5];
+    const jg_real t351 = t326 * C_j[3] - t350;
+    const jg_real t352 = t323 * C_j[4];
+    const jg_real t353 = t352 - t329 * C_j[3];
     const jg_real t354 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
     const jg_real t355 = v_0_world_2 * omega_i_in_j_1;
     const jg_real t356 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
     const jg_real t357 = omega_i[0] * t356;
-    const jg_real t358 = A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
+    const jg_real t358 = A_i[8] * omega_i[2] + A_i[5] * omega_i[1];
     const jg_real t359 = e_ij_in_j_1 * t358;
     const jg_real t360 = v_i[0] * t354;
     const jg_real t361 = C_i[6] * t354;
@@ -855,348 +844,357 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t368 = C_i[6] * t356;
     const jg_real t369 = alphadot * t368;
     const jg_real t370 = t366 - (t364 + t365 * e_ij_in_j_0) - t367 - t369;
-    const jg_real t371 = e_ij_in_j_1 * t365;
+    const jg_real t371 = t365 * e_ij_in_j_1;
     const jg_real t372 = e_ij_in_j_2 * t357;
     const jg_real t373 = A_i[5] * v_i[1] + A_i[8] * v_i[2];
     const jg_real t374 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t375 = alphadot * t374;
     const jg_real t376 = t371 - t372 - t373 - t375;
-    jac_phi_q_v_A_j[12] = t354 * v_4_in_j_2 + A_ji_2 * t363 + (t356 * v_4_in_j_1 + A_ji_1 * t370 + A_ji_0 * t376);
-    jac_phi_q_v_A_j[13] = A_i[5] * v_4_in_j_0 + A_ji_3 * t376 + A_ji_4 * t370 + A_ji_5 * t363;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_4_in_j_0 + A_ji_6 * t376 + A_ji_7 * t370 + A_ji_8 * t363;
     const jg_real t377 = A_i[5] * C_i[1] + A_i[8] * C_i[2];
     const jg_real t378 = h_i_in_j_2 * t377;
     const jg_real t379 = t374 * f_i_in_j_2;
-    const jg_real t380 = C_i[0] * t354;
-    const jg_real t381 = t361 * f_i_in_j_0 + t378 - (t379 + t380 * h_i_in_j_0);
+    const jg_real t380 = t354 * C_i[0];
+    const jg_real t381 = t361 * f_i_in_j_0 + t378 - (t379 + h_i_in_j_0 * t380);
     const jg_real t382 = t374 * f_i_in_j_1;
-    const jg_real t383 = C_i[0] * t356;
-    const jg_real t384 = t377 * h_i_in_j_1;
-    const jg_real t385 = t382 + t383 * h_i_in_j_0 - (t368 * f_i_in_j_0 + t384);
+    const jg_real t383 = t356 * C_i[0];
+    const jg_real t384 = h_i_in_j_1 * t377;
+    const jg_real t385 = t382 + h_i_in_j_0 * t383 - (t368 * f_i_in_j_0 + t384);
     const jg_real t386 = C_j[8] * t381 - C_j[7] * t385;
-    const jg_real t387 = t368 * f_i_in_j_2;
-    const jg_real t388 = t380 * h_i_in_j_1;
+    const jg_real t387 = h_i_in_j_1 * t380;
+    const jg_real t388 = t368 * f_i_in_j_2;
     const jg_real t389 = t383 * h_i_in_j_2;
     const jg_real t390 = t361 * f_i_in_j_1;
     const jg_real t391 = t387 + t388 - (t389 + t390);
     const jg_real t392 = C_j[6] * t385 - C_j[8] * t391;
     const jg_real t393 = C_j[7] * t391 - C_j[6] * t381;
+    const jg_real t394 = t368 * C_j[2];
+    const jg_real t395 = t361 * C_j[1];
+    const jg_real t396 = t394 - t395;
+    const jg_real t397 = t374 * C_j[2];
+    const jg_real t398 = t361 * C_j[0] - t397;
+    const jg_real t399 = t374 * C_j[1];
+    const jg_real t400 = t399 - t368 * C_j[0];
+    jac_phi_q_v_A_j[9] = t311 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t339 + (t304 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t332 + (t303 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t338)) - (omega_j[0] * t332 +
+        omega_j[1] * t338 + omega_j[2] * t339);
+    jac_phi_q_v_A_j[10] = t311 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t304 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t342 + (t303 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
+        omega_j[1] * t344 + omega_j[2] * t346);
+    jac_phi_q_v_A_j[11] = t304 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t349 + (t303 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t351) + (t311 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t353) - (omega_j[0] * t349 +
+        omega_j[1] * t351 + omega_j[2] * t353);
+    jac_phi_q_v_A_j[12] = t354 * v_4_in_j_2 + A_ji_2 * t363 + (t356 * v_4_in_j_1 + A_ji_1 * t370 + A_ji_0 * t376);
+    jac_phi_q_v_A_j[13] = A_i[5] * v_4_in_j_0 + A_ji_3 * t376 + A_ji_4 * t370 + A_ji_5 * t363;
+    jac_phi_q_v_A_j[14] = A_i[8] * v_4_in_j_0 + A_ji_6 * t376 + A_ji_7 * t370 + A_ji_8 * t363;
     jac_phi_q_v_A_j[15] = t365 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t393 + (t358 * g_i_cross_h_j_in_j_0 +
         omega_i_in_j_0 * t386 + (t357 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t392)) - (omega_j[0] * t386 +
         omega_j[1] * t392 + omega_j[2] * t393);
-    const jg_real t394 = C_j[2] * t368;
-    const jg_real t395 = C_j[1] * t361;
-    const jg_real t396 = t394 - t395;
-    const jg_real t397 = C_j[2] * t374;
-    const jg_real t398 = C_j[0] * t361 - t397;
-    const jg_real t399 = C_j[1] * t374;
-    const jg_real t400 = t399 - C_j[0] * t368;
     jac_phi_q_v_A_j[16] = t365 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t400 + (t358 * h_i_cross_f_j_in_j_0 +
         omega_i_in_j_0 * t396 + (t357 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t398)) - (omega_j[0] * t396 +
         omega_j[1] * t398 + omega_j[2] * t400);
-    const jg_real t401 = C_j[5] * t383;
-    const jg_real t402 = C_j[4] * t380;
+    const jg_real t401 = t383 * C_j[5];
+    const jg_real t402 = t380 * C_j[4];
     const jg_real t403 = t401 - t402;
-    const jg_real t404 = C_j[5] * t377;
-    const jg_real t405 = C_j[3] * t380 - t404;
-    const jg_real t406 = C_j[4] * t377;
-    const jg_real t407 = t406 - C_j[3] * t383;
-    jac_phi_q_v_A_j[17] = t358 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t403 + (t357 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t405) + (t365 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t407) - (omega_j[0] * t403 +
-        omega_j[1] * t405 + omega_j[2] * t407);
+    const jg_real t404 = t377 * C_j[5];
+    const jg_real t405 = t380 * C_j[3] - t404;
+    const jg_real t406 = t377 * C_j[4];
+    const jg_real t407 = t406 - t383 * C_j[3];
     const jg_real t408 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
     const jg_real t409 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t410 = e_ij_in_j_0 * t250;
+    const jg_real t410 = t250 * e_ij_in_j_0;
     const jg_real t411 = v_i[0] * t408;
     const jg_real t412 = C_i[6] * t408;
     const jg_real t413 = alphadot * t412;
     const jg_real t414 = t410 - (t409 - e_ij_in_j_1 * t249) - t411 - t413;
     const jg_real t415 = omega_i[0] * t408;
-    const jg_real t416 = e_ij_in_j_1 * t415 + t256 - t258 + t259 + t261;
+    const jg_real t416 = t415 * e_ij_in_j_1 + t256 - t258 + t259 + t261;
     const jg_real t417 = t415 * e_ij_in_j_0;
     const jg_real t418 = t417 + t264 + t265 + t267;
-    jac_phi_q_v_A_j[18] = t408 * v_4_in_j_2 + A_ji_2 * t414 + (A_ji_0 * t416 - t248 * v_4_in_j_0 - A_ji_1 * t418);
-    jac_phi_q_v_A_j[19] = A_i[3] * v_4_in_j_1 - A_ji_4 * t418 + A_ji_3 * t416 + A_ji_5 * t414;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_4_in_j_1 - A_ji_7 * t418 + A_ji_6 * t416 + A_ji_8 * t414;
     const jg_real t419 = t412 * f_i_in_j_0;
-    const jg_real t420 = C_i[0] * t408;
-    const jg_real t421 = t420 * h_i_in_j_0;
-    const jg_real t422 = t419 - t281 - (t421 - t279);
-    const jg_real t423 = t269 * h_i_in_j_0;
+    const jg_real t420 = t408 * C_i[0];
+    const jg_real t421 = h_i_in_j_0 * t420;
+    const jg_real t422 = t419 - t281 - (t421 - t280);
+    const jg_real t423 = h_i_in_j_0 * t269;
     const jg_real t424 = t266 * f_i_in_j_0;
-    const jg_real t425 = t423 - t260 * f_i_in_j_1 - (t424 - t275 * h_i_in_j_1);
+    const jg_real t425 = t423 - t260 * f_i_in_j_1 - (t424 - h_i_in_j_1 * t275);
     const jg_real t426 = C_j[8] * t422 - C_j[7] * t425;
-    const jg_real t427 = t271 + t420 * h_i_in_j_1 - (t270 + t412 * f_i_in_j_1);
+    const jg_real t427 = t271 + h_i_in_j_1 * t420 - (t270 + t412 * f_i_in_j_1);
     const jg_real t428 = C_j[6] * t425 - C_j[8] * t427;
     const jg_real t429 = C_j[7] * t427 - C_j[6] * t422;
-    jac_phi_q_v_A_j[21] = t415 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t429 + (omega_i_in_j_0 * t426 - t249 *
-        g_i_cross_h_j_in_j_0 + (t250 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t428)) - (omega_j[0] * t426 +
-        omega_j[1] * t428 + omega_j[2] * t429);
-    const jg_real t430 = C_j[0] * t412;
-    const jg_real t431 = t430 + t286;
-    const jg_real t432 = t289 - C_j[1] * t412;
-    const jg_real t433 = C_j[0] * t266;
-    const jg_real t434 = t433 + C_j[1] * t260;
-    jac_phi_q_v_A_j[22] = t415 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t434 + (omega_i_in_j_0 * t432 - t249 *
-        h_i_cross_f_j_in_j_0 + (t250 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t431)) - (omega_j[0] * t432 +
-        omega_j[1] * t431 - omega_j[2] * t434);
-    const jg_real t435 = C_j[3] * t420;
+    const jg_real t430 = t412 * C_j[0];
+    const jg_real t431 = t286 + t430;
+    const jg_real t432 = t289 - t412 * C_j[1];
+    const jg_real t433 = t266 * C_j[0];
+    const jg_real t434 = t260 * C_j[1] + t433;
+    const jg_real t435 = t420 * C_j[3];
     const jg_real t436 = t293 + t435;
-    const jg_real t437 = t296 - C_j[4] * t420;
-    const jg_real t438 = C_j[3] * t269;
-    const jg_real t439 = t438 + C_j[4] * t275;
-    jac_phi_q_v_A_j[23] = omega_i_in_j_0 * t437 - t249 * f_i_cross_g_j_in_j_0 + (t250 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t436) + (t415 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t439) - (omega_j[0] * t437 +
-        omega_j[1] * t436 - omega_j[2] * t439);
+    const jg_real t437 = t296 - t420 * C_j[4];
+    const jg_real t438 = t269 * C_j[3];
+    const jg_real t439 = t438 + t275 * C_j[4];
     const jg_real t440 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
     const jg_real t441 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t442 = e_ij_in_j_0 * t304;
+    const jg_real t442 = t304 * e_ij_in_j_0;
     const jg_real t443 = v_i[0] * t440;
     const jg_real t444 = C_i[6] * t440;
     const jg_real t445 = alphadot * t444;
     const jg_real t446 = t442 - (t441 - e_ij_in_j_1 * t303) - t443 - t445;
     const jg_real t447 = omega_i[0] * t440;
-    const jg_real t448 = e_ij_in_j_1 * t447 + t310 - t312 + t313 + t315;
+    const jg_real t448 = t447 * e_ij_in_j_1 + t310 - t312 + t313 + t315;
     const jg_real t449 = t447 * e_ij_in_j_0;
     const jg_real t450 = t449 + t318 + t319 + t321;
+    jac_phi_q_v_A_j[17] = t358 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t403 + (t357 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t405) + (t365 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t407) - (omega_j[0] * t403 +
+        omega_j[1] * t405 + omega_j[2] * t407);
+    jac_phi_q_v_A_j[18] = t408 * v_4_in_j_2 + A_ji_2 * t414 + (A_ji_0 * t416 - t248 * v_4_in_j_0 - A_ji_1 * t418);
+    jac_phi_q_v_A_j[19] = A_i[3] * v_4_in_j_1 - A_ji_4 * t418 + A_ji_3 * t416 + A_ji_5 * t414;
+    jac_phi_q_v_A_j[20] = A_i[6] * v_4_in_j_1 - A_ji_7 * t418 + A_ji_6 * t416 + A_ji_8 * t414;
+    jac_phi_q_v_A_j[21] = t415 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t429 + (omega_i_in_j_0 * t426 - t249 *
+        g_i_cross_h_j_in_j_0 + (t250 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t428)) - (omega_j[0] * t426 +
+        omega_j[1] * t428 + omega_j[2] * t429);
+    jac_phi_q_v_A_j[22] = t415 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t434 + (omega_i_in_j_0 * t432 - t249 *
+        h_i_cross_f_j_in_j_0 + (t250 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t431)) - (omega_j[0] * t432 +
+        omega_j[1] * t431 - omega_j[2] * t434);
+    jac_phi_q_v_A_j[23] = omega_i_in_j_0 * t437 - t249 * f_i_cross_g_j_in_j_0 + (t250 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t436) + (t415 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t439) - (omega_j[0] * t437 +
+        omega_j[1] * t436 - omega_j[2] * t439);
     jac_phi_q_v_A_j[24] = t440 * v_4_in_j_2 + A_ji_2 * t446 + (A_ji_0 * t448 - t302 * v_4_in_j_0 - A_ji_1 * t450);
-    jac_phi_q_v_A_j[25] = A_i[4] * v_4_in_j_1 - A_ji_4 * t450 + A_ji_3 * t448 + A_ji_5 * t446;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_4_in_j_1 - A_ji_7 * t450 + A_ji_6 * t448 + A_ji_8 * t446;
     const jg_real t451 = t444 * f_i_in_j_0;
-    const jg_real t452 = C_i[0] * t440;
-    const jg_real t453 = t452 * h_i_in_j_0;
-    const jg_real t454 = t451 - t335 - (t453 - t333);
-    const jg_real t455 = t323 * h_i_in_j_0;
+    const jg_real t452 = t440 * C_i[0];
+    const jg_real t453 = h_i_in_j_0 * t452;
+    const jg_real t454 = t451 - t335 - (t453 - t334);
+    const jg_real t455 = h_i_in_j_0 * t323;
     const jg_real t456 = t320 * f_i_in_j_0;
-    const jg_real t457 = t455 - t314 * f_i_in_j_1 - (t456 - t329 * h_i_in_j_1);
+    const jg_real t457 = t455 - t314 * f_i_in_j_1 - (t456 - h_i_in_j_1 * t329);
     const jg_real t458 = C_j[8] * t454 - C_j[7] * t457;
-    const jg_real t459 = t325 + t452 * h_i_in_j_1 - (t324 + t444 * f_i_in_j_1);
+    const jg_real t459 = t325 + h_i_in_j_1 * t452 - (t324 + t444 * f_i_in_j_1);
     const jg_real t460 = C_j[6] * t457 - C_j[8] * t459;
     const jg_real t461 = C_j[7] * t459 - C_j[6] * t454;
-    jac_phi_q_v_A_j[27] = t447 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t461 + (omega_i_in_j_0 * t458 - t303 *
-        g_i_cross_h_j_in_j_0 + (t304 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t460)) - (omega_j[0] * t458 +
-        omega_j[1] * t460 + omega_j[2] * t461);
-    const jg_real t462 = C_j[0] * t444;
-    const jg_real t463 = t462 + t340;
-    const jg_real t464 = t343 - C_j[1] * t444;
-    const jg_real t465 = C_j[0] * t320;
-    const jg_real t466 = t465 + C_j[1] * t314;
-    jac_phi_q_v_A_j[28] = t447 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t466 + (omega_i_in_j_0 * t464 - t303 *
-        h_i_cross_f_j_in_j_0 + (t304 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t463)) - (omega_j[0] * t464 +
-        omega_j[1] * t463 - omega_j[2] * t466);
-    const jg_real t467 = C_j[3] * t452;
+    const jg_real t462 = t444 * C_j[0];
+    const jg_real t463 = t340 + t462;
+    const jg_real t464 = t343 - t444 * C_j[1];
+    const jg_real t465 = t320 * C_j[0];
+    const jg_real t466 = t314 * C_j[1] + t465;
+    const jg_real t467 = t452 * C_j[3];
     const jg_real t468 = t347 + t467;
-    const jg_real t469 = t350 - C_j[4] * t452;
-    const jg_real t470 = C_j[3] * t323;
-    const jg_real t471 = t470 + C_j[4] * t329;
-    jac_phi_q_v_A_j[29] = omega_i_in_j_0 * t469 - t303 * f_i_cross_g_j_in_j_0 + (t304 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t468) + (t447 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t471) - (omega_j[0] * t469 +
-        omega_j[1] * t468 - omega_j[2] * t471);
+    const jg_real t469 = t350 - t452 * C_j[4];
+    const jg_real t470 = t323 * C_j[3];
+    const jg_real t471 = t470 + t329 * C_j[4];
     const jg_real t472 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
     const jg_real t473 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t474 = e_ij_in_j_0 * t358;
+    const jg_real t474 = t358 * e_ij_in_j_0;
     const jg_real t475 = v_i[0] * t472;
     const jg_real t476 = C_i[6] * t472;
     const jg_real t477 = alphadot * t476;
     const jg_real t478 = t474 - (t473 - e_ij_in_j_1 * t357) - t475 - t477;
     const jg_real t479 = omega_i[0] * t472;
-    const jg_real t480 = e_ij_in_j_1 * t479 + t364 - t366 + t367 + t369;
+    const jg_real t480 = t479 * e_ij_in_j_1 + t364 - t366 + t367 + t369;
     const jg_real t481 = t479 * e_ij_in_j_0;
     const jg_real t482 = t481 + t372 + t373 + t375;
+    jac_phi_q_v_A_j[25] = A_i[4] * v_4_in_j_1 - A_ji_4 * t450 + A_ji_3 * t448 + A_ji_5 * t446;
+    jac_phi_q_v_A_j[26] = A_i[7] * v_4_in_j_1 - A_ji_7 * t450 + A_ji_6 * t448 + A_ji_8 * t446;
+    jac_phi_q_v_A_j[27] = t447 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t461 + (omega_i_in_j_0 * t458 - t303 *
+        g_i_cross_h_j_in_j_0 + (t304 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t460)) - (omega_j[0] * t458 +
+        omega_j[1] * t460 + omega_j[2] * t461);
+    jac_phi_q_v_A_j[28] = t447 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t466 + (omega_i_in_j_0 * t464 - t303 *
+        h_i_cross_f_j_in_j_0 + (t304 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t463)) - (omega_j[0] * t464 +
+        omega_j[1] * t463 - omega_j[2] * t466);
+    jac_phi_q_v_A_j[29] = omega_i_in_j_0 * t469 - t303 * f_i_cross_g_j_in_j_0 + (t304 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t468) + (t447 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t471) - (omega_j[0] * t469 +
+        omega_j[1] * t468 - omega_j[2] * t471);
     jac_phi_q_v_A_j[30] = t472 * v_4_in_j_2 + A_ji_2 * t478 + (A_ji_0 * t480 - t356 * v_4_in_j_0 - A_ji_1 * t482);
     jac_phi_q_v_A_j[31] = A_i[5] * v_4_in_j_1 - A_ji_4 * t482 + A_ji_3 * t480 + A_ji_5 * t478;
     jac_phi_q_v_A_j[32] = A_i[8] * v_4_in_j_1 - A_ji_7 * t482 + A_ji_6 * t480 + A_ji_8 * t478;
     const jg_real t483 = t476 * f_i_in_j_0;
-    const jg_real t484 = C_i[0] * t472;
-    const jg_real t485 = t484 * h_i_in_j_0;
-    const jg_real t486 = t483 - t389 - (t485 - t387);
-    const jg_real t487 = t377 * h_i_in_j_0;
+    const jg_real t484 = t472 * C_i[0];
+    const jg_real t485 = h_i_in_j_0 * t484;
+    const jg_real t486 = t483 - t389 - (t485 - t388);
+    const jg_real t487 = h_i_in_j_0 * t377;
     const jg_real t488 = t374 * f_i_in_j_0;
-    const jg_real t489 = t487 - t368 * f_i_in_j_1 - (t488 - t383 * h_i_in_j_1);
+    const jg_real t489 = t487 - t368 * f_i_in_j_1 - (t488 - h_i_in_j_1 * t383);
     const jg_real t490 = C_j[8] * t486 - C_j[7] * t489;
-    const jg_real t491 = t379 + t484 * h_i_in_j_1 - (t378 + t476 * f_i_in_j_1);
+    const jg_real t491 = t379 + h_i_in_j_1 * t484 - (t378 + t476 * f_i_in_j_1);
     const jg_real t492 = C_j[6] * t489 - C_j[8] * t491;
     const jg_real t493 = C_j[7] * t491 - C_j[6] * t486;
-    jac_phi_q_v_A_j[33] = t479 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t490 - t357 *
-        g_i_cross_h_j_in_j_0 + (t358 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t492)) - (omega_j[0] * t490 +
-        omega_j[1] * t492 + omega_j[2] * t493);
-    const jg_real t494 = C_j[0] * t476;
-    const jg_real t495 = t494 + t394;
-    const jg_real t496 = t397 - C_j[1] * t476;
-    const jg_real t497 = C_j[0] * t374;
-    const jg_real t498 = t497 + C_j[1] * t368;
-    jac_phi_q_v_A_j[34] = t479 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t498 + (omega_i_in_j_0 * t496 - t357 *
-        h_i_cross_f_j_in_j_0 + (t358 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t495)) - (omega_j[0] * t496 +
-        omega_j[1] * t495 - omega_j[2] * t498);
-    const jg_real t499 = C_j[3] * t484;
+    const jg_real t494 = t476 * C_j[0];
+    const jg_real t495 = t394 + t494;
+    const jg_real t496 = t397 - t476 * C_j[1];
+    const jg_real t497 = t374 * C_j[0];
+    const jg_real t498 = t368 * C_j[1] + t497;
+    const jg_real t499 = t484 * C_j[3];
     const jg_real t500 = t401 + t499;
-    const jg_real t501 = t404 - C_j[4] * t484;
-    const jg_real t502 = C_j[3] * t377;
-    const jg_real t503 = t502 + C_j[4] * t383;
-    jac_phi_q_v_A_j[35] = omega_i_in_j_0 * t501 - t357 * f_i_cross_g_j_in_j_0 + (t358 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t500) + (t479 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t503) - (omega_j[0] * t501 +
-        omega_j[1] * t500 - omega_j[2] * t503);
-    const jg_real t504 = t251 - (t247 - e_ij_in_j_2 * t415) + t252 + t254;
-    const jg_real t505 = t409 - e_ij_in_j_2 * t257 - t410 + t411 + t413;
+    const jg_real t501 = t404 - t484 * C_j[4];
+    const jg_real t502 = t377 * C_j[3];
+    const jg_real t503 = t502 + t383 * C_j[4];
+    const jg_real t504 = t251 - (t247 - t415 * e_ij_in_j_2) + t252 + t254;
+    const jg_real t505 = t409 - t257 * e_ij_in_j_2 - t410 + t411 + t413;
     const jg_real t506 = t263 - t417 - t265 - t267;
-    jac_phi_q_v_A_j[36] = A_ji_0 * t504 - t246 * v_4_in_j_0 + (A_ji_1 * t505 - t408 * v_4_in_j_1) + A_ji_2 * t506;
-    jac_phi_q_v_A_j[37] = A_i[3] * v_4_in_j_2 + A_ji_5 * t506 + (A_ji_3 * t504 + A_ji_4 * t505);
-    jac_phi_q_v_A_j[38] = A_i[6] * v_4_in_j_2 + A_ji_8 * t506 + (A_ji_6 * t504 + A_ji_7 * t505);
     const jg_real t507 = t424 - t272 * h_i_in_j_2 - (t423 - t253 * f_i_in_j_2);
-    const jg_real t508 = t419 + t280 - (t421 + t282);
+    const jg_real t508 = t419 + t279 - (t421 + t282);
     const jg_real t509 = C_j[8] * t507 - C_j[7] * t508;
     const jg_real t510 = t276 - t412 * f_i_in_j_2 - (t274 - t420 * h_i_in_j_2);
     const jg_real t511 = C_j[6] * t508 - C_j[8] * t510;
     const jg_real t512 = C_j[7] * t510 - C_j[6] * t507;
+    const jg_real t513 = t430 - t287;
+    const jg_real t514 = t253 * C_j[2] + t433;
+    const jg_real t515 = t412 * C_j[2] + t291;
+    jac_phi_q_v_A_j[33] = t479 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t490 - t357 *
+        g_i_cross_h_j_in_j_0 + (t358 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t492)) - (omega_j[0] * t490 +
+        omega_j[1] * t492 + omega_j[2] * t493);
+    jac_phi_q_v_A_j[34] = t479 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t498 + (omega_i_in_j_0 * t496 - t357 *
+        h_i_cross_f_j_in_j_0 + (t358 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t495)) - (omega_j[0] * t496 +
+        omega_j[1] * t495 - omega_j[2] * t498);
+    jac_phi_q_v_A_j[35] = omega_i_in_j_0 * t501 - t357 * f_i_cross_g_j_in_j_0 + (t358 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t500) + (t479 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t503) - (omega_j[0] * t501 +
+        omega_j[1] * t500 - omega_j[2] * t503);
+    jac_phi_q_v_A_j[36] = A_ji_0 * t504 - t246 * v_4_in_j_0 + (A_ji_1 * t505 - t408 * v_4_in_j_1) + A_ji_2 * t506;
+    jac_phi_q_v_A_j[37] = A_i[3] * v_4_in_j_2 + A_ji_5 * t506 + (A_ji_3 * t504 + A_ji_4 * t505);
+    jac_phi_q_v_A_j[38] = A_i[6] * v_4_in_j_2 + A_ji_8 * t506 + (A_ji_6 * t504 + A_ji_7 * t505);
     jac_phi_q_v_A_j[39] = t250 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t512 + (omega_i_in_j_0 * t509 - t257 *
         g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t511 - t415 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t509 +
         omega_j[1] * t511 + omega_j[2] * t512);
-    const jg_real t513 = t430 - t287;
-    const jg_real t514 = t433 + C_j[2] * t253;
-    const jg_real t515 = t291 + C_j[2] * t412;
     jac_phi_q_v_A_j[40] = t250 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t513 + (omega_i_in_j_1 * t514 - t415 *
         h_i_cross_f_j_in_j_1 - (t257 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t515)) - (omega_j[1] * t514 -
         omega_j[0] * t515 + omega_j[2] * t513);
-    const jg_real t516 = t438 + C_j[5] * t272;
-    const jg_real t517 = t298 + C_j[5] * t420;
+    const jg_real t516 = t438 + t272 * C_j[5];
+    const jg_real t517 = t420 * C_j[5] + t298;
     const jg_real t518 = t435 - t294;
-    jac_phi_q_v_A_j[41] = omega_i_in_j_1 * t516 - t415 * f_i_cross_g_j_in_j_1 - (t257 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t517) + (t250 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t518) - (omega_j[1] * t516 -
-        omega_j[0] * t517 + omega_j[2] * t518);
-    const jg_real t519 = t305 - (t301 - e_ij_in_j_2 * t447) + t306 + t308;
-    const jg_real t520 = t441 - e_ij_in_j_2 * t311 - t442 + t443 + t445;
+    const jg_real t519 = t305 - (t301 - t447 * e_ij_in_j_2) + t306 + t308;
+    const jg_real t520 = t441 - t311 * e_ij_in_j_2 - t442 + t443 + t445;
     const jg_real t521 = t317 - t449 - t319 - t321;
-    jac_phi_q_v_A_j[42] = A_ji_0 * t519 - t300 * v_4_in_j_0 + (A_ji_1 * t520 - t440 * v_4_in_j_1) + A_ji_2 * t521;
-    jac_phi_q_v_A_j[43] = A_i[4] * v_4_in_j_2 + A_ji_5 * t521 + (A_ji_3 * t519 + A_ji_4 * t520);
-    jac_phi_q_v_A_j[44] = A_i[7] * v_4_in_j_2 + A_ji_8 * t521 + (A_ji_6 * t519 + A_ji_7 * t520);
     const jg_real t522 = t456 - t326 * h_i_in_j_2 - (t455 - t307 * f_i_in_j_2);
-    const jg_real t523 = t451 + t334 - (t453 + t336);
+    const jg_real t523 = t451 + t333 - (t453 + t336);
     const jg_real t524 = C_j[8] * t522 - C_j[7] * t523;
     const jg_real t525 = t330 - t444 * f_i_in_j_2 - (t328 - t452 * h_i_in_j_2);
     const jg_real t526 = C_j[6] * t523 - C_j[8] * t525;
     const jg_real t527 = C_j[7] * t525 - C_j[6] * t522;
+    const jg_real t528 = t462 - t341;
+    const jg_real t529 = t307 * C_j[2] + t465;
+    const jg_real t530 = t444 * C_j[2] + t345;
+    const jg_real t531 = t470 + t326 * C_j[5];
+    const jg_real t532 = t452 * C_j[5] + t352;
+    const jg_real t533 = t467 - t348;
+    const jg_real t534 = t359 - (t355 - t479 * e_ij_in_j_2) + t360 + t362;
+    const jg_real t535 = t473 - t365 * e_ij_in_j_2 - t474 + t475 + t477;
+    const jg_real t536 = t371 - t481 - t373 - t375;
+    jac_phi_q_v_A_j[41] = omega_i_in_j_1 * t516 - t415 * f_i_cross_g_j_in_j_1 - (t257 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t517) + (t250 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t518) - (omega_j[1] * t516 -
+        omega_j[0] * t517 + omega_j[2] * t518);
+    jac_phi_q_v_A_j[42] = A_ji_0 * t519 - t300 * v_4_in_j_0 + (A_ji_1 * t520 - t440 * v_4_in_j_1) + A_ji_2 * t521;
+    jac_phi_q_v_A_j[43] = A_i[4] * v_4_in_j_2 + A_ji_5 * t521 + (A_ji_3 * t519 + A_ji_4 * t520);
+    jac_phi_q_v_A_j[44] = A_i[7] * v_4_in_j_2 + A_ji_8 * t521 + (A_ji_6 * t519 + A_ji_7 * t520);
     jac_phi_q_v_A_j[45] = t304 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t527 + (omega_i_in_j_0 * t524 - t311 *
         g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t526 - t447 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t524 +
         omega_j[1] * t526 + omega_j[2] * t527);
-    const jg_real t528 = t462 - t341;
-    const jg_real t529 = t465 + C_j[2] * t307;
-    const jg_real t530 = t345 + C_j[2] * t444;
     jac_phi_q_v_A_j[46] = t304 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t528 + (omega_i_in_j_1 * t529 - t447 *
         h_i_cross_f_j_in_j_1 - (t311 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t530)) - (omega_j[1] * t529 -
         omega_j[0] * t530 + omega_j[2] * t528);
-    const jg_real t531 = t470 + C_j[5] * t326;
-    const jg_real t532 = t352 + C_j[5] * t452;
-    const jg_real t533 = t467 - t348;
     jac_phi_q_v_A_j[47] = omega_i_in_j_1 * t531 - t447 * f_i_cross_g_j_in_j_1 - (t311 * f_i_cross_g_j_in_j_0 +
         omega_i_in_j_0 * t532) + (t304 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t533) - (omega_j[1] * t531 -
         omega_j[0] * t532 + omega_j[2] * t533);
-    const jg_real t534 = t359 - (t355 - e_ij_in_j_2 * t479) + t360 + t362;
-    const jg_real t535 = t473 - e_ij_in_j_2 * t365 - t474 + t475 + t477;
-    const jg_real t536 = t371 - t481 - t373 - t375;
     jac_phi_q_v_A_j[48] = A_ji_0 * t534 - t354 * v_4_in_j_0 + (A_ji_1 * t535 - t472 * v_4_in_j_1) + A_ji_2 * t536;
-    jac_phi_q_v_A_j[49] = A_i[5] * v_4_in_j_2 + A_ji_5 * t536 + (A_ji_3 * t534 + A_ji_4 * t535);
-    jac_phi_q_v_A_j[50] = A_i[8] * v_4_in_j_2 + A_ji_8 * t536 + (A_ji_6 * t534 + A_ji_7 * t535);
     const jg_real t537 = t488 - t380 * h_i_in_j_2 - (t487 - t361 * f_i_in_j_2);
-    const jg_real t538 = t483 + t388 - (t485 + t390);
+    const jg_real t538 = t483 + t387 - (t485 + t390);
     const jg_real t539 = C_j[8] * t537 - C_j[7] * t538;
     const jg_real t540 = t384 - t476 * f_i_in_j_2 - (t382 - t484 * h_i_in_j_2);
     const jg_real t541 = C_j[6] * t538 - C_j[8] * t540;
     const jg_real t542 = C_j[7] * t540 - C_j[6] * t537;
-    jac_phi_q_v_A_j[51] = t358 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t542 + (omega_i_in_j_0 * t539 - t365 *
-        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t541 - t479 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t539 +
-        omega_j[1] * t541 + omega_j[2] * t542);
     const jg_real t543 = t494 - t395;
-    const jg_real t544 = t497 + C_j[2] * t361;
-    const jg_real t545 = t399 + C_j[2] * t476;
-    jac_phi_q_v_A_j[52] = t358 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t543 + (omega_i_in_j_1 * t544 - t479 *
-        h_i_cross_f_j_in_j_1 - (t365 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t545)) - (omega_j[1] * t544 -
-        omega_j[0] * t545 + omega_j[2] * t543);
-    const jg_real t546 = t502 + C_j[5] * t380;
-    const jg_real t547 = t406 + C_j[5] * t484;
+    const jg_real t544 = t361 * C_j[2] + t497;
+    const jg_real t545 = t476 * C_j[2] + t399;
+    const jg_real t546 = t502 + t380 * C_j[5];
+    const jg_real t547 = t484 * C_j[5] + t406;
     const jg_real t548 = t499 - t402;
-    jac_phi_q_v_A_j[53] = omega_i_in_j_1 * t546 - t479 * f_i_cross_g_j_in_j_1 - (t365 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t547) + (t358 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t548) - (omega_j[1] * t546 -
-        omega_j[0] * t547 + omega_j[2] * t548);
     const jg_real t549 = A_ji_0 * h_i_in_j_2 - A_ji_2 * h_i_in_j_0;
     const jg_real t550 = A_ji_1 * h_i_in_j_0 - A_ji_0 * h_i_in_j_1;
     const jg_real t551 = C_j[8] * t549 - C_j[7] * t550;
     const jg_real t552 = A_ji_2 * h_i_in_j_1 - A_ji_1 * h_i_in_j_2;
     const jg_real t553 = C_j[6] * t550 - C_j[8] * t552;
     const jg_real t554 = C_j[7] * t552 - C_j[6] * t549;
-    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
-        t551 + omega_j[1] * t553 + omega_j[2] * t554);
-    const jg_real t555 = C_j[5] * A_ji_1 - C_j[4] * A_ji_2;
-    const jg_real t556 = C_j[3] * A_ji_2 - C_j[5] * A_ji_0;
-    const jg_real t557 = C_j[4] * A_ji_0 - C_j[3] * A_ji_1;
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t555 + omega_i_in_j_1 * t556 + omega_i_in_j_2 * t557 - (omega_j[0] *
-        t555 + omega_j[1] * t556 + omega_j[2] * t557);
+    const jg_real t555 = A_ji_1 * C_j[5] - A_ji_2 * C_j[4];
+    const jg_real t556 = A_ji_2 * C_j[3] - A_ji_0 * C_j[5];
+    const jg_real t557 = A_ji_0 * C_j[4] - A_ji_1 * C_j[3];
     const jg_real t558 = A_ji_3 * h_i_in_j_2 - A_ji_5 * h_i_in_j_0;
     const jg_real t559 = A_ji_4 * h_i_in_j_0 - A_ji_3 * h_i_in_j_1;
     const jg_real t560 = C_j[8] * t558 - C_j[7] * t559;
     const jg_real t561 = A_ji_5 * h_i_in_j_1 - A_ji_4 * h_i_in_j_2;
     const jg_real t562 = C_j[6] * t559 - C_j[8] * t561;
     const jg_real t563 = C_j[7] * t561 - C_j[6] * t558;
+    jac_phi_q_v_A_j[49] = A_i[5] * v_4_in_j_2 + A_ji_5 * t536 + (A_ji_3 * t534 + A_ji_4 * t535);
+    jac_phi_q_v_A_j[50] = A_i[8] * v_4_in_j_2 + A_ji_8 * t536 + (A_ji_6 * t534 + A_ji_7 * t535);
+    jac_phi_q_v_A_j[51] = t358 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t542 + (omega_i_in_j_0 * t539 - t365 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t541 - t479 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t539 +
+        omega_j[1] * t541 + omega_j[2] * t542);
+    jac_phi_q_v_A_j[52] = t358 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t543 + (omega_i_in_j_1 * t544 - t479 *
+        h_i_cross_f_j_in_j_1 - (t365 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t545)) - (omega_j[1] * t544 -
+        omega_j[0] * t545 + omega_j[2] * t543);
+    jac_phi_q_v_A_j[53] = omega_i_in_j_1 * t546 - t479 * f_i_cross_g_j_in_j_1 - (t365 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t547) + (t358 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t548) - (omega_j[1] * t546 -
+        omega_j[0] * t547 + omega_j[2] * t548);
+    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
+        t551 + omega_j[1] * t553 + omega_j[2] * t554);
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t555 + omega_i_in_j_1 * t556 + omega_i_in_j_2 * t557 - (omega_j[0] *
+        t555 + omega_j[1] * t556 + omega_j[2] * t557);
     jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t560 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - (omega_j[0] *
         t560 + omega_j[1] * t562 + omega_j[2] * t563);
-    const jg_real t564 = C_j[5] * A_ji_4 - C_j[4] * A_ji_5;
-    const jg_real t565 = C_j[3] * A_ji_5 - A_ji_3 * C_j[5];
-    const jg_real t566 = A_ji_3 * C_j[4] - C_j[3] * A_ji_4;
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - (omega_j[0] *
-        t564 + omega_j[1] * t565 + omega_j[2] * t566);
+    const jg_real t564 = A_ji_4 * C_j[5] - A_ji_5 * C_j[4];
+    const jg_real t565 = A_ji_5 * C_j[3] - A_ji_3 * C_j[5];
+    const jg_real t566 = A_ji_3 * C_j[4] - A_ji_4 * C_j[3];
     const jg_real t567 = A_ji_6 * h_i_in_j_2 - A_ji_8 * h_i_in_j_0;
     const jg_real t568 = A_ji_7 * h_i_in_j_0 - A_ji_6 * h_i_in_j_1;
     const jg_real t569 = C_j[8] * t567 - C_j[7] * t568;
     const jg_real t570 = A_ji_8 * h_i_in_j_1 - A_ji_7 * h_i_in_j_2;
     const jg_real t571 = C_j[6] * t568 - C_j[8] * t570;
     const jg_real t572 = C_j[7] * t570 - C_j[6] * t567;
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t569 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - (omega_j[0] *
-        t569 + omega_j[1] * t571 + omega_j[2] * t572);
-    const jg_real t573 = C_j[5] * A_ji_7 - C_j[4] * A_ji_8;
-    const jg_real t574 = C_j[3] * A_ji_8 - C_j[5] * A_ji_6;
-    const jg_real t575 = C_j[4] * A_ji_6 - C_j[3] * A_ji_7;
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t573 + omega_i_in_j_1 * t574 + omega_i_in_j_2 * t575 - (omega_j[0] *
-        t573 + omega_j[1] * t574 + omega_j[2] * t575);
+    const jg_real t573 = A_ji_7 * C_j[5] - A_ji_8 * C_j[4];
+    const jg_real t574 = A_ji_8 * C_j[3] - A_ji_6 * C_j[5];
+    const jg_real t575 = A_ji_6 * C_j[4] - A_ji_7 * C_j[3];
     const jg_real t576 = alphadot * A_ji_0;
     const jg_real t577 = alphadot * A_ji_1;
     const jg_real t578 = alphadot * A_ji_2;
-    jac_phi_q_v_geometry[6] = -(A_ji_0 * t576 + A_ji_1 * t577 + A_ji_2 * t578);
-    jac_phi_q_v_geometry[7] = -(A_ji_3 * t576 + A_ji_4 * t577 + A_ji_5 * t578);
-    jac_phi_q_v_geometry[8] = -(A_ji_6 * t576 + A_ji_7 * t577 + A_ji_8 * t578);
     const jg_real t579 = A_ji_2 * f_i_in_j_0 - A_ji_0 * f_i_in_j_2;
     const jg_real t580 = A_ji_0 * f_i_in_j_1 - A_ji_1 * f_i_in_j_0;
     const jg_real t581 = C_j[8] * t579 - C_j[7] * t580;
     const jg_real t582 = A_ji_1 * f_i_in_j_2 - A_ji_2 * f_i_in_j_1;
     const jg_real t583 = C_j[6] * t580 - C_j[8] * t582;
     const jg_real t584 = C_j[7] * t582 - C_j[6] * t579;
+    const jg_real t585 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
+    const jg_real t586 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
+    const jg_real t587 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - (omega_j[0] *
+        t564 + omega_j[1] * t565 + omega_j[2] * t566);
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t569 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - (omega_j[0] *
+        t569 + omega_j[1] * t571 + omega_j[2] * t572);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t573 + omega_i_in_j_1 * t574 + omega_i_in_j_2 * t575 - (omega_j[0] *
+        t573 + omega_j[1] * t574 + omega_j[2] * t575);
+    jac_phi_q_v_geometry[6] = -(A_ji_0 * t576 + A_ji_1 * t577 + A_ji_2 * t578);
+    jac_phi_q_v_geometry[7] = -(A_ji_3 * t576 + A_ji_4 * t577 + A_ji_5 * t578);
+    jac_phi_q_v_geometry[8] = -(A_ji_6 * t576 + A_ji_7 * t577 + A_ji_8 * t578);
     jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t581 + omega_i_in_j_1 * t583 + omega_i_in_j_2 * t584 - (omega_j[0] *
         t581 + omega_j[1] * t583 + omega_j[2] * t584);
-    const jg_real t585 = C_j[2] * A_ji_1 - C_j[1] * A_ji_2;
-    const jg_real t586 = C_j[0] * A_ji_2 - C_j[2] * A_ji_0;
-    const jg_real t587 = C_j[1] * A_ji_0 - C_j[0] * A_ji_1;
     jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t585 + omega_i_in_j_1 * t586 + omega_i_in_j_2 * t587 - (omega_j[0] *
         t585 + omega_j[1] * t586 + omega_j[2] * t587);
-    const jg_real t588 = alphadot * A_ji_3;
-    const jg_real t589 = alphadot * A_ji_4;
+    const jg_real t588 = A_ji_3 * alphadot;
+    const jg_real t589 = A_ji_4 * alphadot;
     const jg_real t590 = alphadot * A_ji_5;
-    jac_phi_q_v_geometry[11] = -(A_ji_0 * t588 + A_ji_1 * t589 + A_ji_2 * t590);
-    jac_phi_q_v_geometry[12] = -(A_ji_3 * t588 + A_ji_4 * t589 + A_ji_5 * t590);
-    jac_phi_q_v_geometry[13] = -(A_ji_6 * t588 + A_ji_7 * t589 + A_ji_8 * t590);
     const jg_real t591 = A_ji_5 * f_i_in_j_0 - A_ji_3 * f_i_in_j_2;
     const jg_real t592 = A_ji_3 * f_i_in_j_1 - A_ji_4 * f_i_in_j_0;
     const jg_real t593 = C_j[8] * t591 - C_j[7] * t592;
     const jg_real t594 = A_ji_4 * f_i_in_j_2 - A_ji_5 * f_i_in_j_1;
     const jg_real t595 = C_j[6] * t592 - C_j[8] * t594;
     const jg_real t596 = C_j[7] * t594 - C_j[6] * t591;
+    const jg_real t597 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
+    const jg_real t598 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
+    const jg_real t599 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
+    const jg_real t600 = alphadot * A_ji_6;
+    const jg_real t601 = A_ji_7 * alphadot;
+    const jg_real t602 = alphadot * A_ji_8;
+    jac_phi_q_v_geometry[11] = -(A_ji_0 * t588 + A_ji_1 * t589 + A_ji_2 * t590);
+    jac_phi_q_v_geometry[12] = -(A_ji_3 * t588 + A_ji_4 * t589 + A_ji_5 * t590);
+    jac_phi_q_v_geometry[13] = -(A_ji_6 * t588 + A_ji_7 * t589 + A_ji_8 * t590);
     jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t593 + omega_i_in_j_1 * t595 + omega_i_in_j_2 * t596 - (omega_j[0] *
         t593 + omega_j[1] * t595 + omega_j[2] * t596);
-    const jg_real t597 = C_j[2] * A_ji_4 - C_j[1] * A_ji_5;
-    const jg_real t598 = C_j[0] * A_ji_5 - A_ji_3 * C_j[2];
-    const jg_real t599 = A_ji_3 * C_j[1] - C_j[0] * A_ji_4;
     jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t597 + omega_i_in_j_1 * t598 + omega_i_in_j_2 * t599 - (omega_j[0] *
         t597 + omega_j[1] * t598 + omega_j[2] * t599);
-    const jg_real t600 = alphadot * A_ji_6;
-    const jg_real t601 = alphadot * A_ji_7;
-    const jg_real t602 = alphadot * A_ji_8;
     jac_phi_q_v_geometry[16] = -(A_ji_0 * t600 + A_ji_1 * t601 + A_ji_2 * t602);
     jac_phi_q_v_geometry[17] = -(A_ji_3 * t600 + A_ji_4 * t601 + A_ji_5 * t602);
     jac_phi_q_v_geometry[18] = -(A_ji_6 * t600 + A_ji_7 * t601 + A_ji_8 * t602);
@@ -1206,35 +1204,37 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     const jg_real t606 = A_ji_7 * f_i_in_j_2 - A_ji_8 * f_i_in_j_1;
     const jg_real t607 = C_j[6] * t604 - C_j[8] * t606;
     const jg_real t608 = C_j[7] * t606 - C_j[6] * t603;
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t605 + omega_i_in_j_1 * t607 + omega_i_in_j_2 * t608 - (omega_j[0] *
-        t605 + omega_j[1] * t607 + omega_j[2] * t608);
-    const jg_real t609 = C_j[2] * A_ji_7 - C_j[1] * A_ji_8;
-    const jg_real t610 = C_j[0] * A_ji_8 - C_j[2] * A_ji_6;
-    const jg_real t611 = C_j[1] * A_ji_6 - C_j[0] * A_ji_7;
-    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t609 + omega_i_in_j_1 * t610 + omega_i_in_j_2 * t611 - (omega_j[0] *
-        t609 + omega_j[1] * t610 + omega_j[2] * t611);
+    const jg_real t609 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
+    const jg_real t610 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
+    const jg_real t611 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
     const jg_real t612 = omega_i_in_j_2 - omega_j[2];
     const jg_real t613 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t614 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t605 + omega_i_in_j_1 * t607 + omega_i_in_j_2 * t608 - (omega_j[0] *
+        t605 + omega_j[1] * t607 + omega_j[2] * t608);
+    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t609 + omega_i_in_j_1 * t610 + omega_i_in_j_2 * t611 - (omega_j[0] *
+        t609 + omega_j[1] * t610 + omega_j[2] * t611);
     jac_phi_q_v_geometry[21] = -(A_ji_1 * t612 + A_ji_2 * t613);
     jac_phi_q_v_geometry[22] = -(A_ji_4 * t612 + A_ji_5 * t613);
     jac_phi_q_v_geometry[23] = -(A_ji_7 * t612 + A_ji_8 * t613);
-    const jg_real t614 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[24] = A_ji_0 * t612 - A_ji_2 * t614;
     jac_phi_q_v_geometry[25] = A_ji_3 * t612 - A_ji_5 * t614;
     jac_phi_q_v_geometry[26] = A_ji_6 * t612 - A_ji_8 * t614;
     jac_phi_q_v_geometry[27] = A_ji_0 * t613 + A_ji_1 * t614;
     jac_phi_q_v_geometry[28] = A_ji_3 * t613 + A_ji_4 * t614;
     jac_phi_q_v_geometry[29] = A_ji_6 * t613 + A_ji_7 * t614;
-    jac_phi_q_v_geometry[30] = h_i_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * h_i_in_j_1 - (omega_j[1] * h_i_in_j_2
+    jac_phi_q_v_geometry[30] = omega_i_in_j_1 * h_i_in_j_2 - omega_i_in_j_2 * h_i_in_j_1 - (omega_j[1] * h_i_in_j_2
         - omega_j[2] * h_i_in_j_1);
-    jac_phi_q_v_geometry[31] = omega_i_in_j_2 * h_i_in_j_0 - h_i_in_j_2 * omega_i_in_j_0 - (omega_j[2] * h_i_in_j_0
+    jac_phi_q_v_geometry[31] = omega_i_in_j_2 * h_i_in_j_0 - omega_i_in_j_0 * h_i_in_j_2 - (omega_j[2] * h_i_in_j_0
         - omega_j[0] * h_i_in_j_2);
     jac_phi_q_v_geometry[32] = omega_i_in_j_0 * h_i_in_j_1 - omega_i_in_j_1 * h_i_in_j_0 - (omega_j[0] * h_i_in_j_1
         - omega_j[1] * h_i_in_j_0);
-    jac_phi_q_v_geometry[33] = f_i_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * f_i_in_j_1 - (omega_j[1] * f_i_in_j_2
+    jac_phi_q_v_geometry[33] = omega_i_in_j_1 * f_i_in_j_2 - omega_i_in_j_2 * f_i_in_j_1 - (omega_j[1] * f_i_in_j_2
         - omega_j[2] * f_i_in_j_1);
-    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * f_i_in_j_0 - f_i_in_j_2 * omega_i_in_j_0 - (omega_j[2] * f_i_in_j_0
+    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * f_i_in_j_0 - omega_i_in_j_0 * f_i_in_j_2 - (omega_j[2] * f_i_in_j_0
         - omega_j[0] * f_i_in_j_2);
+    const jg_real t615 = -(A_ji_3 * A_ji_0 + A_ji_4 * A_ji_1 + A_ji_5 * A_ji_2);
+    const jg_real t616 = -(A_ji_6 * A_ji_0 + A_ji_7 * A_ji_1 + A_ji_8 * A_ji_2);
     jac_phi_q_v_geometry[35] = omega_i_in_j_0 * f_i_in_j_1 - omega_i_in_j_1 * f_i_in_j_0 - (omega_j[0] * f_i_in_j_1
         - omega_j[1] * f_i_in_j_0);
     jac_phi_q_v_geometry[36] = omega_i_in_j_1 * g_i_in_j_2 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
@@ -1244,32 +1244,30 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_geometry[38] = omega_i_in_j_0 * g_i_in_j_1 - omega_i_in_j_1 * g_i_in_j_0 - (omega_j[0] * g_i_in_j_1
         - omega_j[1] * g_i_in_j_0);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t615 = -(A_ji_3 * A_ji_0 + A_ji_4 * A_ji_1 + A_ji_5 * A_ji_2);
     jac_phi_q_v_velocity[1] = t615;
     jac_phi_q_v_velocity[3] = t615;
-    const jg_real t616 = -(A_ji_6 * A_ji_0 + A_ji_7 * A_ji_1 + A_ji_8 * A_ji_2);
     jac_phi_q_v_velocity[2] = t616;
     jac_phi_q_v_velocity[6] = t616;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
     const jg_real t617 = -(A_ji_3 * A_ji_6 + A_ji_7 * A_ji_4 + A_ji_5 * A_ji_8);
-    jac_phi_q_v_velocity[5] = t617;
-    jac_phi_q_v_velocity[7] = t617;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t618 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t619 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t620 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
+    jac_phi_q_v_velocity[5] = t617;
+    jac_phi_q_v_velocity[7] = t617;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t618 + A_ji_1 * t619 + A_ji_2 * t620;
     jac_phi_q_v_velocity[10] = A_ji_3 * t618 + A_ji_4 * t619 + A_ji_5 * t620;
     jac_phi_q_v_velocity[11] = A_ji_6 * t618 + A_ji_7 * t619 + A_ji_8 * t620;
     jac_phi_q_v_velocity[12] = A_ji_0 * g_i_cross_h_j_in_j_0 + A_ji_1 * g_i_cross_h_j_in_j_1 + A_ji_2 *
         g_i_cross_h_j_in_j_2;
+    const jg_real t621 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t622 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t623 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
     jac_phi_q_v_velocity[13] = A_ji_0 * h_i_cross_f_j_in_j_0 + A_ji_1 * h_i_cross_f_j_in_j_1 + A_ji_2 *
         h_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_g_j_in_j_0 + A_ji_1 * f_i_cross_g_j_in_j_1 + A_ji_2 *
         f_i_cross_g_j_in_j_2;
-    const jg_real t621 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t622 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t623 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
     jac_phi_q_v_velocity[15] = A_ji_0 * t621 + A_ji_1 * t622 + A_ji_2 * t623;
     jac_phi_q_v_velocity[16] = A_ji_3 * t621 + A_ji_4 * t622 + A_ji_5 * t623;
     jac_phi_q_v_velocity[17] = A_ji_6 * t621 + A_ji_7 * t622 + A_ji_8 * t623;
@@ -1298,14 +1296,14 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *JG_RESTR
     jac_phi_q_v_velocity[40] = -h_i_cross_f_j_in_j_0;
     jac_phi_q_v_velocity[41] = -f_i_cross_g_j_in_j_0;
     jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[43] = A_ji_3 * s_j[2] - s_j[0] * A_ji_5;
     jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     jac_phi_q_v_velocity[45] = -g_i_cross_h_j_in_j_1;
     jac_phi_q_v_velocity[46] = -h_i_cross_f_j_in_j_1;
     jac_phi_q_v_velocity[47] = -f_i_cross_g_j_in_j_1;
     jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[49] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    jac_phi_q_v_velocity[50] = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
     jac_phi_q_v_velocity[51] = -g_i_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[52] = -h_i_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[53] = -f_i_cross_g_j_in_j_2;
@@ -1325,42 +1323,40 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_t_lambda_lambda[26] = A_ij_2;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[17] = A_ij_7;
     const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
-    jac_phi_q_t_lambda_lambda[15] = A_ij_1;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_t_lambda_lambda[28] = A_ij_8;
     const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
-    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
     const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[26] = A_ij_2;
+    jac_phi_q_t_lambda_lambda[17] = A_ij_7;
+    jac_phi_q_t_lambda_lambda[15] = A_ij_1;
+    jac_phi_q_t_lambda_lambda[28] = A_ij_8;
+    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
+    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     jac_phi_q_t_lambda_lambda[6] = A_ij_6;
     const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
-    jac_phi_q_t_lambda_lambda[16] = A_ij_4;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
-    jac_phi_q_t_lambda_lambda[27] = A_ij_5;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_1 = C_i[0] * A_ij_3 + C_i[1] * A_ij_4 + C_i[2] * A_ij_5;
     /* h_i_in_j = h_i, axes of body j */
@@ -1374,24 +1370,19 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real g_i_in_j_1 = f_i_in_j_0 * h_i_in_j_2 - h_i_in_j_0 * f_i_in_j_2;
     /* h_j_cross_g_i_in_j = h_j x g_i, axes of body j */
     const jg_real h_j_cross_g_i_in_j_0 = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[36] = h_j_cross_g_i_in_j_0;
     /* v_4_in_j = lambda_3 h_j x g_i, axes of body j */
     const jg_real v_4_in_j_0 = lambda[3] * h_j_cross_g_i_in_j_0;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[43] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_2 = lambda[1] * A_ij_7 + lambda[0] * A_ij_6 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[47] = lambda_0_1_2_in_j_2;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[1] * h_i_in_j_2 - C_j[2] * h_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[42] = f_j_cross_h_i_in_j_0;
     /* v_2_in_j = lambda_4 f_j x h_i, axes of body j */
     const jg_real v_2_in_j_0 = lambda[4] * f_j_cross_h_i_in_j_0;
     /* g_j_cross_f_i_in_j = g_j x f_i, axes of body j */
     const jg_real g_j_cross_f_i_in_j_0 = C_j[4] * f_i_in_j_2 - C_j[5] * f_i_in_j_1;
-    jac_phi_q_t_lambda_lambda[48] = g_j_cross_f_i_in_j_0;
     /* v_3_in_j = lambda_5 g_j x f_i, axes of body j */
     const jg_real v_3_in_j_0 = lambda[5] * g_j_cross_f_i_in_j_0;
     /* v_5_in_j = s_j x lambda_0_1_2 + lambda_3 h_j x g_i + lambda_4 f_j x h_i + lambda_5 g_j x f_i, axes of ... */
@@ -1409,55 +1400,55 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t46 = t44 * f_i_in_j_0 + t41 * h_i_in_j_2 - (t37 * f_i_in_j_2 + t45 * h_i_in_j_0);
     const jg_real t47 = lambda[1] * t38 + lambda[2] * t39;
     const jg_real t48 = lambda[0] * A_j[6];
+    jac_phi_q_t_lambda_lambda[16] = A_ij_4;
+    jac_phi_q_t_lambda_lambda[27] = A_ij_5;
+    jac_phi_q_t_lambda_lambda[36] = h_j_cross_g_i_in_j_0;
+    jac_phi_q_t_lambda_geometry[43] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_geometry[47] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_lambda[42] = f_j_cross_h_i_in_j_0;
+    jac_phi_q_t_lambda_lambda[48] = g_j_cross_f_i_in_j_0;
     jac_phi_q_t_lambda_A_i[5] = t48;
     const jg_real t49 = s_j[1] * t48 + s_j[2] * t47 + lambda[4] * (C_j[1] * t44 + C_j[2] * t42) + lambda[5] *
         (C_j[4] * t45 + C_j[5] * t40) + lambda[3] * (C_j[7] * t43 - C_j[8] * t46);
-    jac_phi_q_t_lambda_A_i[6] = t49;
     const jg_real t50 = t45 * h_i_in_j_1 - f_i_in_j_2 * t42 - (t44 * f_i_in_j_1 - h_i_in_j_2 * t40);
     const jg_real t51 = lambda[0] * A_j[0];
-    jac_phi_q_t_lambda_A_i[3] = t51;
     const jg_real t52 = s_j[2] * t51 - s_j[0] * t48 + lambda[4] * (C_j[2] * t37 - C_j[0] * t44) + lambda[5] *
         (C_j[5] * t41 - C_j[3] * t45) + lambda[3] * (C_j[8] * t50 - C_j[6] * t43);
-    jac_phi_q_t_lambda_A_i[7] = t52;
     const jg_real g_i_in_j_0 = f_i_in_j_2 * h_i_in_j_1 - h_i_in_j_2 * f_i_in_j_1;
     const jg_real h_j_cross_g_i_in_j_2 = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[38] = h_j_cross_g_i_in_j_2;
     const jg_real v_4_in_j_2 = lambda[3] * h_j_cross_g_i_in_j_2;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[53] = lambda_0_1_2_in_j_0;
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     const jg_real f_j_cross_h_i_in_j_2 = C_j[0] * h_i_in_j_1 - C_j[1] * h_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[44] = f_j_cross_h_i_in_j_2;
     const jg_real v_2_in_j_2 = lambda[4] * f_j_cross_h_i_in_j_2;
     const jg_real g_j_cross_f_i_in_j_2 = C_j[3] * f_i_in_j_1 - C_j[4] * f_i_in_j_0;
-    jac_phi_q_t_lambda_lambda[50] = g_j_cross_f_i_in_j_2;
     const jg_real v_3_in_j_2 = lambda[5] * g_j_cross_f_i_in_j_2;
     const jg_real v_5_in_j_2 = s_j_cross_lambda_0_1_2_in_j_2 + v_2_in_j_2 + v_3_in_j_2 + v_4_in_j_2;
     const jg_real t63 = A_j[6] * v_5_in_j_2;
     const jg_real t64 = lambda[3] * (C_j[6] * t46 - C_j[7] * t50) - (s_j[1] * t51 + s_j[0] * t47 + lambda[4] *
         (C_j[1] * t37 + C_j[0] * t42) + lambda[5] * (C_j[4] * t41 + C_j[3] * t40));
+    jac_phi_q_t_lambda_A_i[6] = t49;
+    jac_phi_q_t_lambda_A_i[3] = t51;
+    jac_phi_q_t_lambda_A_i[7] = t52;
+    jac_phi_q_t_lambda_lambda[38] = h_j_cross_g_i_in_j_2;
+    jac_phi_q_t_lambda_geometry[53] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_lambda[44] = f_j_cross_h_i_in_j_2;
+    jac_phi_q_t_lambda_lambda[50] = g_j_cross_f_i_in_j_2;
     jac_phi_q_t_lambda_A_i[8] = t64;
-    jac_phi_q_t_lambda_A_i[0] = -(t63 + A_ij_6 * t64 + (t36 + A_ij_0 * t49 + A_ij_3 * t52));
     const jg_real h_j_cross_g_i_in_j_1 = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[37] = h_j_cross_g_i_in_j_1;
     const jg_real v_4_in_j_1 = lambda[3] * h_j_cross_g_i_in_j_1;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real f_j_cross_h_i_in_j_1 = C_j[2] * h_i_in_j_0 - C_j[0] * h_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[43] = f_j_cross_h_i_in_j_1;
     const jg_real v_2_in_j_1 = lambda[4] * f_j_cross_h_i_in_j_1;
     const jg_real g_j_cross_f_i_in_j_1 = C_j[5] * f_i_in_j_0 - C_j[3] * f_i_in_j_2;
-    jac_phi_q_t_lambda_lambda[49] = g_j_cross_f_i_in_j_1;
     const jg_real v_3_in_j_1 = lambda[5] * g_j_cross_f_i_in_j_1;
     const jg_real v_5_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_2_in_j_1 + v_3_in_j_1 + v_4_in_j_1;
     const jg_real t73 = t38 * v_5_in_j_1;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t75 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = t75 - (A_ij_4 * t52 - t73 + A_ij_1 * t49 + A_ij_7 * t64);
     const jg_real t76 = t39 * v_5_in_j_1;
     const jg_real t77 = lambda[1] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[2] = -(A_ij_5 * t52 - t76 + A_ij_2 * t49 + A_ij_8 * t64 + t77);
-    jac_phi_q_t_lambda_A_i[4] = -t47;
     const jg_real t78 = A_j[1] * v_5_in_j_0;
     const jg_real t79 = A_j[1] * C_i[6];
     const jg_real t80 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
@@ -1471,27 +1462,34 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t88 = t86 * f_i_in_j_0 + t83 * h_i_in_j_2 - (t79 * f_i_in_j_2 + t87 * h_i_in_j_0);
     const jg_real t89 = lambda[1] * t80 + lambda[2] * t81;
     const jg_real t90 = lambda[0] * A_j[7];
+    jac_phi_q_t_lambda_A_i[0] = -(t63 + A_ij_6 * t64 + (t36 + A_ij_0 * t49 + A_ij_3 * t52));
+    jac_phi_q_t_lambda_lambda[37] = h_j_cross_g_i_in_j_1;
+    jac_phi_q_t_lambda_lambda[43] = f_j_cross_h_i_in_j_1;
+    jac_phi_q_t_lambda_lambda[49] = g_j_cross_f_i_in_j_1;
+    jac_phi_q_t_lambda_A_i[1] = t75 - (A_ij_4 * t52 - t73 + A_ij_1 * t49 + A_ij_7 * t64);
+    jac_phi_q_t_lambda_A_i[2] = -(A_ij_5 * t52 - t76 + A_ij_2 * t49 + A_ij_8 * t64 + t77);
+    jac_phi_q_t_lambda_A_i[4] = -t47;
     jac_phi_q_t_lambda_A_i[14] = t90;
     const jg_real t91 = s_j[1] * t90 + s_j[2] * t89 + lambda[4] * (C_j[1] * t86 + C_j[2] * t84) + lambda[5] *
         (C_j[4] * t87 + C_j[5] * t82) + lambda[3] * (C_j[7] * t85 - C_j[8] * t88);
-    jac_phi_q_t_lambda_A_i[15] = t91;
     const jg_real t92 = t87 * h_i_in_j_1 - f_i_in_j_2 * t84 - (t86 * f_i_in_j_1 - h_i_in_j_2 * t82);
     const jg_real t93 = lambda[0] * A_j[1];
-    jac_phi_q_t_lambda_A_i[12] = t93;
     const jg_real t94 = s_j[2] * t93 - s_j[0] * t90 + lambda[4] * (C_j[2] * t79 - C_j[0] * t86) + lambda[5] *
         (C_j[5] * t83 - C_j[3] * t87) + lambda[3] * (C_j[8] * t92 - C_j[6] * t85);
-    jac_phi_q_t_lambda_A_i[16] = t94;
     const jg_real t95 = A_j[7] * v_5_in_j_2;
     const jg_real t96 = lambda[3] * (C_j[6] * t88 - C_j[7] * t92) - (s_j[1] * t93 + s_j[0] * t89 + lambda[4] *
         (C_j[1] * t79 + C_j[0] * t84) + lambda[5] * (C_j[4] * t83 + C_j[3] * t82));
-    jac_phi_q_t_lambda_A_i[17] = t96;
-    jac_phi_q_t_lambda_A_i[9] = -(t95 + A_ij_6 * t96 + (t78 + A_ij_0 * t91 + A_ij_3 * t94));
     const jg_real t97 = t80 * v_5_in_j_1;
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t99 = lambda[2] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[10] = t99 - (A_ij_4 * t94 - t97 + A_ij_1 * t91 + A_ij_7 * t96);
     const jg_real t100 = t81 * v_5_in_j_1;
     const jg_real t101 = lambda[1] * v_0_world_1;
+    jac_phi_q_t_lambda_A_i[15] = t91;
+    jac_phi_q_t_lambda_A_i[12] = t93;
+    jac_phi_q_t_lambda_A_i[16] = t94;
+    jac_phi_q_t_lambda_A_i[17] = t96;
+    jac_phi_q_t_lambda_A_i[9] = -(t95 + A_ij_6 * t96 + (t78 + A_ij_0 * t91 + A_ij_3 * t94));
+    jac_phi_q_t_lambda_A_i[10] = t99 - (A_ij_4 * t94 - t97 + A_ij_1 * t91 + A_ij_7 * t96);
     jac_phi_q_t_lambda_A_i[11] = -(A_ij_5 * t94 - t100 + A_ij_2 * t91 + A_ij_8 * t96 + t101);
     jac_phi_q_t_lambda_A_i[13] = -t89;
     const jg_real t102 = A_j[2] * v_5_in_j_0;
@@ -1507,29 +1505,28 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t112 = t110 * f_i_in_j_0 + t107 * h_i_in_j_2 - (t103 * f_i_in_j_2 + t111 * h_i_in_j_0);
     const jg_real t113 = lambda[1] * t104 + lambda[2] * t105;
     const jg_real t114 = lambda[0] * A_j[8];
-    jac_phi_q_t_lambda_A_i[23] = t114;
     const jg_real t115 = s_j[1] * t114 + s_j[2] * t113 + lambda[4] * (C_j[1] * t110 + C_j[2] * t108) + lambda[5] *
         (C_j[4] * t111 + C_j[5] * t106) + lambda[3] * (C_j[7] * t109 - C_j[8] * t112);
-    jac_phi_q_t_lambda_A_i[24] = t115;
     const jg_real t116 = t111 * h_i_in_j_1 - f_i_in_j_2 * t108 - (t110 * f_i_in_j_1 - h_i_in_j_2 * t106);
     const jg_real t117 = lambda[0] * A_j[2];
-    jac_phi_q_t_lambda_A_i[21] = t117;
     const jg_real t118 = s_j[2] * t117 - s_j[0] * t114 + lambda[4] * (C_j[2] * t103 - C_j[0] * t110) + lambda[5] *
         (C_j[5] * t107 - C_j[3] * t111) + lambda[3] * (C_j[8] * t116 - C_j[6] * t109);
-    jac_phi_q_t_lambda_A_i[25] = t118;
     const jg_real t119 = A_j[8] * v_5_in_j_2;
     const jg_real t120 = lambda[3] * (C_j[6] * t112 - C_j[7] * t116) - (s_j[1] * t117 + s_j[0] * t113 + lambda[4] *
         (C_j[1] * t103 + C_j[0] * t108) + lambda[5] * (C_j[4] * t107 + C_j[3] * t106));
-    jac_phi_q_t_lambda_A_i[26] = t120;
-    jac_phi_q_t_lambda_A_i[18] = -(t119 + A_ij_6 * t120 + (t102 + A_ij_0 * t115 + A_ij_3 * t118));
     const jg_real t121 = t104 * v_5_in_j_1;
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t123 = lambda[2] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[19] = t123 - (A_ij_4 * t118 - t121 + A_ij_1 * t115 + A_ij_7 * t120);
     const jg_real t124 = t105 * v_5_in_j_1;
     const jg_real t125 = lambda[1] * v_0_world_2;
+    jac_phi_q_t_lambda_A_i[23] = t114;
+    jac_phi_q_t_lambda_A_i[24] = t115;
+    jac_phi_q_t_lambda_A_i[21] = t117;
+    jac_phi_q_t_lambda_A_i[25] = t118;
+    jac_phi_q_t_lambda_A_i[26] = t120;
+    jac_phi_q_t_lambda_A_i[18] = -(t119 + A_ij_6 * t120 + (t102 + A_ij_0 * t115 + A_ij_3 * t118));
+    jac_phi_q_t_lambda_A_i[19] = t123 - (A_ij_4 * t118 - t121 + A_ij_1 * t115 + A_ij_7 * t120);
     jac_phi_q_t_lambda_A_i[20] = -(A_ij_5 * t118 - t124 + A_ij_2 * t115 + A_ij_8 * t120 + t125);
-    jac_phi_q_t_lambda_A_i[22] = -t113;
     const jg_real t126 = A_j[6] * C_i[1];
     const jg_real t127 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
     const jg_real t128 = C_i[6] * t38 - C_i[8] * t127;
@@ -1540,26 +1537,25 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t133 = A_j[0] * C_i[1];
     const jg_real t134 = t132 * f_i_in_j_1 + h_i_in_j_0 * t130 - (f_i_in_j_0 * t128 + t133 * h_i_in_j_1);
     const jg_real t135 = lambda[1] * A_j[0];
-    jac_phi_q_t_lambda_A_i[30] = t135;
     const jg_real t136 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[32] = t136;
     const jg_real t137 = s_j[2] * t135 - s_j[0] * t136 + lambda[4] * (C_j[2] * t132 - C_j[0] * t129) + lambda[5] *
         (C_j[5] * t133 - C_j[3] * t126) + lambda[3] * (C_j[8] * t131 - C_j[6] * t134);
-    jac_phi_q_t_lambda_A_i[34] = t137;
     const jg_real t138 = t129 * f_i_in_j_0 + t133 * h_i_in_j_2 - (t132 * f_i_in_j_2 + t126 * h_i_in_j_0);
     const jg_real t139 = lambda[0] * t38 - lambda[2] * t127;
-    jac_phi_q_t_lambda_A_i[31] = t139;
     const jg_real t140 = s_j[1] * t136 - s_j[2] * t139 + lambda[4] * (C_j[1] * t129 - C_j[2] * t128) + lambda[5] *
         (C_j[4] * t126 - C_j[5] * t130) + lambda[3] * (C_j[7] * t134 - C_j[8] * t138);
-    jac_phi_q_t_lambda_A_i[33] = t140;
     const jg_real t141 = s_j[0] * t139 - s_j[1] * t135 + lambda[4] * (C_j[0] * t128 - C_j[1] * t132) + lambda[5] *
         (C_j[3] * t130 - C_j[4] * t133) + lambda[3] * (C_j[6] * t138 - C_j[7] * t131);
+    jac_phi_q_t_lambda_A_i[22] = -t113;
+    jac_phi_q_t_lambda_A_i[30] = t135;
+    jac_phi_q_t_lambda_A_i[32] = t136;
+    jac_phi_q_t_lambda_A_i[34] = t137;
+    jac_phi_q_t_lambda_A_i[31] = t139;
+    jac_phi_q_t_lambda_A_i[33] = t140;
     jac_phi_q_t_lambda_A_i[35] = t141;
     jac_phi_q_t_lambda_A_i[27] = -(t73 + A_ij_3 * t137 + A_ij_0 * t140 + A_ij_6 * t141 + t75);
-    jac_phi_q_t_lambda_A_i[28] = -(t63 + A_ij_7 * t141 + (t36 + A_ij_1 * t140 + A_ij_4 * t137));
     const jg_real t142 = t127 * v_5_in_j_1;
     const jg_real t143 = lambda[0] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[29] = t143 - (A_ij_5 * t137 - t142 + A_ij_2 * t140 + A_ij_8 * t141);
     const jg_real t144 = A_j[7] * C_i[1];
     const jg_real t145 = A_j[7] * A_ij_0 - A_j[1] * A_ij_6;
     const jg_real t146 = C_i[6] * t80 - C_i[8] * t145;
@@ -1570,26 +1566,25 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t151 = A_j[1] * C_i[1];
     const jg_real t152 = t150 * f_i_in_j_1 + h_i_in_j_0 * t148 - (f_i_in_j_0 * t146 + t151 * h_i_in_j_1);
     const jg_real t153 = lambda[1] * A_j[1];
-    jac_phi_q_t_lambda_A_i[39] = t153;
     const jg_real t154 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[41] = t154;
     const jg_real t155 = s_j[2] * t153 - s_j[0] * t154 + lambda[4] * (C_j[2] * t150 - C_j[0] * t147) + lambda[5] *
         (C_j[5] * t151 - C_j[3] * t144) + lambda[3] * (C_j[8] * t149 - C_j[6] * t152);
-    jac_phi_q_t_lambda_A_i[43] = t155;
     const jg_real t156 = t147 * f_i_in_j_0 + t151 * h_i_in_j_2 - (t150 * f_i_in_j_2 + t144 * h_i_in_j_0);
     const jg_real t157 = lambda[0] * t80 - lambda[2] * t145;
-    jac_phi_q_t_lambda_A_i[40] = t157;
     const jg_real t158 = s_j[1] * t154 - s_j[2] * t157 + lambda[4] * (C_j[1] * t147 - C_j[2] * t146) + lambda[5] *
         (C_j[4] * t144 - C_j[5] * t148) + lambda[3] * (C_j[7] * t152 - C_j[8] * t156);
-    jac_phi_q_t_lambda_A_i[42] = t158;
     const jg_real t159 = s_j[0] * t157 - s_j[1] * t153 + lambda[4] * (C_j[0] * t146 - C_j[1] * t150) + lambda[5] *
         (C_j[3] * t148 - C_j[4] * t151) + lambda[3] * (C_j[6] * t156 - C_j[7] * t149);
+    jac_phi_q_t_lambda_A_i[28] = -(t63 + A_ij_7 * t141 + (t36 + A_ij_1 * t140 + A_ij_4 * t137));
+    jac_phi_q_t_lambda_A_i[29] = t143 - (A_ij_5 * t137 - t142 + A_ij_2 * t140 + A_ij_8 * t141);
+    jac_phi_q_t_lambda_A_i[39] = t153;
+    jac_phi_q_t_lambda_A_i[41] = t154;
+    jac_phi_q_t_lambda_A_i[43] = t155;
+    jac_phi_q_t_lambda_A_i[40] = t157;
+    jac_phi_q_t_lambda_A_i[42] = t158;
     jac_phi_q_t_lambda_A_i[44] = t159;
-    jac_phi_q_t_lambda_A_i[36] = -(t97 + A_ij_3 * t155 + A_ij_0 * t158 + A_ij_6 * t159 + t99);
-    jac_phi_q_t_lambda_A_i[37] = -(t95 + A_ij_7 * t159 + (t78 + A_ij_1 * t158 + A_ij_4 * t155));
     const jg_real t160 = t145 * v_5_in_j_1;
     const jg_real t161 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[38] = t161 - (A_ij_5 * t155 - t160 + A_ij_2 * t158 + A_ij_8 * t159);
     const jg_real t162 = A_j[8] * C_i[1];
     const jg_real t163 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
     const jg_real t164 = C_i[6] * t104 - C_i[8] * t163;
@@ -1600,26 +1595,25 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t169 = A_j[2] * C_i[1];
     const jg_real t170 = t168 * f_i_in_j_1 + h_i_in_j_0 * t166 - (f_i_in_j_0 * t164 + t169 * h_i_in_j_1);
     const jg_real t171 = lambda[1] * A_j[2];
-    jac_phi_q_t_lambda_A_i[48] = t171;
     const jg_real t172 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[50] = t172;
     const jg_real t173 = s_j[2] * t171 - s_j[0] * t172 + lambda[4] * (C_j[2] * t168 - C_j[0] * t165) + lambda[5] *
         (C_j[5] * t169 - C_j[3] * t162) + lambda[3] * (C_j[8] * t167 - C_j[6] * t170);
-    jac_phi_q_t_lambda_A_i[52] = t173;
     const jg_real t174 = t165 * f_i_in_j_0 + t169 * h_i_in_j_2 - (t168 * f_i_in_j_2 + t162 * h_i_in_j_0);
     const jg_real t175 = lambda[0] * t104 - lambda[2] * t163;
-    jac_phi_q_t_lambda_A_i[49] = t175;
     const jg_real t176 = s_j[1] * t172 - s_j[2] * t175 + lambda[4] * (C_j[1] * t165 - C_j[2] * t164) + lambda[5] *
         (C_j[4] * t162 - C_j[5] * t166) + lambda[3] * (C_j[7] * t170 - C_j[8] * t174);
+    jac_phi_q_t_lambda_A_i[36] = -(t97 + A_ij_3 * t155 + A_ij_0 * t158 + A_ij_6 * t159 + t99);
+    jac_phi_q_t_lambda_A_i[37] = -(t95 + A_ij_7 * t159 + (t78 + A_ij_1 * t158 + A_ij_4 * t155));
+    jac_phi_q_t_lambda_A_i[38] = t161 - (A_ij_5 * t155 - t160 + A_ij_2 * t158 + A_ij_8 * t159);
+    jac_phi_q_t_lambda_A_i[48] = t171;
+    jac_phi_q_t_lambda_A_i[50] = t172;
+    jac_phi_q_t_lambda_A_i[52] = t173;
+    jac_phi_q_t_lambda_A_i[49] = t175;
     jac_phi_q_t_lambda_A_i[51] = t176;
     const jg_real t177 = s_j[0] * t175 - s_j[1] * t171 + lambda[4] * (C_j[0] * t164 - C_j[1] * t168) + lambda[5] *
         (C_j[3] * t166 - C_j[4] * t169) + lambda[3] * (C_j[6] * t174 - C_j[7] * t167);
-    jac_phi_q_t_lambda_A_i[53] = t177;
-    jac_phi_q_t_lambda_A_i[45] = -(t121 + A_ij_3 * t173 + A_ij_0 * t176 + A_ij_6 * t177 + t123);
-    jac_phi_q_t_lambda_A_i[46] = -(t119 + A_ij_7 * t177 + (t102 + A_ij_1 * t176 + A_ij_4 * t173));
     const jg_real t178 = t163 * v_5_in_j_1;
     const jg_real t179 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[47] = t179 - (A_ij_5 * t173 - t178 + A_ij_2 * t176 + A_ij_8 * t177);
     const jg_real t180 = A_j[6] * C_i[2];
     const jg_real t181 = C_i[6] * t39 + C_i[7] * t127;
     const jg_real t182 = A_j[6] * C_i[8];
@@ -1629,24 +1623,23 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t186 = A_j[0] * C_i[2];
     const jg_real t187 = t185 * f_i_in_j_1 + h_i_in_j_0 * t183 - (f_i_in_j_0 * t181 + t186 * h_i_in_j_1);
     const jg_real t188 = lambda[2] * A_j[0];
-    jac_phi_q_t_lambda_A_i[57] = t188;
     const jg_real t189 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[59] = t189;
     const jg_real t190 = s_j[2] * t188 - s_j[0] * t189 + lambda[4] * (C_j[2] * t185 - C_j[0] * t182) + lambda[5] *
         (C_j[5] * t186 - C_j[3] * t180) + lambda[3] * (C_j[8] * t184 - C_j[6] * t187);
-    jac_phi_q_t_lambda_A_i[61] = t190;
     const jg_real t191 = t182 * f_i_in_j_0 + t186 * h_i_in_j_2 - (t185 * f_i_in_j_2 + t180 * h_i_in_j_0);
     const jg_real t192 = lambda[0] * t39 + lambda[1] * t127;
+    jac_phi_q_t_lambda_A_i[53] = t177;
+    jac_phi_q_t_lambda_A_i[45] = -(t121 + A_ij_3 * t173 + A_ij_0 * t176 + A_ij_6 * t177 + t123);
+    jac_phi_q_t_lambda_A_i[46] = -(t119 + A_ij_7 * t177 + (t102 + A_ij_1 * t176 + A_ij_4 * t173));
+    jac_phi_q_t_lambda_A_i[47] = t179 - (A_ij_5 * t173 - t178 + A_ij_2 * t176 + A_ij_8 * t177);
+    jac_phi_q_t_lambda_A_i[57] = t188;
+    jac_phi_q_t_lambda_A_i[59] = t189;
+    jac_phi_q_t_lambda_A_i[61] = t190;
     jac_phi_q_t_lambda_A_i[58] = t192;
     const jg_real t193 = s_j[1] * t189 - s_j[2] * t192 + lambda[4] * (C_j[1] * t182 - C_j[2] * t181) + lambda[5] *
         (C_j[4] * t180 - C_j[5] * t183) + lambda[3] * (C_j[7] * t187 - C_j[8] * t191);
-    jac_phi_q_t_lambda_A_i[60] = t193;
     const jg_real t194 = s_j[0] * t192 - s_j[1] * t188 + lambda[4] * (C_j[0] * t181 - C_j[1] * t185) + lambda[5] *
         (C_j[3] * t183 - C_j[4] * t186) + lambda[3] * (C_j[6] * t191 - C_j[7] * t184);
-    jac_phi_q_t_lambda_A_i[62] = t194;
-    jac_phi_q_t_lambda_A_i[54] = t77 - (t76 + A_ij_3 * t190 + A_ij_0 * t193 + A_ij_6 * t194);
-    jac_phi_q_t_lambda_A_i[55] = -(t142 + A_ij_4 * t190 + A_ij_1 * t193 + A_ij_7 * t194 + t143);
-    jac_phi_q_t_lambda_A_i[56] = -(t63 + A_ij_8 * t194 + (t36 + A_ij_2 * t193 + A_ij_5 * t190));
     const jg_real t195 = A_j[7] * C_i[2];
     const jg_real t196 = C_i[6] * t81 + C_i[7] * t145;
     const jg_real t197 = A_j[7] * C_i[8];
@@ -1656,24 +1649,23 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t201 = A_j[1] * C_i[2];
     const jg_real t202 = t200 * f_i_in_j_1 + h_i_in_j_0 * t198 - (f_i_in_j_0 * t196 + t201 * h_i_in_j_1);
     const jg_real t203 = lambda[2] * A_j[1];
-    jac_phi_q_t_lambda_A_i[66] = t203;
     const jg_real t204 = lambda[2] * A_j[7];
-    jac_phi_q_t_lambda_A_i[68] = t204;
     const jg_real t205 = s_j[2] * t203 - s_j[0] * t204 + lambda[4] * (C_j[2] * t200 - C_j[0] * t197) + lambda[5] *
         (C_j[5] * t201 - C_j[3] * t195) + lambda[3] * (C_j[8] * t199 - C_j[6] * t202);
+    jac_phi_q_t_lambda_A_i[60] = t193;
+    jac_phi_q_t_lambda_A_i[62] = t194;
+    jac_phi_q_t_lambda_A_i[54] = t77 - (t76 + A_ij_3 * t190 + A_ij_0 * t193 + A_ij_6 * t194);
+    jac_phi_q_t_lambda_A_i[55] = -(t142 + A_ij_4 * t190 + A_ij_1 * t193 + A_ij_7 * t194 + t143);
+    jac_phi_q_t_lambda_A_i[56] = -(t63 + A_ij_8 * t194 + (t36 + A_ij_2 * t193 + A_ij_5 * t190));
+    jac_phi_q_t_lambda_A_i[66] = t203;
+    jac_phi_q_t_lambda_A_i[68] = t204;
     jac_phi_q_t_lambda_A_i[70] = t205;
     const jg_real t206 = t197 * f_i_in_j_0 + t201 * h_i_in_j_2 - (t200 * f_i_in_j_2 + t195 * h_i_in_j_0);
     const jg_real t207 = lambda[0] * t81 + lambda[1] * t145;
-    jac_phi_q_t_lambda_A_i[67] = t207;
     const jg_real t208 = s_j[1] * t204 - s_j[2] * t207 + lambda[4] * (C_j[1] * t197 - C_j[2] * t196) + lambda[5] *
         (C_j[4] * t195 - C_j[5] * t198) + lambda[3] * (C_j[7] * t202 - C_j[8] * t206);
-    jac_phi_q_t_lambda_A_i[69] = t208;
     const jg_real t209 = s_j[0] * t207 - s_j[1] * t203 + lambda[4] * (C_j[0] * t196 - C_j[1] * t200) + lambda[5] *
         (C_j[3] * t198 - C_j[4] * t201) + lambda[3] * (C_j[6] * t206 - C_j[7] * t199);
-    jac_phi_q_t_lambda_A_i[71] = t209;
-    jac_phi_q_t_lambda_A_i[63] = t101 - (t100 + A_ij_3 * t205 + A_ij_0 * t208 + A_ij_6 * t209);
-    jac_phi_q_t_lambda_A_i[64] = -(t160 + A_ij_4 * t205 + A_ij_1 * t208 + A_ij_7 * t209 + t161);
-    jac_phi_q_t_lambda_A_i[65] = -(t95 + A_ij_8 * t209 + (t78 + A_ij_2 * t208 + A_ij_5 * t205));
     const jg_real t210 = A_j[8] * C_i[2];
     const jg_real t211 = C_i[6] * t105 + C_i[7] * t163;
     const jg_real t212 = A_j[8] * C_i[8];
@@ -1683,20 +1675,26 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t216 = A_j[2] * C_i[2];
     const jg_real t217 = t215 * f_i_in_j_1 + h_i_in_j_0 * t213 - (f_i_in_j_0 * t211 + t216 * h_i_in_j_1);
     const jg_real t218 = lambda[2] * A_j[2];
-    jac_phi_q_t_lambda_A_i[75] = t218;
     const jg_real t219 = lambda[2] * A_j[8];
+    jac_phi_q_t_lambda_A_i[67] = t207;
+    jac_phi_q_t_lambda_A_i[69] = t208;
+    jac_phi_q_t_lambda_A_i[71] = t209;
+    jac_phi_q_t_lambda_A_i[63] = t101 - (t100 + A_ij_3 * t205 + A_ij_0 * t208 + A_ij_6 * t209);
+    jac_phi_q_t_lambda_A_i[64] = -(t160 + A_ij_4 * t205 + A_ij_1 * t208 + A_ij_7 * t209 + t161);
+    jac_phi_q_t_lambda_A_i[65] = -(t95 + A_ij_8 * t209 + (t78 + A_ij_2 * t208 + A_ij_5 * t205));
+    jac_phi_q_t_lambda_A_i[75] = t218;
     jac_phi_q_t_lambda_A_i[77] = t219;
     const jg_real t220 = s_j[2] * t218 - s_j[0] * t219 + lambda[4] * (C_j[2] * t215 - C_j[0] * t212) + lambda[5] *
         (C_j[5] * t216 - C_j[3] * t210) + lambda[3] * (C_j[8] * t214 - C_j[6] * t217);
-    jac_phi_q_t_lambda_A_i[79] = t220;
     const jg_real t221 = t212 * f_i_in_j_0 + t216 * h_i_in_j_2 - (t215 * f_i_in_j_2 + t210 * h_i_in_j_0);
     const jg_real t222 = lambda[0] * t105 + lambda[1] * t163;
-    jac_phi_q_t_lambda_A_i[76] = t222;
     const jg_real t223 = s_j[1] * t219 - s_j[2] * t222 + lambda[4] * (C_j[1] * t212 - C_j[2] * t211) + lambda[5] *
         (C_j[4] * t210 - C_j[5] * t213) + lambda[3] * (C_j[7] * t217 - C_j[8] * t221);
-    jac_phi_q_t_lambda_A_i[78] = t223;
     const jg_real t224 = s_j[0] * t222 - s_j[1] * t218 + lambda[4] * (C_j[0] * t211 - C_j[1] * t215) + lambda[5] *
         (C_j[3] * t213 - C_j[4] * t216) + lambda[3] * (C_j[6] * t221 - C_j[7] * t214);
+    jac_phi_q_t_lambda_A_i[79] = t220;
+    jac_phi_q_t_lambda_A_i[76] = t222;
+    jac_phi_q_t_lambda_A_i[78] = t223;
     jac_phi_q_t_lambda_A_i[80] = t224;
     jac_phi_q_t_lambda_A_i[72] = t125 - (t124 + A_ij_3 * t220 + A_ij_0 * t223 + A_ij_6 * t224);
     jac_phi_q_t_lambda_A_i[73] = -(t178 + A_ij_4 * t220 + A_ij_1 * t223 + A_ij_7 * t224 + t179);
@@ -1722,28 +1720,26 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t234 = t226 + h_i_in_j_0 * t230 - (f_i_in_j_0 * t233 + t232);
     const jg_real t235 = t231 * h_i_in_j_2 - t225 * f_i_in_j_2;
     const jg_real t236 = lambda[0] * t227 + lambda[1] * t228 + lambda[2] * t229;
-    jac_phi_q_t_lambda_A_j[4] = t236;
     const jg_real t237 = lambda[3] * (C_j[7] * t234 - C_j[8] * t235) - (s_j[2] * t236 + C_j[2] * t233 * lambda[4] +
         C_j[5] * t230 * lambda[5]);
-    jac_phi_q_t_lambda_A_j[5] = t237;
     const jg_real t238 = f_i_in_j_2 * t233 - h_i_in_j_2 * t230;
     const jg_real t239 = lambda[1] * A_i[3] + lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t239;
-    jac_phi_q_t_lambda_A_j[28] = t239;
     const jg_real t240 = s_j[2] * t239 + C_j[2] * t225 * lambda[4] + C_j[5] * t231 * lambda[5] + lambda[3] * (C_j[8]
         * t238 - C_j[6] * t234);
-    jac_phi_q_t_lambda_A_j[6] = t240;
     const jg_real t241 = s_j[1] * t239;
     const jg_real t242 = C_j[1] * t225;
     const jg_real t243 = C_j[4] * t231;
     const jg_real t244 = s_j[0] * t236 - t241 + lambda[4] * (C_j[0] * t233 - t242) + lambda[5] * (C_j[3] * t230 -
         t243) + lambda[3] * (C_j[6] * t235 - C_j[7] * t238);
+    jac_phi_q_t_lambda_A_j[4] = t236;
+    jac_phi_q_t_lambda_A_j[5] = t237;
+    jac_phi_q_t_lambda_A_j[3] = t239;
+    jac_phi_q_t_lambda_A_j[28] = t239;
+    jac_phi_q_t_lambda_A_j[6] = t240;
     jac_phi_q_t_lambda_A_j[7] = t244;
     jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_5_in_j_0 + A_ij_0 * t237 + (t227 * v_5_in_j_1 + A_ij_3 * t240) + A_ij_6
         * t244);
     jac_phi_q_t_lambda_A_j[1] = -(A_i[3] * v_5_in_j_0 + A_ij_1 * t237 + (t228 * v_5_in_j_1 + A_ij_4 * t240) + A_ij_7
-        * t244);
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ij_2 * t237 + (t229 * v_5_in_j_1 + A_ij_5 * t240) + A_ij_8
         * t244);
     const jg_real t245 = A_i[4] * C_i[7] + A_i[1] * C_i[6] + A_i[7] * C_i[8];
     const jg_real t246 = t245 * f_i_in_j_1;
@@ -1757,29 +1753,27 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t254 = t246 + h_i_in_j_0 * t250 - (f_i_in_j_0 * t253 + t252);
     const jg_real t255 = t251 * h_i_in_j_2 - t245 * f_i_in_j_2;
     const jg_real t256 = lambda[0] * t247 + lambda[1] * t248 + lambda[2] * t249;
-    jac_phi_q_t_lambda_A_j[12] = t256;
     const jg_real t257 = lambda[3] * (C_j[7] * t254 - C_j[8] * t255) - (s_j[2] * t256 + C_j[2] * t253 * lambda[4] +
         C_j[5] * t250 * lambda[5]);
-    jac_phi_q_t_lambda_A_j[13] = t257;
     const jg_real t258 = f_i_in_j_2 * t253 - h_i_in_j_2 * t250;
     const jg_real t259 = lambda[1] * A_i[4] + lambda[0] * A_i[1] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[11] = t259;
-    jac_phi_q_t_lambda_A_j[36] = t259;
     const jg_real t260 = s_j[2] * t259 + C_j[2] * t245 * lambda[4] + C_j[5] * t251 * lambda[5] + lambda[3] * (C_j[8]
         * t258 - C_j[6] * t254);
-    jac_phi_q_t_lambda_A_j[14] = t260;
     const jg_real t261 = s_j[1] * t259;
     const jg_real t262 = C_j[1] * t245;
     const jg_real t263 = C_j[4] * t251;
     const jg_real t264 = s_j[0] * t256 - t261 + lambda[4] * (C_j[0] * t253 - t262) + lambda[5] * (C_j[3] * t250 -
         t263) + lambda[3] * (C_j[6] * t255 - C_j[7] * t258);
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_5_in_j_0 + A_ij_2 * t237 + (t229 * v_5_in_j_1 + A_ij_5 * t240) + A_ij_8
+        * t244);
+    jac_phi_q_t_lambda_A_j[12] = t256;
+    jac_phi_q_t_lambda_A_j[13] = t257;
+    jac_phi_q_t_lambda_A_j[11] = t259;
+    jac_phi_q_t_lambda_A_j[36] = t259;
+    jac_phi_q_t_lambda_A_j[14] = t260;
     jac_phi_q_t_lambda_A_j[15] = t264;
     jac_phi_q_t_lambda_A_j[8] = -(A_i[1] * v_5_in_j_0 + A_ij_0 * t257 + (t247 * v_5_in_j_1 + A_ij_3 * t260) + A_ij_6
         * t264);
-    jac_phi_q_t_lambda_A_j[9] = -(A_i[4] * v_5_in_j_0 + A_ij_1 * t257 + (t248 * v_5_in_j_1 + A_ij_4 * t260) + A_ij_7
-        * t264);
-    jac_phi_q_t_lambda_A_j[10] = -(A_i[7] * v_5_in_j_0 + A_ij_2 * t257 + (t249 * v_5_in_j_1 + A_ij_5 * t260) +
-        A_ij_8 * t264);
     const jg_real t265 = A_i[5] * C_i[7] + A_i[2] * C_i[6] + A_i[8] * C_i[8];
     const jg_real t266 = t265 * f_i_in_j_1;
     const jg_real t267 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
@@ -1792,29 +1786,27 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t274 = t266 + h_i_in_j_0 * t270 - (f_i_in_j_0 * t273 + t272);
     const jg_real t275 = t271 * h_i_in_j_2 - t265 * f_i_in_j_2;
     const jg_real t276 = lambda[0] * t267 + lambda[1] * t268 + lambda[2] * t269;
-    jac_phi_q_t_lambda_A_j[20] = t276;
     const jg_real t277 = lambda[3] * (C_j[7] * t274 - C_j[8] * t275) - (s_j[2] * t276 + C_j[2] * t273 * lambda[4] +
         C_j[5] * t270 * lambda[5]);
-    jac_phi_q_t_lambda_A_j[21] = t277;
     const jg_real t278 = f_i_in_j_2 * t273 - h_i_in_j_2 * t270;
     const jg_real t279 = lambda[1] * A_i[5] + lambda[0] * A_i[2] + lambda[2] * A_i[8];
-    jac_phi_q_t_lambda_A_j[19] = t279;
-    jac_phi_q_t_lambda_A_j[44] = t279;
     const jg_real t280 = s_j[2] * t279 + C_j[2] * t265 * lambda[4] + C_j[5] * t271 * lambda[5] + lambda[3] * (C_j[8]
         * t278 - C_j[6] * t274);
-    jac_phi_q_t_lambda_A_j[22] = t280;
     const jg_real t281 = s_j[1] * t279;
     const jg_real t282 = C_j[1] * t265;
     const jg_real t283 = C_j[4] * t271;
     const jg_real t284 = s_j[0] * t276 - t281 + lambda[4] * (C_j[0] * t273 - t282) + lambda[5] * (C_j[3] * t270 -
         t283) + lambda[3] * (C_j[6] * t275 - C_j[7] * t278);
+    jac_phi_q_t_lambda_A_j[9] = -(A_i[4] * v_5_in_j_0 + A_ij_1 * t257 + (t248 * v_5_in_j_1 + A_ij_4 * t260) + A_ij_7
+        * t264);
+    jac_phi_q_t_lambda_A_j[10] = -(A_i[7] * v_5_in_j_0 + A_ij_2 * t257 + (t249 * v_5_in_j_1 + A_ij_5 * t260) +
+        A_ij_8 * t264);
+    jac_phi_q_t_lambda_A_j[20] = t276;
+    jac_phi_q_t_lambda_A_j[21] = t277;
+    jac_phi_q_t_lambda_A_j[19] = t279;
+    jac_phi_q_t_lambda_A_j[44] = t279;
+    jac_phi_q_t_lambda_A_j[22] = t280;
     jac_phi_q_t_lambda_A_j[23] = t284;
-    jac_phi_q_t_lambda_A_j[16] = -(A_i[2] * v_5_in_j_0 + A_ij_0 * t277 + (t267 * v_5_in_j_1 + A_ij_3 * t280) +
-        A_ij_6 * t284);
-    jac_phi_q_t_lambda_A_j[17] = -(A_i[5] * v_5_in_j_0 + A_ij_1 * t277 + (t268 * v_5_in_j_1 + A_ij_4 * t280) +
-        A_ij_7 * t284);
-    jac_phi_q_t_lambda_A_j[18] = -(A_i[8] * v_5_in_j_0 + A_ij_2 * t277 + (t269 * v_5_in_j_1 + A_ij_5 * t280) +
-        A_ij_8 * t284);
     const jg_real t285 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
     const jg_real t286 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
     const jg_real t287 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
@@ -1823,22 +1815,24 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t290 = t232 + f_i_in_j_2 * t288 - (t226 + h_i_in_j_2 * t289);
     const jg_real t291 = t225 * f_i_in_j_0 - h_i_in_j_0 * t231;
     const jg_real t292 = lambda[0] * t285 + lambda[1] * t286 + lambda[2] * t287;
-    jac_phi_q_t_lambda_A_j[27] = t292;
     const jg_real t293 = s_j[0] * t292 + C_j[0] * t288 * lambda[4] + C_j[3] * t289 * lambda[5] + lambda[3] * (C_j[6]
         * t291 - C_j[7] * t290);
-    jac_phi_q_t_lambda_A_j[31] = t293;
     const jg_real t294 = h_i_in_j_0 * t289 - f_i_in_j_0 * t288;
     const jg_real t295 = lambda[3] * (C_j[8] * t290 - C_j[6] * t294) - (s_j[0] * t239 + C_j[0] * t225 * lambda[4] +
         C_j[3] * t231 * lambda[5]);
-    jac_phi_q_t_lambda_A_j[30] = t295;
     const jg_real t296 = t241 - s_j[2] * t292 + lambda[4] * (t242 - C_j[2] * t288) + lambda[5] * (t243 - C_j[5] *
         t289) + lambda[3] * (C_j[7] * t294 - C_j[8] * t291);
+    jac_phi_q_t_lambda_A_j[16] = -(A_i[2] * v_5_in_j_0 + A_ij_0 * t277 + (t267 * v_5_in_j_1 + A_ij_3 * t280) +
+        A_ij_6 * t284);
+    jac_phi_q_t_lambda_A_j[17] = -(A_i[5] * v_5_in_j_0 + A_ij_1 * t277 + (t268 * v_5_in_j_1 + A_ij_4 * t280) +
+        A_ij_7 * t284);
+    jac_phi_q_t_lambda_A_j[18] = -(A_i[8] * v_5_in_j_0 + A_ij_2 * t277 + (t269 * v_5_in_j_1 + A_ij_5 * t280) +
+        A_ij_8 * t284);
+    jac_phi_q_t_lambda_A_j[27] = t292;
+    jac_phi_q_t_lambda_A_j[31] = t293;
+    jac_phi_q_t_lambda_A_j[30] = t295;
     jac_phi_q_t_lambda_A_j[29] = t296;
     jac_phi_q_t_lambda_A_j[24] = -(A_i[0] * v_5_in_j_2 + A_ij_6 * t293 + (t285 * v_5_in_j_1 + A_ij_3 * t295 + A_ij_0
-        * t296));
-    jac_phi_q_t_lambda_A_j[25] = -(A_i[3] * v_5_in_j_2 + A_ij_7 * t293 + (t286 * v_5_in_j_1 + A_ij_4 * t295 + A_ij_1
-        * t296));
-    jac_phi_q_t_lambda_A_j[26] = -(A_i[6] * v_5_in_j_2 + A_ij_8 * t293 + (t287 * v_5_in_j_1 + A_ij_5 * t295 + A_ij_2
         * t296));
     const jg_real t297 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
     const jg_real t298 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
@@ -1848,22 +1842,24 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t302 = t252 + f_i_in_j_2 * t300 - (t246 + h_i_in_j_2 * t301);
     const jg_real t303 = t245 * f_i_in_j_0 - h_i_in_j_0 * t251;
     const jg_real t304 = lambda[0] * t297 + lambda[1] * t298 + lambda[2] * t299;
-    jac_phi_q_t_lambda_A_j[35] = t304;
     const jg_real t305 = s_j[0] * t304 + C_j[0] * t300 * lambda[4] + C_j[3] * t301 * lambda[5] + lambda[3] * (C_j[6]
         * t303 - C_j[7] * t302);
-    jac_phi_q_t_lambda_A_j[39] = t305;
     const jg_real t306 = h_i_in_j_0 * t301 - f_i_in_j_0 * t300;
     const jg_real t307 = lambda[3] * (C_j[8] * t302 - C_j[6] * t306) - (s_j[0] * t259 + C_j[0] * t245 * lambda[4] +
         C_j[3] * t251 * lambda[5]);
-    jac_phi_q_t_lambda_A_j[38] = t307;
     const jg_real t308 = t261 - s_j[2] * t304 + lambda[4] * (t262 - C_j[2] * t300) + lambda[5] * (t263 - C_j[5] *
         t301) + lambda[3] * (C_j[7] * t306 - C_j[8] * t303);
+    jac_phi_q_t_lambda_A_j[25] = -(A_i[3] * v_5_in_j_2 + A_ij_7 * t293 + (t286 * v_5_in_j_1 + A_ij_4 * t295 + A_ij_1
+        * t296));
+    jac_phi_q_t_lambda_A_j[26] = -(A_i[6] * v_5_in_j_2 + A_ij_8 * t293 + (t287 * v_5_in_j_1 + A_ij_5 * t295 + A_ij_2
+        * t296));
+    jac_phi_q_t_lambda_A_j[35] = t304;
+    jac_phi_q_t_lambda_A_j[39] = t305;
+    jac_phi_q_t_lambda_A_j[38] = t307;
     jac_phi_q_t_lambda_A_j[37] = t308;
     jac_phi_q_t_lambda_A_j[32] = -(A_i[1] * v_5_in_j_2 + A_ij_6 * t305 + (t297 * v_5_in_j_1 + A_ij_3 * t307 + A_ij_0
         * t308));
     jac_phi_q_t_lambda_A_j[33] = -(A_i[4] * v_5_in_j_2 + A_ij_7 * t305 + (t298 * v_5_in_j_1 + A_ij_4 * t307 + A_ij_1
-        * t308));
-    jac_phi_q_t_lambda_A_j[34] = -(A_i[7] * v_5_in_j_2 + A_ij_8 * t305 + (t299 * v_5_in_j_1 + A_ij_5 * t307 + A_ij_2
         * t308));
     const jg_real t309 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
     const jg_real t310 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
@@ -1873,16 +1869,18 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t314 = t272 + f_i_in_j_2 * t312 - (t266 + h_i_in_j_2 * t313);
     const jg_real t315 = t265 * f_i_in_j_0 - h_i_in_j_0 * t271;
     const jg_real t316 = lambda[0] * t309 + lambda[1] * t310 + lambda[2] * t311;
-    jac_phi_q_t_lambda_A_j[43] = t316;
     const jg_real t317 = s_j[0] * t316 + C_j[0] * t312 * lambda[4] + C_j[3] * t313 * lambda[5] + lambda[3] * (C_j[6]
         * t315 - C_j[7] * t314);
-    jac_phi_q_t_lambda_A_j[47] = t317;
     const jg_real t318 = h_i_in_j_0 * t313 - f_i_in_j_0 * t312;
     const jg_real t319 = lambda[3] * (C_j[8] * t314 - C_j[6] * t318) - (s_j[0] * t279 + C_j[0] * t265 * lambda[4] +
         C_j[3] * t271 * lambda[5]);
-    jac_phi_q_t_lambda_A_j[46] = t319;
     const jg_real t320 = t281 - s_j[2] * t316 + lambda[4] * (t282 - C_j[2] * t312) + lambda[5] * (t283 - C_j[5] *
         t313) + lambda[3] * (C_j[7] * t318 - C_j[8] * t315);
+    jac_phi_q_t_lambda_A_j[34] = -(A_i[7] * v_5_in_j_2 + A_ij_8 * t305 + (t299 * v_5_in_j_1 + A_ij_5 * t307 + A_ij_2
+        * t308));
+    jac_phi_q_t_lambda_A_j[43] = t316;
+    jac_phi_q_t_lambda_A_j[47] = t317;
+    jac_phi_q_t_lambda_A_j[46] = t319;
     jac_phi_q_t_lambda_A_j[45] = t320;
     jac_phi_q_t_lambda_A_j[40] = -(A_i[2] * v_5_in_j_2 + A_ij_6 * t317 + (t309 * v_5_in_j_1 + A_ij_3 * t319 + A_ij_0
         * t320));
@@ -1894,74 +1892,74 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t322 = A_ij_3 * h_i_in_j_0 - A_ij_0 * h_i_in_j_1;
     const jg_real t323 = lambda[5] * (C_j[5] * A_ij_0 - C_j[3] * A_ij_6) + lambda[3] * (C_j[8] * t321 - C_j[6] *
         t322);
-    jac_phi_q_t_lambda_geometry[4] = t323;
     const jg_real t324 = A_ij_0 * h_i_in_j_2 - A_ij_6 * h_i_in_j_0;
     const jg_real t325 = lambda[5] * (C_j[4] * A_ij_6 - C_j[5] * A_ij_3) + lambda[3] * (C_j[7] * t322 - C_j[8] *
         t324);
-    jac_phi_q_t_lambda_geometry[3] = t325;
     const jg_real t326 = lambda[5] * (C_j[3] * A_ij_3 - C_j[4] * A_ij_0) + lambda[3] * (C_j[6] * t324 - C_j[7] *
         t321);
-    jac_phi_q_t_lambda_geometry[5] = t326;
-    jac_phi_q_t_lambda_geometry[0] = -(A_ij_0 * t325 + A_ij_3 * t323 + A_ij_6 * t326);
-    jac_phi_q_t_lambda_geometry[1] = -(A_ij_1 * t325 + A_ij_4 * t323 + A_ij_7 * t326);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t325 + A_ij_5 * t323 + A_ij_8 * t326);
     const jg_real t327 = A_ij_7 * h_i_in_j_1 - A_ij_4 * h_i_in_j_2;
     const jg_real t328 = A_ij_4 * h_i_in_j_0 - A_ij_1 * h_i_in_j_1;
     const jg_real t329 = lambda[5] * (C_j[5] * A_ij_1 - C_j[3] * A_ij_7) + lambda[3] * (C_j[8] * t327 - C_j[6] *
         t328);
-    jac_phi_q_t_lambda_geometry[10] = t329;
     const jg_real t330 = A_ij_1 * h_i_in_j_2 - A_ij_7 * h_i_in_j_0;
     const jg_real t331 = lambda[5] * (C_j[4] * A_ij_7 - C_j[5] * A_ij_4) + lambda[3] * (C_j[7] * t328 - C_j[8] *
         t330);
+    jac_phi_q_t_lambda_geometry[4] = t323;
+    jac_phi_q_t_lambda_geometry[3] = t325;
+    jac_phi_q_t_lambda_geometry[5] = t326;
+    jac_phi_q_t_lambda_geometry[0] = -(A_ij_0 * t325 + A_ij_3 * t323 + A_ij_6 * t326);
+    jac_phi_q_t_lambda_geometry[1] = -(A_ij_1 * t325 + A_ij_4 * t323 + A_ij_7 * t326);
+    jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t325 + A_ij_5 * t323 + A_ij_8 * t326);
+    jac_phi_q_t_lambda_geometry[10] = t329;
     jac_phi_q_t_lambda_geometry[9] = t331;
     const jg_real t332 = lambda[5] * (C_j[3] * A_ij_4 - C_j[4] * A_ij_1) + lambda[3] * (C_j[6] * t330 - C_j[7] *
         t327);
-    jac_phi_q_t_lambda_geometry[11] = t332;
-    jac_phi_q_t_lambda_geometry[6] = -(A_ij_0 * t331 + A_ij_3 * t329 + A_ij_6 * t332);
-    jac_phi_q_t_lambda_geometry[7] = -(A_ij_1 * t331 + A_ij_4 * t329 + A_ij_7 * t332);
-    jac_phi_q_t_lambda_geometry[8] = -(A_ij_2 * t331 + A_ij_5 * t329 + A_ij_8 * t332);
     const jg_real t333 = A_ij_8 * h_i_in_j_1 - A_ij_5 * h_i_in_j_2;
     const jg_real t334 = A_ij_5 * h_i_in_j_0 - A_ij_2 * h_i_in_j_1;
     const jg_real t335 = lambda[5] * (C_j[5] * A_ij_2 - C_j[3] * A_ij_8) + lambda[3] * (C_j[8] * t333 - C_j[6] *
         t334);
-    jac_phi_q_t_lambda_geometry[16] = t335;
     const jg_real t336 = A_ij_2 * h_i_in_j_2 - A_ij_8 * h_i_in_j_0;
     const jg_real t337 = lambda[5] * (C_j[4] * A_ij_8 - C_j[5] * A_ij_5) + lambda[3] * (C_j[7] * t334 - C_j[8] *
         t336);
-    jac_phi_q_t_lambda_geometry[15] = t337;
     const jg_real t338 = lambda[5] * (C_j[3] * A_ij_5 - C_j[4] * A_ij_2) + lambda[3] * (C_j[6] * t336 - C_j[7] *
         t333);
+    jac_phi_q_t_lambda_geometry[11] = t332;
+    jac_phi_q_t_lambda_geometry[6] = -(A_ij_0 * t331 + A_ij_3 * t329 + A_ij_6 * t332);
+    jac_phi_q_t_lambda_geometry[7] = -(A_ij_1 * t331 + A_ij_4 * t329 + A_ij_7 * t332);
+    jac_phi_q_t_lambda_geometry[8] = -(A_ij_2 * t331 + A_ij_5 * t329 + A_ij_8 * t332);
+    jac_phi_q_t_lambda_geometry[16] = t335;
+    jac_phi_q_t_lambda_geometry[15] = t337;
     jac_phi_q_t_lambda_geometry[17] = t338;
     jac_phi_q_t_lambda_geometry[12] = -(A_ij_0 * t337 + A_ij_3 * t335 + A_ij_6 * t338);
-    jac_phi_q_t_lambda_geometry[13] = -(A_ij_1 * t337 + A_ij_4 * t335 + A_ij_7 * t338);
-    jac_phi_q_t_lambda_geometry[14] = -(A_ij_2 * t337 + A_ij_5 * t335 + A_ij_8 * t338);
     const jg_real t339 = A_ij_3 * f_i_in_j_2 - A_ij_6 * f_i_in_j_1;
     const jg_real t340 = A_ij_0 * f_i_in_j_1 - A_ij_3 * f_i_in_j_0;
     const jg_real t341 = lambda[4] * (C_j[2] * A_ij_0 - C_j[0] * A_ij_6) + lambda[3] * (C_j[8] * t339 - C_j[6] *
         t340);
-    jac_phi_q_t_lambda_geometry[22] = t341;
     const jg_real t342 = A_ij_6 * f_i_in_j_0 - A_ij_0 * f_i_in_j_2;
     const jg_real t343 = lambda[4] * (C_j[1] * A_ij_6 - C_j[2] * A_ij_3) + lambda[3] * (C_j[7] * t340 - C_j[8] *
         t342);
-    jac_phi_q_t_lambda_geometry[21] = t343;
     const jg_real t344 = lambda[4] * (C_j[0] * A_ij_3 - C_j[1] * A_ij_0) + lambda[3] * (C_j[6] * t342 - C_j[7] *
         t339);
+    jac_phi_q_t_lambda_geometry[13] = -(A_ij_1 * t337 + A_ij_4 * t335 + A_ij_7 * t338);
+    jac_phi_q_t_lambda_geometry[14] = -(A_ij_2 * t337 + A_ij_5 * t335 + A_ij_8 * t338);
+    jac_phi_q_t_lambda_geometry[22] = t341;
+    jac_phi_q_t_lambda_geometry[21] = t343;
     jac_phi_q_t_lambda_geometry[23] = t344;
     jac_phi_q_t_lambda_geometry[18] = -(A_ij_0 * t343 + A_ij_3 * t341 + A_ij_6 * t344);
     jac_phi_q_t_lambda_geometry[19] = -(A_ij_1 * t343 + A_ij_4 * t341 + A_ij_7 * t344);
     jac_phi_q_t_lambda_geometry[20] = -(A_ij_2 * t343 + A_ij_5 * t341 + A_ij_8 * t344);
-    jac_phi_q_t_lambda_geometry[24] = -lambda[0];
     const jg_real t345 = A_ij_4 * f_i_in_j_2 - A_ij_7 * f_i_in_j_1;
     const jg_real t346 = A_ij_1 * f_i_in_j_1 - A_ij_4 * f_i_in_j_0;
     const jg_real t347 = lambda[4] * (C_j[2] * A_ij_1 - C_j[0] * A_ij_7) + lambda[3] * (C_j[8] * t345 - C_j[6] *
         t346);
-    jac_phi_q_t_lambda_geometry[29] = t347;
     const jg_real t348 = A_ij_7 * f_i_in_j_0 - A_ij_1 * f_i_in_j_2;
     const jg_real t349 = lambda[4] * (C_j[1] * A_ij_7 - C_j[2] * A_ij_4) + lambda[3] * (C_j[7] * t346 - C_j[8] *
         t348);
-    jac_phi_q_t_lambda_geometry[28] = t349;
     const jg_real t350 = lambda[4] * (C_j[0] * A_ij_4 - C_j[1] * A_ij_1) + lambda[3] * (C_j[6] * t348 - C_j[7] *
         t345);
+    jac_phi_q_t_lambda_geometry[24] = -lambda[0];
+    jac_phi_q_t_lambda_geometry[29] = t347;
+    jac_phi_q_t_lambda_geometry[28] = t349;
     jac_phi_q_t_lambda_geometry[30] = t350;
     jac_phi_q_t_lambda_geometry[25] = -(A_ij_0 * t349 + A_ij_3 * t347 + A_ij_6 * t350);
     jac_phi_q_t_lambda_geometry[26] = -(A_ij_1 * t349 + A_ij_4 * t347 + A_ij_7 * t350);
@@ -1971,13 +1969,13 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     const jg_real t352 = A_ij_2 * f_i_in_j_1 - A_ij_5 * f_i_in_j_0;
     const jg_real t353 = lambda[4] * (C_j[2] * A_ij_2 - C_j[0] * A_ij_8) + lambda[3] * (C_j[8] * t351 - C_j[6] *
         t352);
-    jac_phi_q_t_lambda_geometry[36] = t353;
     const jg_real t354 = A_ij_8 * f_i_in_j_0 - A_ij_2 * f_i_in_j_2;
     const jg_real t355 = lambda[4] * (C_j[1] * A_ij_8 - C_j[2] * A_ij_5) + lambda[3] * (C_j[7] * t352 - C_j[8] *
         t354);
-    jac_phi_q_t_lambda_geometry[35] = t355;
     const jg_real t356 = lambda[4] * (C_j[0] * A_ij_5 - C_j[1] * A_ij_2) + lambda[3] * (C_j[6] * t354 - C_j[7] *
         t351);
+    jac_phi_q_t_lambda_geometry[36] = t353;
+    jac_phi_q_t_lambda_geometry[35] = t355;
     jac_phi_q_t_lambda_geometry[37] = t356;
     jac_phi_q_t_lambda_geometry[32] = -(A_ij_0 * t355 + A_ij_3 * t353 + A_ij_6 * t356);
     jac_phi_q_t_lambda_geometry[33] = -(A_ij_1 * t355 + A_ij_4 * t353 + A_ij_7 * t356);
@@ -1992,18 +1990,18 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[46] = A_ij_8 * lambda_0_1_2_in_j_0 - A_ij_2 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[48] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[49] = A_ij_0 * lambda_0_1_2_in_j_1 - A_ij_3 * lambda_0_1_2_in_j_0;
+    const jg_real t357 = lambda[4] * h_i_in_j_1;
+    const jg_real t358 = lambda[4] * h_i_in_j_2;
     jac_phi_q_t_lambda_geometry[50] = A_ij_1 * lambda_0_1_2_in_j_1 - A_ij_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[51] = A_ij_2 * lambda_0_1_2_in_j_1 - A_ij_5 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[52] = -lambda_0_1_2_in_j_1;
-    const jg_real t357 = lambda[4] * h_i_in_j_1;
     jac_phi_q_t_lambda_geometry[58] = t357;
-    const jg_real t358 = lambda[4] * h_i_in_j_2;
     jac_phi_q_t_lambda_geometry[62] = t358;
     jac_phi_q_t_lambda_geometry[54] = A_ij_3 * t358 - A_ij_6 * t357;
     jac_phi_q_t_lambda_geometry[55] = A_ij_4 * t358 - A_ij_7 * t357;
     jac_phi_q_t_lambda_geometry[56] = A_ij_5 * t358 - A_ij_8 * t357;
-    jac_phi_q_t_lambda_geometry[57] = -t358;
     const jg_real t359 = lambda[4] * h_i_in_j_0;
+    jac_phi_q_t_lambda_geometry[57] = -t358;
     jac_phi_q_t_lambda_geometry[68] = t359;
     jac_phi_q_t_lambda_geometry[59] = A_ij_6 * t359 - A_ij_0 * t358;
     jac_phi_q_t_lambda_geometry[60] = A_ij_7 * t359 - A_ij_1 * t358;
@@ -2011,11 +2009,11 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[63] = -t359;
     jac_phi_q_t_lambda_geometry[64] = A_ij_0 * t357 - A_ij_3 * t359;
     jac_phi_q_t_lambda_geometry[65] = A_ij_1 * t357 - A_ij_4 * t359;
+    const jg_real t360 = lambda[5] * f_i_in_j_1;
+    const jg_real t361 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[66] = A_ij_2 * t357 - A_ij_5 * t359;
     jac_phi_q_t_lambda_geometry[67] = -t357;
-    const jg_real t360 = lambda[5] * f_i_in_j_1;
     jac_phi_q_t_lambda_geometry[73] = t360;
-    const jg_real t361 = lambda[5] * f_i_in_j_2;
     jac_phi_q_t_lambda_geometry[77] = t361;
     jac_phi_q_t_lambda_geometry[69] = A_ij_3 * t361 - A_ij_6 * t360;
     jac_phi_q_t_lambda_geometry[70] = A_ij_4 * t361 - A_ij_7 * t360;
@@ -2030,16 +2028,16 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[79] = A_ij_0 * t360 - A_ij_3 * t362;
     jac_phi_q_t_lambda_geometry[80] = A_ij_1 * t360 - A_ij_4 * t362;
     jac_phi_q_t_lambda_geometry[81] = A_ij_2 * t360 - A_ij_5 * t362;
-    jac_phi_q_t_lambda_geometry[82] = -t360;
     const jg_real t363 = lambda[3] * g_i_in_j_2;
-    jac_phi_q_t_lambda_geometry[92] = t363;
     const jg_real t364 = lambda[3] * g_i_in_j_1;
+    const jg_real t365 = lambda[3] * g_i_in_j_0;
+    jac_phi_q_t_lambda_geometry[82] = -t360;
+    jac_phi_q_t_lambda_geometry[92] = t363;
     jac_phi_q_t_lambda_geometry[88] = t364;
     jac_phi_q_t_lambda_geometry[84] = A_ij_3 * t363 - A_ij_6 * t364;
     jac_phi_q_t_lambda_geometry[85] = A_ij_4 * t363 - A_ij_7 * t364;
     jac_phi_q_t_lambda_geometry[86] = A_ij_5 * t363 - A_ij_8 * t364;
     jac_phi_q_t_lambda_geometry[87] = -t363;
-    const jg_real t365 = lambda[3] * g_i_in_j_0;
     jac_phi_q_t_lambda_geometry[98] = t365;
     jac_phi_q_t_lambda_geometry[89] = A_ij_6 * t365 - A_ij_0 * t363;
     jac_phi_q_t_lambda_geometry[90] = A_ij_7 * t365 - A_ij_1 * t363;
@@ -2049,38 +2047,38 @@ static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *J
     jac_phi_q_t_lambda_geometry[95] = A_ij_1 * t364 - A_ij_4 * t365;
     jac_phi_q_t_lambda_geometry[96] = A_ij_2 * t364 - A_ij_5 * t365;
     jac_phi_q_t_lambda_geometry[97] = -t364;
+    const jg_real t366 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    const jg_real t367 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    const jg_real t368 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[11] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[22] = JG_REAL(-1.0);
-    const jg_real t366 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
     jac_phi_q_t_lambda_lambda[7] = t366;
-    const jg_real t367 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     jac_phi_q_t_lambda_lambda[8] = t367;
-    const jg_real t368 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_t_lambda_lambda[9] = t368;
     jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t366 + A_ij_3 * t367 + A_ij_6 * t368);
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t366 + A_ij_4 * t367 + A_ij_7 * t368 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
+    const jg_real t371 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    const jg_real t372 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    const jg_real t373 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ij_2 * t366 + A_ij_5 * t367 + A_ij_8 * t368);
     jac_phi_q_t_lambda_lambda[10] = -C_i[6];
-    const jg_real t371 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
     jac_phi_q_t_lambda_lambda[18] = t371;
-    const jg_real t372 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
     jac_phi_q_t_lambda_lambda[19] = t372;
-    const jg_real t373 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     jac_phi_q_t_lambda_lambda[20] = t373;
     jac_phi_q_t_lambda_lambda[12] = v_0_in_i_2 - (A_ij_0 * t371 + A_ij_3 * t372 + A_ij_6 * t373);
     jac_phi_q_t_lambda_lambda[13] = -(A_ij_1 * t371 + A_ij_4 * t372 + A_ij_7 * t373);
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[14] = -(A_ij_2 * t371 + A_ij_5 * t372 + A_ij_8 * t373 + v_0_in_i_0);
-    jac_phi_q_t_lambda_lambda[21] = -C_i[7];
     const jg_real t375 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    jac_phi_q_t_lambda_lambda[29] = t375;
     const jg_real t376 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    jac_phi_q_t_lambda_lambda[30] = t376;
     const jg_real t377 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    jac_phi_q_t_lambda_lambda[21] = -C_i[7];
+    jac_phi_q_t_lambda_lambda[29] = t375;
+    jac_phi_q_t_lambda_lambda[30] = t376;
     jac_phi_q_t_lambda_lambda[31] = t377;
     jac_phi_q_t_lambda_lambda[23] = -(A_ij_0 * t375 + A_ij_3 * t376 + A_ij_6 * t377 + v_0_in_i_1);
     jac_phi_q_t_lambda_lambda[24] = v_0_in_i_0 - (A_ij_1 * t375 + A_ij_4 * t376 + A_ij_7 * t377);

@@ -29,10 +29,10 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
+    const jg_real t0 = -s_i[0];
     jac_phi_r_i[0] = JG_REAL(-1.0);
     jac_phi_r_i[1] = JG_REAL(-1.0);
     jac_phi_r_i[2] = JG_REAL(-1.0);
-    const jg_real t0 = -s_i[0];
     jac_phi_A_i[0] = t0;
     jac_phi_A_i[2] = t0;
     jac_phi_A_i[4] = t0;
@@ -46,9 +46,9 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_A_i[3] = A_j[1] * C_i[6] * C_j[6] + A_j[4] * C_i[6] * C_j[7] + A_j[7] * C_i[6] * C_j[8];
     jac_phi_geometry[14] = A_j[2];
     jac_phi_geometry[17] = A_j[5];
+    const jg_real t1 = -s_i[1];
     jac_phi_geometry[20] = A_j[8];
     jac_phi_A_i[5] = A_j[2] * C_i[6] * C_j[6] + A_j[5] * C_i[6] * C_j[7] + A_j[8] * C_i[6] * C_j[8];
-    const jg_real t1 = -s_i[1];
     jac_phi_A_i[6] = t1;
     jac_phi_A_i[8] = t1;
     jac_phi_A_i[10] = t1;
@@ -65,15 +65,15 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_r_j[0] = JG_REAL(1.0);
     jac_phi_r_j[1] = JG_REAL(1.0);
     jac_phi_r_j[2] = JG_REAL(1.0);
+    /* h_i_world = h_i, world axes */
+    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_A_j[0] = s_j[0];
     jac_phi_A_j[2] = s_j[0];
     jac_phi_A_j[4] = s_j[0];
-    /* h_i_world = h_i, world axes */
-    const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     jac_phi_A_j[1] = C_j[6] * h_i_world_0;
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     jac_phi_A_j[3] = C_j[6] * h_i_world_1;
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_A_j[5] = C_j[6] * h_i_world_2;
     jac_phi_A_j[6] = s_j[1];
     jac_phi_A_j[8] = s_j[1];
@@ -94,6 +94,10 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[4] = -A_i[4];
     jac_phi_geometry[5] = -A_i[5];
     jac_phi_geometry[6] = -A_i[6];
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
+    const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     jac_phi_geometry[7] = -A_i[7];
     jac_phi_geometry[8] = -A_i[8];
     jac_phi_geometry[9] = C_j[6] * (A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2]) + C_j[7] * (A_i[0] * A_j[3]
@@ -104,12 +108,8 @@ static void jg_universal_conventional_phi_jacobian(const jg_real *JG_RESTRICT A_
     jac_phi_geometry[11] = C_j[6] * (A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2]) + C_j[7] * (A_i[6] *
         A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5]) + C_j[8] * (A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] *
         A_j[8]);
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     jac_phi_geometry[21] = h_i_in_j_0;
-    const jg_real h_i_in_j_1 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     jac_phi_geometry[22] = h_i_in_j_1;
-    const jg_real h_i_in_j_2 = A_j[6] * h_i_world_0 + A_j[7] * h_i_world_1 + A_j[8] * h_i_world_2;
     jac_phi_geometry[23] = h_i_in_j_2;
 }
 
@@ -126,9 +126,6 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real *const omega_j = velocity + 9;
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
     const jg_real s_i_cross_omega_i_in_i_0 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    jac_phi_q_v_A_i[0] = s_i_cross_omega_i_in_i_0;
-    jac_phi_q_v_A_i[2] = s_i_cross_omega_i_in_i_0;
-    jac_phi_q_v_A_i[4] = s_i_cross_omega_i_in_i_0;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* h_j_world = h_j, world axes */
@@ -142,95 +139,98 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     /* omega_j_world = omega_j, world axes */
     const jg_real omega_j_world_2 = omega_j[0] * A_j[2] + omega_j[1] * A_j[5] + omega_j[2] * A_j[8];
     const jg_real omega_j_world_1 = omega_j[0] * A_j[1] + omega_j[1] * A_j[4] + omega_j[2] * A_j[7];
-    jac_phi_q_v_A_i[1] = omega_i[0] * (h_i_cross_h_j_world_0 - A_i[1] * t6 + A_i[2] * t7) + omega_i[1] * (A_i[5] *
-        t7 - A_i[4] * t6) + omega_i[2] * (A_i[8] * t7 - A_i[7] * t6) - (t7 * omega_j_world_2 - t6 *
-        omega_j_world_1);
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real h_i_cross_h_j_world_1 = h_i_world_2 * h_j_world_0 - h_j_world_2 * h_i_world_0;
     const jg_real t13 = C_i[6] * h_j_world_0;
     const jg_real omega_j_world_0 = A_j[0] * omega_j[0] + omega_j[1] * A_j[3] + omega_j[2] * A_j[6];
-    jac_phi_q_v_A_i[3] = omega_i[0] * (A_i[0] * t6 + h_i_cross_h_j_world_1 - A_i[2] * t13) + omega_i[1] * (A_i[3] *
+    const jg_real h_i_cross_h_j_world_2 = h_j_world_1 * h_i_world_0 - h_i_world_1 * h_j_world_0;
+    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - omega_i[2] * s_i[0];
+    jac_phi_q_v_A_i[0] = s_i_cross_omega_i_in_i_0;
+    jac_phi_q_v_A_i[2] = s_i_cross_omega_i_in_i_0;
+    jac_phi_q_v_A_i[4] = s_i_cross_omega_i_in_i_0;
+    jac_phi_q_v_A_i[1] = omega_i[0] * (h_i_cross_h_j_world_0 - A_i[1] * t6 + A_i[2] * t7) + omega_i[1] * (A_i[5] *
+        t7 - A_i[4] * t6) + omega_i[2] * (A_i[8] * t7 - A_i[7] * t6) - (t7 * omega_j_world_2 - t6 *
+        omega_j_world_1);
+    jac_phi_q_v_A_i[3] = omega_i[0] * (h_i_cross_h_j_world_1 + A_i[0] * t6 - A_i[2] * t13) + omega_i[1] * (A_i[3] *
         t6 - A_i[5] * t13) + omega_i[2] * (A_i[6] * t6 - A_i[8] * t13) - (t6 * omega_j_world_0 - t13 *
         omega_j_world_2);
-    const jg_real h_i_cross_h_j_world_2 = h_j_world_1 * h_i_world_0 - h_i_world_1 * h_j_world_0;
     jac_phi_q_v_A_i[5] = omega_i[0] * (A_i[1] * t13 - A_i[0] * t7 + h_i_cross_h_j_world_2) + omega_i[1] * (A_i[4] *
         t13 - A_i[3] * t7) + omega_i[2] * (A_i[7] * t13 - A_i[6] * t7) - (t13 * omega_j_world_1 - t7 *
         omega_j_world_0);
-    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - omega_i[2] * s_i[0];
     jac_phi_q_v_A_i[6] = s_i_cross_omega_i_in_i_1;
     jac_phi_q_v_A_i[8] = s_i_cross_omega_i_in_i_1;
     jac_phi_q_v_A_i[10] = s_i_cross_omega_i_in_i_1;
     const jg_real t17 = C_i[7] * h_j_world_2;
     const jg_real t18 = C_i[7] * h_j_world_1;
+    const jg_real t19 = C_i[7] * h_j_world_0;
+    const jg_real s_i_cross_omega_i_in_i_2 = omega_i[1] * s_i[0] - s_i[1] * omega_i[0];
+    const jg_real t21 = C_i[8] * h_j_world_2;
+    const jg_real t22 = C_i[8] * h_j_world_1;
+    const jg_real t23 = C_i[8] * h_j_world_0;
     jac_phi_q_v_A_i[7] = omega_i[0] * (A_i[2] * t18 - A_i[1] * t17) + omega_i[1] * (h_i_cross_h_j_world_0 - A_i[4] *
         t17 + A_i[5] * t18) + omega_i[2] * (A_i[8] * t18 - A_i[7] * t17) - (t18 * omega_j_world_2 - t17 *
         omega_j_world_1);
-    const jg_real t19 = C_i[7] * h_j_world_0;
-    jac_phi_q_v_A_i[9] = omega_i[0] * (A_i[0] * t17 - A_i[2] * t19) + omega_i[1] * (A_i[3] * t17 +
-        h_i_cross_h_j_world_1 - A_i[5] * t19) + omega_i[2] * (A_i[6] * t17 - A_i[8] * t19) - (t17 * omega_j_world_0
-        - t19 * omega_j_world_2);
+    jac_phi_q_v_A_i[9] = omega_i[0] * (A_i[0] * t17 - A_i[2] * t19) + omega_i[1] * (h_i_cross_h_j_world_1 + A_i[3] *
+        t17 - A_i[5] * t19) + omega_i[2] * (A_i[6] * t17 - A_i[8] * t19) - (t17 * omega_j_world_0 - t19 *
+        omega_j_world_2);
     jac_phi_q_v_A_i[11] = omega_i[0] * (A_i[1] * t19 - A_i[0] * t18) + omega_i[1] * (A_i[4] * t19 - A_i[3] * t18 +
         h_i_cross_h_j_world_2) + omega_i[2] * (A_i[7] * t19 - A_i[6] * t18) - (t19 * omega_j_world_1 - t18 *
         omega_j_world_0);
-    const jg_real s_i_cross_omega_i_in_i_2 = omega_i[1] * s_i[0] - s_i[1] * omega_i[0];
     jac_phi_q_v_A_i[12] = s_i_cross_omega_i_in_i_2;
     jac_phi_q_v_A_i[14] = s_i_cross_omega_i_in_i_2;
     jac_phi_q_v_A_i[16] = s_i_cross_omega_i_in_i_2;
-    const jg_real t21 = C_i[8] * h_j_world_2;
-    const jg_real t22 = C_i[8] * h_j_world_1;
     jac_phi_q_v_A_i[13] = omega_i[0] * (A_i[2] * t22 - A_i[1] * t21) + omega_i[1] * (A_i[5] * t22 - A_i[4] * t21) +
         omega_i[2] * (h_i_cross_h_j_world_0 - A_i[7] * t21 + A_i[8] * t22) - (t22 * omega_j_world_2 - t21 *
         omega_j_world_1);
-    const jg_real t23 = C_i[8] * h_j_world_0;
     jac_phi_q_v_A_i[15] = omega_i[0] * (A_i[0] * t21 - A_i[2] * t23) + omega_i[1] * (A_i[3] * t21 - A_i[5] * t23) +
-        omega_i[2] * (A_i[6] * t21 + h_i_cross_h_j_world_1 - A_i[8] * t23) - (t21 * omega_j_world_0 - t23 *
+        omega_i[2] * (h_i_cross_h_j_world_1 + A_i[6] * t21 - A_i[8] * t23) - (t21 * omega_j_world_0 - t23 *
         omega_j_world_2);
+    const jg_real t24 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
+    const jg_real t25 = C_j[6] * h_i_world_2;
+    const jg_real t26 = C_j[6] * h_i_world_1;
+    const jg_real t27 = C_j[6] * h_i_world_0;
+    const jg_real t28 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
     jac_phi_q_v_A_i[17] = omega_i[0] * (A_i[1] * t23 - A_i[0] * t22) + omega_i[1] * (A_i[4] * t23 - A_i[3] * t22) +
         omega_i[2] * (A_i[7] * t23 - A_i[6] * t22 + h_i_cross_h_j_world_2) - (t23 * omega_j_world_1 - t22 *
         omega_j_world_0);
-    const jg_real t24 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     jac_phi_q_v_A_j[0] = t24;
     jac_phi_q_v_A_j[2] = t24;
     jac_phi_q_v_A_j[4] = t24;
-    const jg_real t25 = C_j[6] * h_i_world_2;
-    const jg_real t26 = C_j[6] * h_i_world_1;
     jac_phi_q_v_A_j[1] = omega_i[0] * (A_i[1] * t25 - A_i[2] * t26) + omega_i[1] * (A_i[4] * t25 - A_i[5] * t26) +
         omega_i[2] * (A_i[7] * t25 - A_i[8] * t26) - (omega_j[0] * h_i_cross_h_j_world_0 + t25 * omega_j_world_1 -
         t26 * omega_j_world_2);
-    const jg_real t27 = C_j[6] * h_i_world_0;
     jac_phi_q_v_A_j[3] = omega_i[0] * (A_i[2] * t27 - A_i[0] * t25) + omega_i[1] * (A_i[5] * t27 - A_i[3] * t25) +
         omega_i[2] * (A_i[8] * t27 - A_i[6] * t25) - (omega_j[0] * h_i_cross_h_j_world_1 - t25 * omega_j_world_0 +
         t27 * omega_j_world_2);
     jac_phi_q_v_A_j[5] = omega_i[0] * (A_i[0] * t26 - A_i[1] * t27) + omega_i[1] * (A_i[3] * t26 - A_i[4] * t27) +
         omega_i[2] * (A_i[6] * t26 - A_i[7] * t27) - (t26 * omega_j_world_0 - t27 * omega_j_world_1 + omega_j[0] *
         h_i_cross_h_j_world_2);
-    const jg_real t28 = omega_j[2] * s_j[0] - s_j[2] * omega_j[0];
     jac_phi_q_v_A_j[6] = t28;
     jac_phi_q_v_A_j[8] = t28;
     jac_phi_q_v_A_j[10] = t28;
     const jg_real t29 = C_j[7] * h_i_world_2;
     const jg_real t30 = C_j[7] * h_i_world_1;
+    const jg_real t31 = C_j[7] * h_i_world_0;
+    const jg_real t32 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
+    const jg_real t33 = C_j[8] * h_i_world_2;
+    const jg_real t34 = C_j[8] * h_i_world_1;
+    const jg_real t35 = C_j[8] * h_i_world_0;
     jac_phi_q_v_A_j[7] = omega_i[0] * (A_i[1] * t29 - A_i[2] * t30) + omega_i[1] * (A_i[4] * t29 - A_i[5] * t30) +
         omega_i[2] * (A_i[7] * t29 - A_i[8] * t30) - (omega_j[1] * h_i_cross_h_j_world_0 + t29 * omega_j_world_1 -
         t30 * omega_j_world_2);
-    const jg_real t31 = C_j[7] * h_i_world_0;
     jac_phi_q_v_A_j[9] = omega_i[0] * (A_i[2] * t31 - A_i[0] * t29) + omega_i[1] * (A_i[5] * t31 - A_i[3] * t29) +
         omega_i[2] * (A_i[8] * t31 - A_i[6] * t29) - (omega_j[1] * h_i_cross_h_j_world_1 - t29 * omega_j_world_0 +
         t31 * omega_j_world_2);
     jac_phi_q_v_A_j[11] = omega_i[0] * (A_i[0] * t30 - A_i[1] * t31) + omega_i[1] * (A_i[3] * t30 - A_i[4] * t31) +
         omega_i[2] * (A_i[6] * t30 - A_i[7] * t31) - (t30 * omega_j_world_0 - t31 * omega_j_world_1 + omega_j[1] *
         h_i_cross_h_j_world_2);
-    const jg_real t32 = s_j[1] * omega_j[0] - omega_j[1] * s_j[0];
     jac_phi_q_v_A_j[12] = t32;
     jac_phi_q_v_A_j[14] = t32;
     jac_phi_q_v_A_j[16] = t32;
-    const jg_real t33 = C_j[8] * h_i_world_2;
-    const jg_real t34 = C_j[8] * h_i_world_1;
     jac_phi_q_v_A_j[13] = omega_i[0] * (A_i[1] * t33 - A_i[2] * t34) + omega_i[1] * (A_i[4] * t33 - A_i[5] * t34) +
         omega_i[2] * (A_i[7] * t33 - A_i[8] * t34) - (omega_j[2] * h_i_cross_h_j_world_0 + t33 * omega_j_world_1 -
         t34 * omega_j_world_2);
-    const jg_real t35 = C_j[8] * h_i_world_0;
     jac_phi_q_v_A_j[15] = omega_i[0] * (A_i[2] * t35 - A_i[0] * t33) + omega_i[1] * (A_i[5] * t35 - A_i[3] * t33) +
         omega_i[2] * (A_i[8] * t35 - A_i[6] * t33) - (omega_j[2] * h_i_cross_h_j_world_1 - t33 * omega_j_world_0 +
         t35 * omega_j_world_2);
@@ -244,74 +244,74 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     jac_phi_q_v_geometry[4] = omega_i[2] * A_i[1] - omega_i[0] * A_i[7];
     jac_phi_q_v_geometry[5] = omega_i[2] * A_i[2] - omega_i[0] * A_i[8];
     jac_phi_q_v_geometry[6] = omega_i[0] * A_i[3] - omega_i[1] * A_i[0];
-    jac_phi_q_v_geometry[7] = omega_i[0] * A_i[4] - omega_i[1] * A_i[1];
-    jac_phi_q_v_geometry[8] = omega_i[0] * A_i[5] - omega_i[1] * A_i[2];
     const jg_real t36 = A_i[1] * h_j_world_2 - A_i[2] * h_j_world_1;
     const jg_real t37 = A_i[2] * h_j_world_0 - A_i[0] * h_j_world_2;
     const jg_real t38 = A_i[0] * h_j_world_1 - A_i[1] * h_j_world_0;
-    jac_phi_q_v_geometry[9] = omega_i[0] * (A_i[0] * t36 + A_i[1] * t37 + A_i[2] * t38) + omega_i[1] * (A_i[3] * t36
-        + A_i[4] * t37 + A_i[5] * t38) + omega_i[2] * (A_i[6] * t36 + A_i[7] * t37 + A_i[8] * t38) - (t36 *
-        omega_j_world_0 + omega_j_world_1 * t37 + omega_j_world_2 * t38);
     const jg_real t39 = A_i[4] * h_j_world_2 - A_i[5] * h_j_world_1;
     const jg_real t40 = A_i[5] * h_j_world_0 - A_i[3] * h_j_world_2;
     const jg_real t41 = A_i[3] * h_j_world_1 - A_i[4] * h_j_world_0;
-    jac_phi_q_v_geometry[10] = omega_i[0] * (A_i[0] * t39 + A_i[1] * t40 + A_i[2] * t41) + omega_i[1] * (A_i[3] *
-        t39 + A_i[4] * t40 + A_i[5] * t41) + omega_i[2] * (A_i[6] * t39 + A_i[7] * t40 + A_i[8] * t41) - (t39 *
-        omega_j_world_0 + omega_j_world_1 * t40 + omega_j_world_2 * t41);
     const jg_real t42 = A_i[7] * h_j_world_2 - A_i[8] * h_j_world_1;
     const jg_real t43 = A_i[8] * h_j_world_0 - A_i[6] * h_j_world_2;
     const jg_real t44 = A_i[6] * h_j_world_1 - A_i[7] * h_j_world_0;
+    jac_phi_q_v_geometry[7] = omega_i[0] * A_i[4] - omega_i[1] * A_i[1];
+    jac_phi_q_v_geometry[8] = omega_i[0] * A_i[5] - omega_i[1] * A_i[2];
+    jac_phi_q_v_geometry[9] = omega_i[0] * (A_i[0] * t36 + A_i[1] * t37 + A_i[2] * t38) + omega_i[1] * (A_i[3] * t36
+        + A_i[4] * t37 + A_i[5] * t38) + omega_i[2] * (A_i[6] * t36 + A_i[7] * t37 + A_i[8] * t38) -
+        (omega_j_world_0 * t36 + omega_j_world_1 * t37 + omega_j_world_2 * t38);
+    jac_phi_q_v_geometry[10] = omega_i[0] * (A_i[0] * t39 + A_i[1] * t40 + A_i[2] * t41) + omega_i[1] * (A_i[3] *
+        t39 + A_i[4] * t40 + A_i[5] * t41) + omega_i[2] * (A_i[6] * t39 + A_i[7] * t40 + A_i[8] * t41) -
+        (omega_j_world_0 * t39 + omega_j_world_1 * t40 + omega_j_world_2 * t41);
     jac_phi_q_v_geometry[11] = omega_i[0] * (A_i[0] * t42 + A_i[1] * t43 + A_i[2] * t44) + omega_i[1] * (A_i[3] *
-        t42 + A_i[4] * t43 + A_i[5] * t44) + omega_i[2] * (A_i[6] * t42 + A_i[7] * t43 + A_i[8] * t44) - (t42 *
-        omega_j_world_0 + omega_j_world_1 * t43 + omega_j_world_2 * t44);
+        t42 + A_i[4] * t43 + A_i[5] * t44) + omega_i[2] * (A_i[6] * t42 + A_i[7] * t43 + A_i[8] * t44) -
+        (omega_j_world_0 * t42 + omega_j_world_1 * t43 + omega_j_world_2 * t44);
     jac_phi_q_v_geometry[12] = omega_j[2] * A_j[3] - omega_j[1] * A_j[6];
     jac_phi_q_v_geometry[13] = omega_j[2] * A_j[4] - omega_j[1] * A_j[7];
     jac_phi_q_v_geometry[14] = omega_j[2] * A_j[5] - omega_j[1] * A_j[8];
+    const jg_real t45 = A_j[2] * h_i_world_1 - A_j[1] * h_i_world_2;
+    const jg_real t46 = A_j[0] * h_i_world_2 - A_j[2] * h_i_world_0;
+    const jg_real t47 = A_j[1] * h_i_world_0 - A_j[0] * h_i_world_1;
+    const jg_real t48 = A_j[5] * h_i_world_1 - A_j[4] * h_i_world_2;
+    const jg_real t49 = A_j[3] * h_i_world_2 - A_j[5] * h_i_world_0;
+    const jg_real t50 = A_j[4] * h_i_world_0 - A_j[3] * h_i_world_1;
     jac_phi_q_v_geometry[15] = omega_j[0] * A_j[6] - omega_j[2] * A_j[0];
     jac_phi_q_v_geometry[16] = omega_j[0] * A_j[7] - omega_j[2] * A_j[1];
     jac_phi_q_v_geometry[17] = omega_j[0] * A_j[8] - omega_j[2] * A_j[2];
     jac_phi_q_v_geometry[18] = omega_j[1] * A_j[0] - omega_j[0] * A_j[3];
     jac_phi_q_v_geometry[19] = omega_j[1] * A_j[1] - omega_j[0] * A_j[4];
     jac_phi_q_v_geometry[20] = omega_j[1] * A_j[2] - omega_j[0] * A_j[5];
-    const jg_real t45 = A_j[2] * h_i_world_1 - A_j[1] * h_i_world_2;
-    const jg_real t46 = A_j[0] * h_i_world_2 - A_j[2] * h_i_world_0;
-    const jg_real t47 = A_j[1] * h_i_world_0 - A_j[0] * h_i_world_1;
     jac_phi_q_v_geometry[21] = omega_i[0] * (A_i[0] * t45 + A_i[1] * t46 + A_i[2] * t47) + omega_i[1] * (A_i[3] *
-        t45 + A_i[4] * t46 + A_i[5] * t47) + omega_i[2] * (A_i[6] * t45 + A_i[7] * t46 + A_i[8] * t47) - (t45 *
-        omega_j_world_0 + omega_j_world_1 * t46 + omega_j_world_2 * t47);
-    const jg_real t48 = A_j[5] * h_i_world_1 - A_j[4] * h_i_world_2;
-    const jg_real t49 = A_j[3] * h_i_world_2 - A_j[5] * h_i_world_0;
-    const jg_real t50 = A_j[4] * h_i_world_0 - A_j[3] * h_i_world_1;
+        t45 + A_i[4] * t46 + A_i[5] * t47) + omega_i[2] * (A_i[6] * t45 + A_i[7] * t46 + A_i[8] * t47) -
+        (omega_j_world_0 * t45 + omega_j_world_1 * t46 + omega_j_world_2 * t47);
     jac_phi_q_v_geometry[22] = omega_i[0] * (A_i[0] * t48 + A_i[1] * t49 + A_i[2] * t50) + omega_i[1] * (A_i[3] *
-        t48 + A_i[4] * t49 + A_i[5] * t50) + omega_i[2] * (A_i[6] * t48 + A_i[7] * t49 + A_i[8] * t50) - (t48 *
-        omega_j_world_0 + omega_j_world_1 * t49 + omega_j_world_2 * t50);
+        t48 + A_i[4] * t49 + A_i[5] * t50) + omega_i[2] * (A_i[6] * t48 + A_i[7] * t49 + A_i[8] * t50) -
+        (omega_j_world_0 * t48 + omega_j_world_1 * t49 + omega_j_world_2 * t50);
     const jg_real t51 = A_j[8] * h_i_world_1 - A_j[7] * h_i_world_2;
     const jg_real t52 = A_j[6] * h_i_world_2 - A_j[8] * h_i_world_0;
     const jg_real t53 = A_j[7] * h_i_world_0 - A_j[6] * h_i_world_1;
+    /* h_i_cross_h_j_in_i = h_i x h_j, axes of body i */
+    const jg_real h_i_cross_h_j_in_i_0 = A_i[0] * h_i_cross_h_j_world_0 + A_i[1] * h_i_cross_h_j_world_1 + A_i[2] *
+        h_i_cross_h_j_world_2;
     jac_phi_q_v_geometry[23] = omega_i[0] * (A_i[0] * t51 + A_i[1] * t52 + A_i[2] * t53) + omega_i[1] * (A_i[3] *
-        t51 + A_i[4] * t52 + A_i[5] * t53) + omega_i[2] * (A_i[6] * t51 + A_i[7] * t52 + A_i[8] * t53) - (t51 *
-        omega_j_world_0 + omega_j_world_1 * t52 + omega_j_world_2 * t53);
+        t51 + A_i[4] * t52 + A_i[5] * t53) + omega_i[2] * (A_i[6] * t51 + A_i[7] * t52 + A_i[8] * t53) -
+        (omega_j_world_0 * t51 + omega_j_world_1 * t52 + omega_j_world_2 * t53);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[3] = s_i[2] * A_i[3] - s_i[1] * A_i[6];
     jac_phi_q_v_velocity[4] = s_i[2] * A_i[4] - s_i[1] * A_i[7];
     jac_phi_q_v_velocity[5] = s_i[2] * A_i[5] - s_i[1] * A_i[8];
-    /* h_i_cross_h_j_in_i = h_i x h_j, axes of body i */
-    const jg_real h_i_cross_h_j_in_i_0 = A_i[0] * h_i_cross_h_j_world_0 + A_i[1] * h_i_cross_h_j_world_1 + A_i[2] *
-        h_i_cross_h_j_world_2;
     jac_phi_q_v_velocity[6] = h_i_cross_h_j_in_i_0;
+    const jg_real h_i_cross_h_j_in_i_1 = A_i[3] * h_i_cross_h_j_world_0 + A_i[4] * h_i_cross_h_j_world_1 + A_i[5] *
+        h_i_cross_h_j_world_2;
+    const jg_real h_i_cross_h_j_in_i_2 = A_i[6] * h_i_cross_h_j_world_0 + A_i[7] * h_i_cross_h_j_world_1 + A_i[8] *
+        h_i_cross_h_j_world_2;
     jac_phi_q_v_velocity[7] = s_i[0] * A_i[6] - s_i[2] * A_i[0];
     jac_phi_q_v_velocity[8] = s_i[0] * A_i[7] - s_i[2] * A_i[1];
     jac_phi_q_v_velocity[9] = s_i[0] * A_i[8] - s_i[2] * A_i[2];
-    const jg_real h_i_cross_h_j_in_i_1 = A_i[3] * h_i_cross_h_j_world_0 + A_i[4] * h_i_cross_h_j_world_1 + A_i[5] *
-        h_i_cross_h_j_world_2;
     jac_phi_q_v_velocity[10] = h_i_cross_h_j_in_i_1;
     jac_phi_q_v_velocity[11] = s_i[1] * A_i[0] - s_i[0] * A_i[3];
     jac_phi_q_v_velocity[12] = s_i[1] * A_i[1] - s_i[0] * A_i[4];
     jac_phi_q_v_velocity[13] = s_i[1] * A_i[2] - s_i[0] * A_i[5];
-    const jg_real h_i_cross_h_j_in_i_2 = A_i[6] * h_i_cross_h_j_world_0 + A_i[7] * h_i_cross_h_j_world_1 + A_i[8] *
-        h_i_cross_h_j_world_2;
     jac_phi_q_v_velocity[14] = h_i_cross_h_j_in_i_2;
     jac_phi_q_v_velocity[15] = JG_REAL(1.0);
     jac_phi_q_v_velocity[16] = JG_REAL(1.0);
@@ -354,50 +354,50 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real v_0_world_0 = lambda[3] * h_j_cross_h_i_world_0;
     const jg_real t6 = C_i[6] * h_j_world_2 * lambda[3];
     const jg_real t7 = C_i[6] * h_j_world_1 * lambda[3];
-    jac_phi_q_t_lambda_A_i[0] = A_i[2] * t7 - (v_0_world_0 + A_i[1] * t6);
     const jg_real t8 = lambda[0] * s_i[2];
-    jac_phi_q_t_lambda_A_i[1] = -(A_i[4] * t6 - A_i[5] * t7 + t8);
     const jg_real t9 = lambda[0] * s_i[1];
-    jac_phi_q_t_lambda_A_i[2] = t9 - (A_i[7] * t6 - A_i[8] * t7);
-    jac_phi_q_t_lambda_A_i[3] = A_j[1] * t6 - A_j[2] * t7;
-    jac_phi_q_t_lambda_A_i[4] = A_j[4] * t6 - A_j[5] * t7;
-    jac_phi_q_t_lambda_A_i[5] = A_j[7] * t6 - A_j[8] * t7;
     const jg_real h_i_world_0 = C_i[6] * A_i[0] + C_i[7] * A_i[3] + C_i[8] * A_i[6];
     const jg_real h_j_world_0 = C_j[6] * A_j[0] + C_j[7] * A_j[3] + C_j[8] * A_j[6];
     const jg_real h_j_cross_h_i_world_1 = h_j_world_2 * h_i_world_0 - h_i_world_2 * h_j_world_0;
     const jg_real v_0_world_1 = lambda[3] * h_j_cross_h_i_world_1;
     const jg_real t14 = C_i[6] * h_j_world_0 * lambda[3];
-    jac_phi_q_t_lambda_A_i[6] = -(v_0_world_1 - A_i[0] * t6 + A_i[2] * t14);
     const jg_real t15 = lambda[1] * s_i[2];
+    jac_phi_q_t_lambda_A_i[0] = A_i[2] * t7 - (v_0_world_0 + A_i[1] * t6);
+    jac_phi_q_t_lambda_A_i[1] = -(A_i[4] * t6 - A_i[5] * t7 + t8);
+    jac_phi_q_t_lambda_A_i[2] = t9 - (A_i[7] * t6 - A_i[8] * t7);
+    jac_phi_q_t_lambda_A_i[3] = A_j[1] * t6 - A_j[2] * t7;
+    jac_phi_q_t_lambda_A_i[4] = A_j[4] * t6 - A_j[5] * t7;
+    jac_phi_q_t_lambda_A_i[5] = A_j[7] * t6 - A_j[8] * t7;
+    jac_phi_q_t_lambda_A_i[6] = -(v_0_world_1 - A_i[0] * t6 + A_i[2] * t14);
     jac_phi_q_t_lambda_A_i[7] = -(A_i[5] * t14 - A_i[3] * t6 + t15);
     const jg_real t16 = lambda[1] * s_i[1];
+    const jg_real h_j_cross_h_i_world_2 = h_i_world_1 * h_j_world_0 - h_j_world_1 * h_i_world_0;
+    const jg_real v_0_world_2 = lambda[3] * h_j_cross_h_i_world_2;
+    const jg_real t19 = lambda[2] * s_i[2];
+    const jg_real t20 = lambda[2] * s_i[1];
     jac_phi_q_t_lambda_A_i[8] = t16 - (A_i[8] * t14 - A_i[6] * t6);
     jac_phi_q_t_lambda_A_i[9] = A_j[2] * t14 - A_j[0] * t6;
     jac_phi_q_t_lambda_A_i[10] = A_j[5] * t14 - A_j[3] * t6;
     jac_phi_q_t_lambda_A_i[11] = A_j[8] * t14 - A_j[6] * t6;
-    const jg_real h_j_cross_h_i_world_2 = h_i_world_1 * h_j_world_0 - h_j_world_1 * h_i_world_0;
-    const jg_real v_0_world_2 = lambda[3] * h_j_cross_h_i_world_2;
     jac_phi_q_t_lambda_A_i[12] = -(A_i[0] * t7 - A_i[1] * t14 + v_0_world_2);
-    const jg_real t19 = lambda[2] * s_i[2];
     jac_phi_q_t_lambda_A_i[13] = -(A_i[3] * t7 - A_i[4] * t14 + t19);
-    const jg_real t20 = lambda[2] * s_i[1];
     jac_phi_q_t_lambda_A_i[14] = t20 - (A_i[6] * t7 - A_i[7] * t14);
     jac_phi_q_t_lambda_A_i[15] = A_j[0] * t7 - A_j[1] * t14;
-    jac_phi_q_t_lambda_A_i[16] = A_j[3] * t7 - A_j[4] * t14;
-    jac_phi_q_t_lambda_A_i[17] = A_j[6] * t7 - A_j[7] * t14;
     const jg_real t21 = C_i[7] * h_j_world_2 * lambda[3];
     const jg_real t22 = C_i[7] * h_j_world_1 * lambda[3];
+    const jg_real t23 = lambda[0] * s_i[0];
+    jac_phi_q_t_lambda_A_i[16] = A_j[3] * t7 - A_j[4] * t14;
+    jac_phi_q_t_lambda_A_i[17] = A_j[6] * t7 - A_j[7] * t14;
     jac_phi_q_t_lambda_A_i[18] = t8 - (A_i[1] * t21 - A_i[2] * t22);
     jac_phi_q_t_lambda_A_i[19] = A_i[5] * t22 - (v_0_world_0 + A_i[4] * t21);
-    const jg_real t23 = lambda[0] * s_i[0];
     jac_phi_q_t_lambda_A_i[20] = -(A_i[7] * t21 - A_i[8] * t22 + t23);
     jac_phi_q_t_lambda_A_i[21] = A_j[1] * t21 - A_j[2] * t22;
     jac_phi_q_t_lambda_A_i[22] = A_j[4] * t21 - A_j[5] * t22;
     jac_phi_q_t_lambda_A_i[23] = A_j[7] * t21 - A_j[8] * t22;
     const jg_real t24 = C_i[7] * h_j_world_0 * lambda[3];
+    const jg_real t25 = lambda[1] * s_i[0];
     jac_phi_q_t_lambda_A_i[24] = t15 - (A_i[2] * t24 - A_i[0] * t21);
     jac_phi_q_t_lambda_A_i[25] = -(v_0_world_1 - A_i[3] * t21 + A_i[5] * t24);
-    const jg_real t25 = lambda[1] * s_i[0];
     jac_phi_q_t_lambda_A_i[26] = -(A_i[8] * t24 - A_i[6] * t21 + t25);
     jac_phi_q_t_lambda_A_i[27] = A_j[2] * t24 - A_j[0] * t21;
     jac_phi_q_t_lambda_A_i[28] = A_j[5] * t24 - A_j[3] * t21;
@@ -405,84 +405,84 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_A_i[30] = t19 - (A_i[0] * t22 - A_i[1] * t24);
     jac_phi_q_t_lambda_A_i[31] = -(A_i[3] * t22 - A_i[4] * t24 + v_0_world_2);
     const jg_real t26 = lambda[2] * s_i[0];
+    const jg_real t27 = C_i[8] * h_j_world_2 * lambda[3];
+    const jg_real t28 = C_i[8] * h_j_world_1 * lambda[3];
     jac_phi_q_t_lambda_A_i[32] = -(A_i[6] * t22 - A_i[7] * t24 + t26);
     jac_phi_q_t_lambda_A_i[33] = A_j[0] * t22 - A_j[1] * t24;
     jac_phi_q_t_lambda_A_i[34] = A_j[3] * t22 - A_j[4] * t24;
     jac_phi_q_t_lambda_A_i[35] = A_j[6] * t22 - A_j[7] * t24;
-    const jg_real t27 = C_i[8] * h_j_world_2 * lambda[3];
-    const jg_real t28 = C_i[8] * h_j_world_1 * lambda[3];
     jac_phi_q_t_lambda_A_i[36] = -(A_i[1] * t27 - A_i[2] * t28 + t9);
     jac_phi_q_t_lambda_A_i[37] = t23 - (A_i[4] * t27 - A_i[5] * t28);
     jac_phi_q_t_lambda_A_i[38] = A_i[8] * t28 - (v_0_world_0 + A_i[7] * t27);
     jac_phi_q_t_lambda_A_i[39] = A_j[1] * t27 - A_j[2] * t28;
+    const jg_real t29 = C_i[8] * h_j_world_0 * lambda[3];
     jac_phi_q_t_lambda_A_i[40] = A_j[4] * t27 - A_j[5] * t28;
     jac_phi_q_t_lambda_A_i[41] = A_j[7] * t27 - A_j[8] * t28;
-    const jg_real t29 = C_i[8] * h_j_world_0 * lambda[3];
     jac_phi_q_t_lambda_A_i[42] = -(A_i[2] * t29 - A_i[0] * t27 + t16);
     jac_phi_q_t_lambda_A_i[43] = t25 - (A_i[5] * t29 - A_i[3] * t27);
     jac_phi_q_t_lambda_A_i[44] = -(v_0_world_1 - A_i[6] * t27 + A_i[8] * t29);
     jac_phi_q_t_lambda_A_i[45] = A_j[2] * t29 - A_j[0] * t27;
     jac_phi_q_t_lambda_A_i[46] = A_j[5] * t29 - A_j[3] * t27;
     jac_phi_q_t_lambda_A_i[47] = A_j[8] * t29 - A_j[6] * t27;
+    const jg_real t30 = C_j[6] * h_i_world_2 * lambda[3];
+    const jg_real t31 = C_j[6] * h_i_world_1 * lambda[3];
     jac_phi_q_t_lambda_A_i[48] = -(A_i[0] * t28 - A_i[1] * t29 + t20);
     jac_phi_q_t_lambda_A_i[49] = t26 - (A_i[3] * t28 - A_i[4] * t29);
     jac_phi_q_t_lambda_A_i[50] = -(A_i[6] * t28 - A_i[7] * t29 + v_0_world_2);
     jac_phi_q_t_lambda_A_i[51] = A_j[0] * t28 - A_j[1] * t29;
     jac_phi_q_t_lambda_A_i[52] = A_j[3] * t28 - A_j[4] * t29;
     jac_phi_q_t_lambda_A_i[53] = A_j[6] * t28 - A_j[7] * t29;
-    const jg_real t30 = C_j[6] * h_i_world_2 * lambda[3];
-    const jg_real t31 = C_j[6] * h_i_world_1 * lambda[3];
     jac_phi_q_t_lambda_A_j[0] = A_i[1] * t30 - A_i[2] * t31;
     jac_phi_q_t_lambda_A_j[1] = A_i[4] * t30 - A_i[5] * t31;
+    const jg_real t32 = lambda[0] * s_j[2];
+    const jg_real t33 = lambda[0] * s_j[1];
+    const jg_real t34 = C_j[6] * h_i_world_0 * lambda[3];
     jac_phi_q_t_lambda_A_j[2] = A_i[7] * t30 - A_i[8] * t31;
     jac_phi_q_t_lambda_A_j[3] = v_0_world_0 - A_j[1] * t30 + A_j[2] * t31;
-    const jg_real t32 = lambda[0] * s_j[2];
     jac_phi_q_t_lambda_A_j[4] = A_j[5] * t31 - A_j[4] * t30 + t32;
-    const jg_real t33 = lambda[0] * s_j[1];
     jac_phi_q_t_lambda_A_j[5] = A_j[8] * t31 - A_j[7] * t30 - t33;
-    const jg_real t34 = C_j[6] * h_i_world_0 * lambda[3];
     jac_phi_q_t_lambda_A_j[6] = A_i[2] * t34 - A_i[0] * t30;
     jac_phi_q_t_lambda_A_j[7] = A_i[5] * t34 - A_i[3] * t30;
     jac_phi_q_t_lambda_A_j[8] = A_i[8] * t34 - A_i[6] * t30;
     jac_phi_q_t_lambda_A_j[9] = v_0_world_1 + A_j[0] * t30 - A_j[2] * t34;
     const jg_real t35 = lambda[1] * s_j[2];
-    jac_phi_q_t_lambda_A_j[10] = A_j[3] * t30 - A_j[5] * t34 + t35;
     const jg_real t36 = lambda[1] * s_j[1];
+    const jg_real t37 = lambda[2] * s_j[2];
+    const jg_real t38 = lambda[2] * s_j[1];
+    jac_phi_q_t_lambda_A_j[10] = A_j[3] * t30 - A_j[5] * t34 + t35;
     jac_phi_q_t_lambda_A_j[11] = A_j[6] * t30 - A_j[8] * t34 - t36;
     jac_phi_q_t_lambda_A_j[12] = A_i[0] * t31 - A_i[1] * t34;
     jac_phi_q_t_lambda_A_j[13] = A_i[3] * t31 - A_i[4] * t34;
     jac_phi_q_t_lambda_A_j[14] = A_i[6] * t31 - A_i[7] * t34;
     jac_phi_q_t_lambda_A_j[15] = A_j[1] * t34 - A_j[0] * t31 + v_0_world_2;
-    const jg_real t37 = lambda[2] * s_j[2];
     jac_phi_q_t_lambda_A_j[16] = A_j[4] * t34 - A_j[3] * t31 + t37;
-    const jg_real t38 = lambda[2] * s_j[1];
     jac_phi_q_t_lambda_A_j[17] = A_j[7] * t34 - A_j[6] * t31 - t38;
     const jg_real t39 = C_j[7] * h_i_world_2 * lambda[3];
     const jg_real t40 = C_j[7] * h_i_world_1 * lambda[3];
+    const jg_real t41 = lambda[0] * s_j[0];
+    const jg_real t42 = C_j[7] * h_i_world_0 * lambda[3];
     jac_phi_q_t_lambda_A_j[18] = A_i[1] * t39 - A_i[2] * t40;
     jac_phi_q_t_lambda_A_j[19] = A_i[4] * t39 - A_i[5] * t40;
     jac_phi_q_t_lambda_A_j[20] = A_i[7] * t39 - A_i[8] * t40;
     jac_phi_q_t_lambda_A_j[21] = A_j[2] * t40 - A_j[1] * t39 - t32;
     jac_phi_q_t_lambda_A_j[22] = v_0_world_0 - A_j[4] * t39 + A_j[5] * t40;
-    const jg_real t41 = lambda[0] * s_j[0];
     jac_phi_q_t_lambda_A_j[23] = A_j[8] * t40 - A_j[7] * t39 + t41;
-    const jg_real t42 = C_j[7] * h_i_world_0 * lambda[3];
     jac_phi_q_t_lambda_A_j[24] = A_i[2] * t42 - A_i[0] * t39;
     jac_phi_q_t_lambda_A_j[25] = A_i[5] * t42 - A_i[3] * t39;
+    const jg_real t43 = lambda[1] * s_j[0];
     jac_phi_q_t_lambda_A_j[26] = A_i[8] * t42 - A_i[6] * t39;
     jac_phi_q_t_lambda_A_j[27] = A_j[0] * t39 - A_j[2] * t42 - t35;
     jac_phi_q_t_lambda_A_j[28] = v_0_world_1 + A_j[3] * t39 - A_j[5] * t42;
-    const jg_real t43 = lambda[1] * s_j[0];
     jac_phi_q_t_lambda_A_j[29] = A_j[6] * t39 - A_j[8] * t42 + t43;
     jac_phi_q_t_lambda_A_j[30] = A_i[0] * t40 - A_i[1] * t42;
     jac_phi_q_t_lambda_A_j[31] = A_i[3] * t40 - A_i[4] * t42;
     jac_phi_q_t_lambda_A_j[32] = A_i[6] * t40 - A_i[7] * t42;
     jac_phi_q_t_lambda_A_j[33] = A_j[1] * t42 - A_j[0] * t40 - t37;
-    jac_phi_q_t_lambda_A_j[34] = A_j[4] * t42 - A_j[3] * t40 + v_0_world_2;
     const jg_real t44 = lambda[2] * s_j[0];
-    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t42 - A_j[6] * t40 + t44;
     const jg_real t45 = C_j[8] * h_i_world_2 * lambda[3];
     const jg_real t46 = C_j[8] * h_i_world_1 * lambda[3];
+    jac_phi_q_t_lambda_A_j[34] = A_j[4] * t42 - A_j[3] * t40 + v_0_world_2;
+    jac_phi_q_t_lambda_A_j[35] = A_j[7] * t42 - A_j[6] * t40 + t44;
     jac_phi_q_t_lambda_A_j[36] = A_i[1] * t45 - A_i[2] * t46;
     jac_phi_q_t_lambda_A_j[37] = A_i[4] * t45 - A_i[5] * t46;
     jac_phi_q_t_lambda_A_j[38] = A_i[7] * t45 - A_i[8] * t46;
@@ -498,23 +498,23 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     jac_phi_q_t_lambda_A_j[47] = v_0_world_1 + A_j[6] * t45 - A_j[8] * t47;
     jac_phi_q_t_lambda_A_j[48] = A_i[0] * t46 - A_i[1] * t47;
     jac_phi_q_t_lambda_A_j[49] = A_i[3] * t46 - A_i[4] * t47;
+    /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
+    const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
+    const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
     jac_phi_q_t_lambda_A_j[50] = A_i[6] * t46 - A_i[7] * t47;
     jac_phi_q_t_lambda_A_j[51] = A_j[1] * t47 - A_j[0] * t46 + t38;
     jac_phi_q_t_lambda_A_j[52] = A_j[4] * t47 - A_j[3] * t46 - t44;
     jac_phi_q_t_lambda_A_j[53] = A_j[7] * t47 - A_j[6] * t46 + v_0_world_2;
-    /* lambda_0_1_2_in_i = lambda_0_1_2, axes of body i */
-    const jg_real lambda_0_1_2_in_i_2 = lambda[0] * A_i[6] + lambda[1] * A_i[7] + lambda[2] * A_i[8];
     jac_phi_q_t_lambda_geometry[0] = lambda_0_1_2_in_i_2;
-    const jg_real lambda_0_1_2_in_i_1 = lambda[0] * A_i[3] + lambda[1] * A_i[4] + lambda[2] * A_i[5];
     jac_phi_q_t_lambda_geometry[4] = lambda_0_1_2_in_i_1;
     jac_phi_q_t_lambda_geometry[1] = -lambda_0_1_2_in_i_1;
     jac_phi_q_t_lambda_geometry[2] = -lambda_0_1_2_in_i_2;
     const jg_real lambda_0_1_2_in_i_0 = lambda[0] * A_i[0] + lambda[1] * A_i[1] + lambda[2] * A_i[2];
-    jac_phi_q_t_lambda_geometry[3] = lambda_0_1_2_in_i_0;
-    jac_phi_q_t_lambda_geometry[5] = -lambda_0_1_2_in_i_0;
     const jg_real t51 = lambda[3] * (A_i[2] * h_j_world_1 - A_i[1] * h_j_world_2);
     const jg_real t52 = lambda[3] * (A_i[0] * h_j_world_2 - A_i[2] * h_j_world_0);
     const jg_real t53 = lambda[3] * (A_i[1] * h_j_world_0 - A_i[0] * h_j_world_1);
+    jac_phi_q_t_lambda_geometry[3] = lambda_0_1_2_in_i_0;
+    jac_phi_q_t_lambda_geometry[5] = -lambda_0_1_2_in_i_0;
     jac_phi_q_t_lambda_geometry[6] = -(A_i[0] * t51 + A_i[1] * t52 + A_i[2] * t53);
     jac_phi_q_t_lambda_geometry[7] = -(A_i[3] * t51 + A_i[4] * t52 + A_i[5] * t53);
     jac_phi_q_t_lambda_geometry[8] = -(A_i[6] * t51 + A_i[7] * t52 + A_i[8] * t53);
@@ -524,34 +524,34 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t54 = lambda[3] * (A_i[5] * h_j_world_1 - A_i[4] * h_j_world_2);
     const jg_real t55 = lambda[3] * (A_i[3] * h_j_world_2 - A_i[5] * h_j_world_0);
     const jg_real t56 = lambda[3] * (A_i[4] * h_j_world_0 - A_i[3] * h_j_world_1);
+    const jg_real t57 = lambda[3] * (A_i[8] * h_j_world_1 - A_i[7] * h_j_world_2);
+    const jg_real t58 = lambda[3] * (A_i[6] * h_j_world_2 - A_i[8] * h_j_world_0);
+    const jg_real t59 = lambda[3] * (A_i[7] * h_j_world_0 - A_i[6] * h_j_world_1);
     jac_phi_q_t_lambda_geometry[12] = -(A_i[0] * t54 + A_i[1] * t55 + A_i[2] * t56);
     jac_phi_q_t_lambda_geometry[13] = -(A_i[3] * t54 + A_i[4] * t55 + A_i[5] * t56);
     jac_phi_q_t_lambda_geometry[14] = -(A_i[6] * t54 + A_i[7] * t55 + A_i[8] * t56);
     jac_phi_q_t_lambda_geometry[15] = A_j[0] * t54 + A_j[1] * t55 + A_j[2] * t56;
     jac_phi_q_t_lambda_geometry[16] = A_j[3] * t54 + A_j[4] * t55 + A_j[5] * t56;
     jac_phi_q_t_lambda_geometry[17] = A_j[6] * t54 + A_j[7] * t55 + A_j[8] * t56;
-    const jg_real t57 = lambda[3] * (A_i[8] * h_j_world_1 - A_i[7] * h_j_world_2);
-    const jg_real t58 = lambda[3] * (A_i[6] * h_j_world_2 - A_i[8] * h_j_world_0);
-    const jg_real t59 = lambda[3] * (A_i[7] * h_j_world_0 - A_i[6] * h_j_world_1);
     jac_phi_q_t_lambda_geometry[18] = -(A_i[0] * t57 + A_i[1] * t58 + A_i[2] * t59);
     jac_phi_q_t_lambda_geometry[19] = -(A_i[3] * t57 + A_i[4] * t58 + A_i[5] * t59);
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
+    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
+    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     jac_phi_q_t_lambda_geometry[20] = -(A_i[6] * t57 + A_i[7] * t58 + A_i[8] * t59);
     jac_phi_q_t_lambda_geometry[21] = A_j[0] * t57 + A_j[1] * t58 + A_j[2] * t59;
     jac_phi_q_t_lambda_geometry[22] = A_j[3] * t57 + A_j[4] * t58 + A_j[5] * t59;
     jac_phi_q_t_lambda_geometry[23] = A_j[6] * t57 + A_j[7] * t58 + A_j[8] * t59;
-    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
-    const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_j[6] + lambda[1] * A_j[7] + lambda[2] * A_j[8];
     jac_phi_q_t_lambda_geometry[26] = lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[24] = -lambda_0_1_2_in_j_2;
-    const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_j[3] + lambda[1] * A_j[4] + lambda[2] * A_j[5];
     jac_phi_q_t_lambda_geometry[25] = lambda_0_1_2_in_j_1;
-    const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_j[0] + lambda[1] * A_j[1] + lambda[2] * A_j[2];
     jac_phi_q_t_lambda_geometry[29] = lambda_0_1_2_in_j_0;
-    jac_phi_q_t_lambda_geometry[27] = -lambda_0_1_2_in_j_0;
-    jac_phi_q_t_lambda_geometry[28] = -lambda_0_1_2_in_j_1;
     const jg_real t63 = lambda[3] * (A_j[1] * h_i_world_2 - A_j[2] * h_i_world_1);
     const jg_real t64 = lambda[3] * (A_j[2] * h_i_world_0 - A_j[0] * h_i_world_2);
     const jg_real t65 = lambda[3] * (A_j[0] * h_i_world_1 - A_j[1] * h_i_world_0);
+    jac_phi_q_t_lambda_geometry[27] = -lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_geometry[28] = -lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[30] = -(A_i[0] * t63 + A_i[1] * t64 + A_i[2] * t65);
     jac_phi_q_t_lambda_geometry[31] = -(A_i[3] * t63 + A_i[4] * t64 + A_i[5] * t65);
     jac_phi_q_t_lambda_geometry[32] = -(A_i[6] * t63 + A_i[7] * t64 + A_i[8] * t65);
@@ -561,15 +561,15 @@ static void jg_universal_conventional_phi_q_t_lambda_jacobian(const jg_real *JG_
     const jg_real t66 = lambda[3] * (A_j[4] * h_i_world_2 - A_j[5] * h_i_world_1);
     const jg_real t67 = lambda[3] * (A_j[5] * h_i_world_0 - A_j[3] * h_i_world_2);
     const jg_real t68 = lambda[3] * (A_j[3] * h_i_world_1 - A_j[4] * h_i_world_0);
+    const jg_real t69 = lambda[3] * (A_j[7] * h_i_world_2 - A_j[8] * h_i_world_1);
+    const jg_real t70 = lambda[3] * (A_j[8] * h_i_world_0 - A_j[6] * h_i_world_2);
+    const jg_real t71 = lambda[3] * (A_j[6] * h_i_world_1 - A_j[7] * h_i_world_0);
     jac_phi_q_t_lambda_geometry[36] = -(A_i[0] * t66 + A_i[1] * t67 + A_i[2] * t68);
     jac_phi_q_t_lambda_geometry[37] = -(A_i[3] * t66 + A_i[4] * t67 + A_i[5] * t68);
     jac_phi_q_t_lambda_geometry[38] = -(A_i[6] * t66 + A_i[7] * t67 + A_i[8] * t68);
     jac_phi_q_t_lambda_geometry[39] = A_j[0] * t66 + A_j[1] * t67 + A_j[2] * t68;
     jac_phi_q_t_lambda_geometry[40] = A_j[3] * t66 + A_j[4] * t67 + A_j[5] * t68;
     jac_phi_q_t_lambda_geometry[41] = A_j[6] * t66 + A_j[7] * t67 + A_j[8] * t68;
-    const jg_real t69 = lambda[3] * (A_j[7] * h_i_world_2 - A_j[8] * h_i_world_1);
-    const jg_real t70 = lambda[3] * (A_j[8] * h_i_world_0 - A_j[6] * h_i_world_2);
-    const jg_real t71 = lambda[3] * (A_j[6] * h_i_world_1 - A_j[7] * h_i_world_0);
     jac_phi_q_t_lambda_geometry[42] = -(A_i[0] * t69 + A_i[1] * t70 + A_i[2] * t71);
     jac_phi_q_t_lambda_geometry[43] = -(A_i[3] * t69 + A_i[4] * t70 + A_i[5] * t71);
     jac_phi_q_t_lambda_geometry[44] = -(A_i[6] * t69 + A_i[7] * t70 + A_i[8] * t71);

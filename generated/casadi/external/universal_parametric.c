@@ -46,15 +46,10 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -69,7 +64,6 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t9 = A_j[0] * g_star_in_i_0;
     const jg_real t10 = A_j[3] * g_star_in_i_0;
     const jg_real t11 = A_j[6] * g_star_in_i_0;
-    jac_phi_A_i[1] = C_j[6] * t9 + C_j[7] * t10 + C_j[8] * t11;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
     const jg_real f_star_in_i_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
@@ -80,7 +74,6 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real f_star_world_2 = A_i[2] * f_star_in_i_0 + A_i[5] * f_star_in_i_1 + A_i[8] * f_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
-    jac_phi_geometry[40] = f_star_in_j_1;
     const jg_real g_star_in_i_1 = C_i[4] * H_11 - C_i[1] * t7 + C_i[7] * sine_0;
     const jg_real g_star_in_i_2 = C_i[5] * H_11 - C_i[2] * t7 + C_i[8] * sine_0;
     /* g_star_world = g_star, world axes */
@@ -89,112 +82,119 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_A_i[1] = C_j[6] * t9 + C_j[7] * t10 + C_j[8] * t11;
+    jac_phi_geometry[40] = f_star_in_j_1;
     jac_phi_geometry[44] = g_star_in_j_2;
     const jg_real t25 = A_j[3] * f_star_in_i_0;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    jac_phi_geometry[41] = f_star_in_j_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
-    jac_phi_geometry[43] = g_star_in_j_1;
     const jg_real t28 = A_j[6] * f_star_in_i_0;
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
-    jac_phi_geometry[42] = g_star_in_j_0;
     const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
-    jac_phi_geometry[39] = f_star_in_j_0;
     const jg_real t31 = A_j[0] * f_star_in_i_0;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    jac_phi_geometry[41] = f_star_in_j_2;
+    jac_phi_geometry[43] = g_star_in_j_1;
+    jac_phi_geometry[42] = g_star_in_j_0;
+    jac_phi_geometry[39] = f_star_in_j_0;
     jac_phi_A_i[2] = C_j[0] * (t11 * f_star_in_j_1 + t25 * g_star_in_j_2 - (t10 * f_star_in_j_2 + t28 *
         g_star_in_j_1)) + C_j[1] * (t9 * f_star_in_j_2 + t28 * g_star_in_j_0 - (t11 * f_star_in_j_0 + t31 *
         g_star_in_j_2)) + C_j[2] * (t10 * f_star_in_j_0 + t31 * g_star_in_j_1 - (t9 * f_star_in_j_1 + t25 *
         g_star_in_j_0));
     jac_phi_A_i[3] = C_j[4] * t25 + C_j[3] * t31 + C_j[5] * t28;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t34 = A_j[1] * g_star_in_i_0;
     const jg_real t35 = A_j[4] * g_star_in_i_0;
     const jg_real t36 = A_j[7] * g_star_in_i_0;
-    jac_phi_A_i[5] = C_j[6] * t34 + C_j[7] * t35 + C_j[8] * t36;
     const jg_real t37 = A_j[4] * f_star_in_i_0;
     const jg_real t38 = A_j[7] * f_star_in_i_0;
     const jg_real t39 = A_j[1] * f_star_in_i_0;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real t42 = A_j[2] * g_star_in_i_0;
+    const jg_real t43 = A_j[5] * g_star_in_i_0;
+    const jg_real t44 = A_j[8] * g_star_in_i_0;
+    const jg_real t45 = A_j[5] * f_star_in_i_0;
+    const jg_real t46 = A_j[8] * f_star_in_i_0;
+    const jg_real t47 = A_j[2] * f_star_in_i_0;
+    jac_phi_A_i[5] = C_j[6] * t34 + C_j[7] * t35 + C_j[8] * t36;
     jac_phi_A_i[6] = C_j[0] * (t36 * f_star_in_j_1 + t37 * g_star_in_j_2 - (t35 * f_star_in_j_2 + t38 *
         g_star_in_j_1)) + C_j[1] * (t34 * f_star_in_j_2 + t38 * g_star_in_j_0 - (t36 * f_star_in_j_0 + t39 *
         g_star_in_j_2)) + C_j[2] * (t35 * f_star_in_j_0 + t39 * g_star_in_j_1 - (t34 * f_star_in_j_1 + t37 *
         g_star_in_j_0));
     jac_phi_A_i[7] = C_j[4] * t37 + C_j[3] * t39 + C_j[5] * t38;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t42 = A_j[2] * g_star_in_i_0;
-    const jg_real t43 = A_j[5] * g_star_in_i_0;
-    const jg_real t44 = A_j[8] * g_star_in_i_0;
     jac_phi_A_i[9] = C_j[6] * t42 + C_j[7] * t43 + C_j[8] * t44;
-    const jg_real t45 = A_j[5] * f_star_in_i_0;
-    const jg_real t46 = A_j[8] * f_star_in_i_0;
-    const jg_real t47 = A_j[2] * f_star_in_i_0;
     jac_phi_A_i[10] = C_j[0] * (t44 * f_star_in_j_1 + t45 * g_star_in_j_2 - (t43 * f_star_in_j_2 + t46 *
         g_star_in_j_1)) + C_j[1] * (t42 * f_star_in_j_2 + t46 * g_star_in_j_0 - (t44 * f_star_in_j_0 + t47 *
         g_star_in_j_2)) + C_j[2] * (t43 * f_star_in_j_0 + t47 * g_star_in_j_1 - (t42 * f_star_in_j_1 + t45 *
         g_star_in_j_0));
-    jac_phi_A_i[11] = C_j[4] * t45 + C_j[3] * t47 + C_j[5] * t46;
     const jg_real t48 = A_j[0] * g_star_in_i_1;
     const jg_real t49 = A_j[3] * g_star_in_i_1;
     const jg_real t50 = A_j[6] * g_star_in_i_1;
-    jac_phi_A_i[13] = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
     const jg_real t51 = A_j[3] * f_star_in_i_1;
     const jg_real t52 = A_j[6] * f_star_in_i_1;
     const jg_real t53 = A_j[0] * f_star_in_i_1;
+    const jg_real t54 = A_j[1] * g_star_in_i_1;
+    const jg_real t55 = A_j[4] * g_star_in_i_1;
+    const jg_real t56 = A_j[7] * g_star_in_i_1;
+    const jg_real t57 = A_j[4] * f_star_in_i_1;
+    const jg_real t58 = A_j[7] * f_star_in_i_1;
+    const jg_real t59 = A_j[1] * f_star_in_i_1;
+    const jg_real t60 = A_j[2] * g_star_in_i_1;
+    const jg_real t61 = A_j[5] * g_star_in_i_1;
+    const jg_real t62 = A_j[8] * g_star_in_i_1;
+    jac_phi_A_i[11] = C_j[4] * t45 + C_j[3] * t47 + C_j[5] * t46;
+    jac_phi_A_i[13] = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
     jac_phi_A_i[14] = C_j[0] * (t50 * f_star_in_j_1 + t51 * g_star_in_j_2 - (t49 * f_star_in_j_2 + t52 *
         g_star_in_j_1)) + C_j[1] * (t48 * f_star_in_j_2 + t52 * g_star_in_j_0 - (t50 * f_star_in_j_0 + t53 *
         g_star_in_j_2)) + C_j[2] * (t49 * f_star_in_j_0 + t53 * g_star_in_j_1 - (t48 * f_star_in_j_1 + t51 *
         g_star_in_j_0));
     jac_phi_A_i[15] = C_j[4] * t51 + C_j[3] * t53 + C_j[5] * t52;
-    const jg_real t54 = A_j[1] * g_star_in_i_1;
-    const jg_real t55 = A_j[4] * g_star_in_i_1;
-    const jg_real t56 = A_j[7] * g_star_in_i_1;
     jac_phi_A_i[17] = C_j[6] * t54 + C_j[7] * t55 + C_j[8] * t56;
-    const jg_real t57 = A_j[4] * f_star_in_i_1;
-    const jg_real t58 = A_j[7] * f_star_in_i_1;
-    const jg_real t59 = A_j[1] * f_star_in_i_1;
     jac_phi_A_i[18] = C_j[0] * (t56 * f_star_in_j_1 + t57 * g_star_in_j_2 - (t55 * f_star_in_j_2 + t58 *
         g_star_in_j_1)) + C_j[1] * (t54 * f_star_in_j_2 + t58 * g_star_in_j_0 - (t56 * f_star_in_j_0 + t59 *
         g_star_in_j_2)) + C_j[2] * (t55 * f_star_in_j_0 + t59 * g_star_in_j_1 - (t54 * f_star_in_j_1 + t57 *
         g_star_in_j_0));
     jac_phi_A_i[19] = C_j[4] * t57 + C_j[3] * t59 + C_j[5] * t58;
-    const jg_real t60 = A_j[2] * g_star_in_i_1;
-    const jg_real t61 = A_j[5] * g_star_in_i_1;
-    const jg_real t62 = A_j[8] * g_star_in_i_1;
     jac_phi_A_i[21] = C_j[6] * t60 + C_j[7] * t61 + C_j[8] * t62;
     const jg_real t63 = A_j[5] * f_star_in_i_1;
     const jg_real t64 = A_j[8] * f_star_in_i_1;
     const jg_real t65 = A_j[2] * f_star_in_i_1;
+    const jg_real t66 = A_j[0] * g_star_in_i_2;
+    const jg_real t67 = A_j[3] * g_star_in_i_2;
+    const jg_real t68 = A_j[6] * g_star_in_i_2;
+    const jg_real t69 = A_j[3] * f_star_in_i_2;
+    const jg_real t70 = A_j[6] * f_star_in_i_2;
+    const jg_real t71 = A_j[0] * f_star_in_i_2;
+    const jg_real t72 = A_j[1] * g_star_in_i_2;
+    const jg_real t73 = A_j[4] * g_star_in_i_2;
+    const jg_real t74 = A_j[7] * g_star_in_i_2;
+    const jg_real t75 = A_j[4] * f_star_in_i_2;
+    const jg_real t76 = A_j[7] * f_star_in_i_2;
+    const jg_real t77 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[22] = C_j[0] * (t62 * f_star_in_j_1 + t63 * g_star_in_j_2 - (t61 * f_star_in_j_2 + t64 *
         g_star_in_j_1)) + C_j[1] * (t60 * f_star_in_j_2 + t64 * g_star_in_j_0 - (t62 * f_star_in_j_0 + t65 *
         g_star_in_j_2)) + C_j[2] * (t61 * f_star_in_j_0 + t65 * g_star_in_j_1 - (t60 * f_star_in_j_1 + t63 *
         g_star_in_j_0));
     jac_phi_A_i[23] = C_j[4] * t63 + C_j[3] * t65 + C_j[5] * t64;
-    const jg_real t66 = A_j[0] * g_star_in_i_2;
-    const jg_real t67 = A_j[3] * g_star_in_i_2;
-    const jg_real t68 = A_j[6] * g_star_in_i_2;
     jac_phi_A_i[25] = C_j[6] * t66 + C_j[7] * t67 + C_j[8] * t68;
-    const jg_real t69 = A_j[3] * f_star_in_i_2;
-    const jg_real t70 = A_j[6] * f_star_in_i_2;
-    const jg_real t71 = A_j[0] * f_star_in_i_2;
     jac_phi_A_i[26] = C_j[0] * (t68 * f_star_in_j_1 + t69 * g_star_in_j_2 - (t67 * f_star_in_j_2 + t70 *
         g_star_in_j_1)) + C_j[1] * (t66 * f_star_in_j_2 + t70 * g_star_in_j_0 - (t68 * f_star_in_j_0 + t71 *
         g_star_in_j_2)) + C_j[2] * (t67 * f_star_in_j_0 + t71 * g_star_in_j_1 - (t66 * f_star_in_j_1 + t69 *
         g_star_in_j_0));
     jac_phi_A_i[27] = C_j[4] * t69 + C_j[3] * t71 + C_j[5] * t70;
-    const jg_real t72 = A_j[1] * g_star_in_i_2;
-    const jg_real t73 = A_j[4] * g_star_in_i_2;
-    const jg_real t74 = A_j[7] * g_star_in_i_2;
     jac_phi_A_i[29] = C_j[6] * t72 + C_j[7] * t73 + C_j[8] * t74;
-    const jg_real t75 = A_j[4] * f_star_in_i_2;
-    const jg_real t76 = A_j[7] * f_star_in_i_2;
-    const jg_real t77 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[30] = C_j[0] * (t74 * f_star_in_j_1 + t75 * g_star_in_j_2 - (t73 * f_star_in_j_2 + t76 *
         g_star_in_j_1)) + C_j[1] * (t72 * f_star_in_j_2 + t76 * g_star_in_j_0 - (t74 * f_star_in_j_0 + t77 *
         g_star_in_j_2)) + C_j[2] * (t73 * f_star_in_j_0 + t77 * g_star_in_j_1 - (t72 * f_star_in_j_1 + t75 *
@@ -203,10 +203,12 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t78 = A_j[2] * g_star_in_i_2;
     const jg_real t79 = A_j[5] * g_star_in_i_2;
     const jg_real t80 = A_j[8] * g_star_in_i_2;
-    jac_phi_A_i[33] = C_j[6] * t78 + C_j[7] * t79 + C_j[8] * t80;
     const jg_real t81 = A_j[5] * f_star_in_i_2;
     const jg_real t82 = A_j[8] * f_star_in_i_2;
     const jg_real t83 = A_j[2] * f_star_in_i_2;
+    const jg_real t84 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
+    const jg_real t85 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
+    jac_phi_A_i[33] = C_j[6] * t78 + C_j[7] * t79 + C_j[8] * t80;
     jac_phi_A_i[34] = C_j[0] * (t80 * f_star_in_j_1 + t81 * g_star_in_j_2 - (t79 * f_star_in_j_2 + t82 *
         g_star_in_j_1)) + C_j[1] * (t78 * f_star_in_j_2 + t82 * g_star_in_j_0 - (t80 * f_star_in_j_0 + t83 *
         g_star_in_j_2)) + C_j[2] * (t79 * f_star_in_j_0 + t83 * g_star_in_j_1 - (t78 * f_star_in_j_1 + t81 *
@@ -216,45 +218,43 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = C_j[6] * g_star_world_0;
-    const jg_real t84 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
-    const jg_real t85 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
     jac_phi_A_j[4] = -(C_j[1] * t84 + C_j[2] * t85);
+    const jg_real t86 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
+    const jg_real t87 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[5] = C_j[3] * f_star_world_0;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_j[6] * g_star_world_1;
-    const jg_real t86 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
-    const jg_real t87 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[10] = -(C_j[1] * t86 + C_j[2] * t87);
     jac_phi_A_j[11] = C_j[3] * f_star_world_1;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
+    const jg_real t88 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
+    const jg_real t89 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = C_j[6] * g_star_world_2;
-    const jg_real t88 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
-    const jg_real t89 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[16] = -(C_j[1] * t88 + C_j[2] * t89);
     jac_phi_A_j[17] = C_j[3] * f_star_world_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     const jg_real t90 = f_star_world_0 * g_star_in_j_0 - g_star_world_0 * f_star_in_j_0;
+    const jg_real t91 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
+    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     jac_phi_A_j[22] = C_j[0] * t84 - C_j[2] * t90;
     jac_phi_A_j[23] = C_j[4] * f_star_world_0;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = C_j[7] * g_star_world_1;
-    const jg_real t91 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
     jac_phi_A_j[28] = C_j[0] * t86 - C_j[2] * t91;
+    const jg_real t92 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[29] = C_j[4] * f_star_world_1;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
     jac_phi_A_j[33] = C_j[7] * g_star_world_2;
-    const jg_real t92 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[34] = C_j[0] * t88 - C_j[2] * t92;
     jac_phi_A_j[35] = C_j[4] * f_star_world_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
@@ -274,7 +274,6 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_A_j[50] = s_j[2] * A_i[8];
     jac_phi_A_j[51] = C_j[8] * g_star_world_2;
     jac_phi_A_j[52] = C_j[0] * t89 + C_j[1] * t92;
-    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
     const jg_real t93 = C_i[3] * t7 + C_i[0] * H_11;
     const jg_real t94 = C_i[4] * t7 + C_i[1] * H_11;
     const jg_real t95 = C_i[5] * t7 + C_i[2] * H_11;
@@ -284,7 +283,6 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t99 = A_j[0] * t96 + A_j[1] * t97 + A_j[2] * t98;
     const jg_real t100 = A_j[3] * t96 + A_j[4] * t97 + A_j[5] * t98;
     const jg_real t101 = A_j[6] * t96 + A_j[7] * t97 + A_j[8] * t98;
-    jac_phi_alpha[0] = -(C_j[6] * t99 + C_j[7] * t100 + C_j[8] * t101);
     const jg_real t102 = C_i[3] * cosine_1 - C_i[0] * sine_1;
     const jg_real t103 = C_i[4] * cosine_1 - C_i[1] * sine_1;
     const jg_real t104 = C_i[5] * cosine_1 - C_i[2] * sine_1;
@@ -294,11 +292,6 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t108 = A_j[3] * t105 + A_j[4] * t106 + A_j[5] * t107;
     const jg_real t109 = A_j[6] * t105 + A_j[7] * t106 + A_j[8] * t107;
     const jg_real t110 = A_j[0] * t105 + A_j[1] * t106 + A_j[2] * t107;
-    jac_phi_alpha[1] = C_j[0] * (t108 * g_star_in_j_2 - f_star_in_j_1 * t101 - (t109 * g_star_in_j_1 - f_star_in_j_2
-        * t100)) + C_j[1] * (t109 * g_star_in_j_0 - f_star_in_j_2 * t99 - (t110 * g_star_in_j_2 - f_star_in_j_0 *
-        t101)) + C_j[2] * (t110 * g_star_in_j_1 - f_star_in_j_0 * t100 - (t108 * g_star_in_j_0 - f_star_in_j_1 *
-        t99));
-    jac_phi_alpha[2] = C_j[4] * t108 + C_j[3] * t110 + C_j[5] * t109;
     const jg_real t111 = sine_0 * sine_1;
     const jg_real t112 = sine_0 * cosine_1;
     const jg_real t113 = C_i[0] * t111 - C_i[3] * t112 + C_i[6] * cosine_0;
@@ -310,6 +303,13 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t119 = A_j[0] * t116 + A_j[1] * t117 + A_j[2] * t118;
     const jg_real t120 = A_j[3] * t116 + A_j[4] * t117 + A_j[5] * t118;
     const jg_real t121 = A_j[6] * t116 + A_j[7] * t117 + A_j[8] * t118;
+    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
+    jac_phi_alpha[0] = -(C_j[6] * t99 + C_j[7] * t100 + C_j[8] * t101);
+    jac_phi_alpha[1] = C_j[0] * (t108 * g_star_in_j_2 - f_star_in_j_1 * t101 - (t109 * g_star_in_j_1 - f_star_in_j_2
+        * t100)) + C_j[1] * (t109 * g_star_in_j_0 - f_star_in_j_2 * t99 - (t110 * g_star_in_j_2 - f_star_in_j_0 *
+        t101)) + C_j[2] * (t110 * g_star_in_j_1 - f_star_in_j_0 * t100 - (t108 * g_star_in_j_0 - f_star_in_j_1 *
+        t99));
+    jac_phi_alpha[2] = C_j[4] * t108 + C_j[3] * t110 + C_j[5] * t109;
     jac_phi_alpha[3] = C_j[6] * t119 + C_j[7] * t120 + C_j[8] * t121;
     jac_phi_alpha[4] = C_j[0] * (f_star_in_j_1 * t121 - f_star_in_j_2 * t120) + C_j[1] * (f_star_in_j_2 * t119 -
         f_star_in_j_0 * t121) + C_j[2] * (f_star_in_j_0 * t120 - f_star_in_j_1 * t119);
@@ -322,96 +322,96 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t125 = A_j[0] * t122 + A_j[1] * t123 + A_j[2] * t124;
     const jg_real t126 = A_j[3] * t122 + A_j[4] * t123 + A_j[5] * t124;
     const jg_real t127 = A_j[6] * t122 + A_j[7] * t123 + A_j[8] * t124;
-    jac_phi_geometry[3] = -(C_j[6] * t125 + C_j[7] * t126 + C_j[8] * t127);
     const jg_real t128 = A_i[0] * cosine_1;
     const jg_real t129 = A_i[1] * cosine_1;
     const jg_real t130 = A_i[2] * cosine_1;
     const jg_real t131 = A_j[3] * t128 + A_j[4] * t129 + A_j[5] * t130;
     const jg_real t132 = A_j[6] * t128 + A_j[7] * t129 + A_j[8] * t130;
     const jg_real t133 = A_j[0] * t128 + A_j[1] * t129 + A_j[2] * t130;
-    jac_phi_geometry[4] = C_j[0] * (t131 * g_star_in_j_2 - f_star_in_j_1 * t127 - (t132 * g_star_in_j_1 -
-        f_star_in_j_2 * t126)) + C_j[1] * (t132 * g_star_in_j_0 - f_star_in_j_2 * t125 - (t133 * g_star_in_j_2 -
-        f_star_in_j_0 * t127)) + C_j[2] * (t133 * g_star_in_j_1 - f_star_in_j_0 * t126 - (t131 * g_star_in_j_0 -
-        f_star_in_j_1 * t125));
-    jac_phi_geometry[5] = C_j[4] * t131 + C_j[3] * t133 + C_j[5] * t132;
     const jg_real t134 = A_i[3] * t7;
     const jg_real t135 = A_i[4] * t7;
     const jg_real t136 = A_i[5] * t7;
     const jg_real t137 = A_j[0] * t134 + A_j[1] * t135 + A_j[2] * t136;
     const jg_real t138 = A_j[3] * t134 + A_j[4] * t135 + A_j[5] * t136;
     const jg_real t139 = A_j[6] * t134 + A_j[7] * t135 + A_j[8] * t136;
-    jac_phi_geometry[6] = -(C_j[6] * t137 + C_j[7] * t138 + C_j[8] * t139);
     const jg_real t140 = A_i[3] * cosine_1;
     const jg_real t141 = A_i[4] * cosine_1;
     const jg_real t142 = A_i[5] * cosine_1;
     const jg_real t143 = A_j[3] * t140 + A_j[4] * t141 + A_j[5] * t142;
     const jg_real t144 = A_j[6] * t140 + A_j[7] * t141 + A_j[8] * t142;
     const jg_real t145 = A_j[0] * t140 + A_j[1] * t141 + A_j[2] * t142;
-    jac_phi_geometry[7] = C_j[0] * (t143 * g_star_in_j_2 - f_star_in_j_1 * t139 - (t144 * g_star_in_j_1 -
-        f_star_in_j_2 * t138)) + C_j[1] * (t144 * g_star_in_j_0 - f_star_in_j_2 * t137 - (t145 * g_star_in_j_2 -
-        f_star_in_j_0 * t139)) + C_j[2] * (t145 * g_star_in_j_1 - f_star_in_j_0 * t138 - (t143 * g_star_in_j_0 -
-        f_star_in_j_1 * t137));
-    jac_phi_geometry[8] = C_j[4] * t143 + C_j[3] * t145 + C_j[5] * t144;
     const jg_real t146 = A_i[6] * t7;
     const jg_real t147 = A_i[7] * t7;
     const jg_real t148 = A_i[8] * t7;
     const jg_real t149 = A_j[0] * t146 + A_j[1] * t147 + A_j[2] * t148;
     const jg_real t150 = A_j[3] * t146 + A_j[4] * t147 + A_j[5] * t148;
     const jg_real t151 = A_j[6] * t146 + A_j[7] * t147 + A_j[8] * t148;
-    jac_phi_geometry[9] = -(C_j[6] * t149 + C_j[7] * t150 + C_j[8] * t151);
     const jg_real t152 = A_i[6] * cosine_1;
     const jg_real t153 = A_i[7] * cosine_1;
     const jg_real t154 = A_i[8] * cosine_1;
     const jg_real t155 = A_j[3] * t152 + A_j[4] * t153 + A_j[5] * t154;
     const jg_real t156 = A_j[6] * t152 + A_j[7] * t153 + A_j[8] * t154;
     const jg_real t157 = A_j[0] * t152 + A_j[1] * t153 + A_j[2] * t154;
+    jac_phi_geometry[3] = -(C_j[6] * t125 + C_j[7] * t126 + C_j[8] * t127);
+    jac_phi_geometry[4] = C_j[0] * (t131 * g_star_in_j_2 - f_star_in_j_1 * t127 - (t132 * g_star_in_j_1 -
+        f_star_in_j_2 * t126)) + C_j[1] * (t132 * g_star_in_j_0 - f_star_in_j_2 * t125 - (t133 * g_star_in_j_2 -
+        f_star_in_j_0 * t127)) + C_j[2] * (t133 * g_star_in_j_1 - f_star_in_j_0 * t126 - (t131 * g_star_in_j_0 -
+        f_star_in_j_1 * t125));
+    jac_phi_geometry[5] = C_j[4] * t131 + C_j[3] * t133 + C_j[5] * t132;
+    jac_phi_geometry[6] = -(C_j[6] * t137 + C_j[7] * t138 + C_j[8] * t139);
+    jac_phi_geometry[7] = C_j[0] * (t143 * g_star_in_j_2 - f_star_in_j_1 * t139 - (t144 * g_star_in_j_1 -
+        f_star_in_j_2 * t138)) + C_j[1] * (t144 * g_star_in_j_0 - f_star_in_j_2 * t137 - (t145 * g_star_in_j_2 -
+        f_star_in_j_0 * t139)) + C_j[2] * (t145 * g_star_in_j_1 - f_star_in_j_0 * t138 - (t143 * g_star_in_j_0 -
+        f_star_in_j_1 * t137));
+    jac_phi_geometry[8] = C_j[4] * t143 + C_j[3] * t145 + C_j[5] * t144;
+    jac_phi_geometry[9] = -(C_j[6] * t149 + C_j[7] * t150 + C_j[8] * t151);
     jac_phi_geometry[10] = C_j[0] * (t155 * g_star_in_j_2 - f_star_in_j_1 * t151 - (t156 * g_star_in_j_1 -
         f_star_in_j_2 * t150)) + C_j[1] * (t156 * g_star_in_j_0 - f_star_in_j_2 * t149 - (t157 * g_star_in_j_2 -
         f_star_in_j_0 * t151)) + C_j[2] * (t157 * g_star_in_j_1 - f_star_in_j_0 * t150 - (t155 * g_star_in_j_0 -
         f_star_in_j_1 * t149));
-    jac_phi_geometry[11] = C_j[4] * t155 + C_j[3] * t157 + C_j[5] * t156;
     const jg_real t158 = A_i[0] * H_11;
     const jg_real t159 = A_i[1] * H_11;
     const jg_real t160 = A_i[2] * H_11;
     const jg_real t161 = A_j[0] * t158 + A_j[1] * t159 + A_j[2] * t160;
     const jg_real t162 = A_j[3] * t158 + A_j[4] * t159 + A_j[5] * t160;
     const jg_real t163 = A_j[6] * t158 + A_j[7] * t159 + A_j[8] * t160;
-    jac_phi_geometry[12] = C_j[6] * t161 + C_j[7] * t162 + C_j[8] * t163;
     const jg_real t164 = A_i[0] * sine_1;
     const jg_real t165 = A_i[1] * sine_1;
     const jg_real t166 = A_i[2] * sine_1;
     const jg_real t167 = A_j[3] * t164 + A_j[4] * t165 + A_j[5] * t166;
     const jg_real t168 = A_j[6] * t164 + A_j[7] * t165 + A_j[8] * t166;
     const jg_real t169 = A_j[0] * t164 + A_j[1] * t165 + A_j[2] * t166;
-    jac_phi_geometry[13] = C_j[0] * (f_star_in_j_1 * t163 + t167 * g_star_in_j_2 - (f_star_in_j_2 * t162 + t168 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t161 + t168 * g_star_in_j_0 - (f_star_in_j_0 * t163 + t169 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t162 + t169 * g_star_in_j_1 - (f_star_in_j_1 * t161 + t167 *
-        g_star_in_j_0));
-    jac_phi_geometry[14] = C_j[4] * t167 + C_j[3] * t169 + C_j[5] * t168;
     const jg_real t170 = A_i[3] * H_11;
     const jg_real t171 = A_i[4] * H_11;
     const jg_real t172 = A_i[5] * H_11;
     const jg_real t173 = A_j[0] * t170 + A_j[1] * t171 + A_j[2] * t172;
     const jg_real t174 = A_j[3] * t170 + A_j[4] * t171 + A_j[5] * t172;
     const jg_real t175 = A_j[6] * t170 + A_j[7] * t171 + A_j[8] * t172;
-    jac_phi_geometry[15] = C_j[6] * t173 + C_j[7] * t174 + C_j[8] * t175;
     const jg_real t176 = A_i[3] * sine_1;
     const jg_real t177 = A_i[4] * sine_1;
     const jg_real t178 = A_i[5] * sine_1;
     const jg_real t179 = A_j[3] * t176 + A_j[4] * t177 + A_j[5] * t178;
     const jg_real t180 = A_j[6] * t176 + A_j[7] * t177 + A_j[8] * t178;
     const jg_real t181 = A_j[0] * t176 + A_j[1] * t177 + A_j[2] * t178;
-    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t175 + t179 * g_star_in_j_2 - (f_star_in_j_2 * t174 + t180 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t173 + t180 * g_star_in_j_0 - (f_star_in_j_0 * t175 + t181 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t174 + t181 * g_star_in_j_1 - (f_star_in_j_1 * t173 + t179 *
-        g_star_in_j_0));
-    jac_phi_geometry[17] = C_j[4] * t179 + C_j[3] * t181 + C_j[5] * t180;
     const jg_real t182 = A_i[6] * H_11;
     const jg_real t183 = A_i[7] * H_11;
     const jg_real t184 = A_i[8] * H_11;
     const jg_real t185 = A_j[0] * t182 + A_j[1] * t183 + A_j[2] * t184;
     const jg_real t186 = A_j[3] * t182 + A_j[4] * t183 + A_j[5] * t184;
     const jg_real t187 = A_j[6] * t182 + A_j[7] * t183 + A_j[8] * t184;
+    jac_phi_geometry[11] = C_j[4] * t155 + C_j[3] * t157 + C_j[5] * t156;
+    jac_phi_geometry[12] = C_j[6] * t161 + C_j[7] * t162 + C_j[8] * t163;
+    jac_phi_geometry[13] = C_j[0] * (f_star_in_j_1 * t163 + t167 * g_star_in_j_2 - (f_star_in_j_2 * t162 + t168 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t161 + t168 * g_star_in_j_0 - (f_star_in_j_0 * t163 + t169 *
+        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t162 + t169 * g_star_in_j_1 - (f_star_in_j_1 * t161 + t167 *
+        g_star_in_j_0));
+    jac_phi_geometry[14] = C_j[4] * t167 + C_j[3] * t169 + C_j[5] * t168;
+    jac_phi_geometry[15] = C_j[6] * t173 + C_j[7] * t174 + C_j[8] * t175;
+    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t175 + t179 * g_star_in_j_2 - (f_star_in_j_2 * t174 + t180 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t173 + t180 * g_star_in_j_0 - (f_star_in_j_0 * t175 + t181 *
+        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t174 + t181 * g_star_in_j_1 - (f_star_in_j_1 * t173 + t179 *
+        g_star_in_j_0));
+    jac_phi_geometry[17] = C_j[4] * t179 + C_j[3] * t181 + C_j[5] * t180;
     jac_phi_geometry[18] = C_j[6] * t185 + C_j[7] * t186 + C_j[8] * t187;
     const jg_real t188 = A_i[6] * sine_1;
     const jg_real t189 = A_i[7] * sine_1;
@@ -419,35 +419,35 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real t191 = A_j[3] * t188 + A_j[4] * t189 + A_j[5] * t190;
     const jg_real t192 = A_j[6] * t188 + A_j[7] * t189 + A_j[8] * t190;
     const jg_real t193 = A_j[0] * t188 + A_j[1] * t189 + A_j[2] * t190;
-    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t187 + t191 * g_star_in_j_2 - (f_star_in_j_2 * t186 + t192 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t185 + t192 * g_star_in_j_0 - (f_star_in_j_0 * t187 + t193 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t186 + t193 * g_star_in_j_1 - (f_star_in_j_1 * t185 + t191 *
-        g_star_in_j_0));
-    jac_phi_geometry[20] = C_j[4] * t191 + C_j[3] * t193 + C_j[5] * t192;
     const jg_real t194 = A_i[0] * sine_0;
     const jg_real t195 = A_i[1] * sine_0;
     const jg_real t196 = A_i[2] * sine_0;
     const jg_real t197 = A_j[0] * t194 + A_j[1] * t195 + A_j[2] * t196;
     const jg_real t198 = A_j[3] * t194 + A_j[4] * t195 + A_j[5] * t196;
     const jg_real t199 = A_j[6] * t194 + A_j[7] * t195 + A_j[8] * t196;
-    jac_phi_geometry[21] = C_j[6] * t197 + C_j[7] * t198 + C_j[8] * t199;
-    jac_phi_geometry[22] = C_j[0] * (f_star_in_j_1 * t199 - f_star_in_j_2 * t198) + C_j[1] * (f_star_in_j_2 * t197 -
-        f_star_in_j_0 * t199) + C_j[2] * (f_star_in_j_0 * t198 - f_star_in_j_1 * t197);
     const jg_real t200 = A_i[3] * sine_0;
     const jg_real t201 = A_i[4] * sine_0;
     const jg_real t202 = A_i[5] * sine_0;
     const jg_real t203 = A_j[0] * t200 + A_j[1] * t201 + A_j[2] * t202;
     const jg_real t204 = A_j[3] * t200 + A_j[4] * t201 + A_j[5] * t202;
     const jg_real t205 = A_j[6] * t200 + A_j[7] * t201 + A_j[8] * t202;
-    jac_phi_geometry[23] = C_j[6] * t203 + C_j[7] * t204 + C_j[8] * t205;
-    jac_phi_geometry[24] = C_j[0] * (f_star_in_j_1 * t205 - f_star_in_j_2 * t204) + C_j[1] * (f_star_in_j_2 * t203 -
-        f_star_in_j_0 * t205) + C_j[2] * (f_star_in_j_0 * t204 - f_star_in_j_1 * t203);
     const jg_real t206 = A_i[6] * sine_0;
     const jg_real t207 = A_i[7] * sine_0;
     const jg_real t208 = A_i[8] * sine_0;
     const jg_real t209 = A_j[0] * t206 + A_j[1] * t207 + A_j[2] * t208;
     const jg_real t210 = A_j[3] * t206 + A_j[4] * t207 + A_j[5] * t208;
     const jg_real t211 = A_j[6] * t206 + A_j[7] * t207 + A_j[8] * t208;
+    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t187 + t191 * g_star_in_j_2 - (f_star_in_j_2 * t186 + t192 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t185 + t192 * g_star_in_j_0 - (f_star_in_j_0 * t187 + t193 *
+        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t186 + t193 * g_star_in_j_1 - (f_star_in_j_1 * t185 + t191 *
+        g_star_in_j_0));
+    jac_phi_geometry[20] = C_j[4] * t191 + C_j[3] * t193 + C_j[5] * t192;
+    jac_phi_geometry[21] = C_j[6] * t197 + C_j[7] * t198 + C_j[8] * t199;
+    jac_phi_geometry[22] = C_j[0] * (f_star_in_j_1 * t199 - f_star_in_j_2 * t198) + C_j[1] * (f_star_in_j_2 * t197 -
+        f_star_in_j_0 * t199) + C_j[2] * (f_star_in_j_0 * t198 - f_star_in_j_1 * t197);
+    jac_phi_geometry[23] = C_j[6] * t203 + C_j[7] * t204 + C_j[8] * t205;
+    jac_phi_geometry[24] = C_j[0] * (f_star_in_j_1 * t205 - f_star_in_j_2 * t204) + C_j[1] * (f_star_in_j_2 * t203 -
+        f_star_in_j_0 * t205) + C_j[2] * (f_star_in_j_0 * t204 - f_star_in_j_1 * t203);
     jac_phi_geometry[25] = C_j[6] * t209 + C_j[7] * t210 + C_j[8] * t211;
     jac_phi_geometry[26] = C_j[0] * (f_star_in_j_1 * t211 - f_star_in_j_2 * t210) + C_j[1] * (f_star_in_j_2 * t209 -
         f_star_in_j_0 * t211) + C_j[2] * (f_star_in_j_0 * t210 - f_star_in_j_1 * t209);
@@ -459,13 +459,13 @@ static void jg_universal_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_geometry[32] = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[33] = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[34] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[35] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = f_star_in_j_1 * g_star_in_j_2 - f_star_in_j_2 * g_star_in_j_1;
-    jac_phi_geometry[36] = h_star_in_j_0;
     const jg_real h_star_in_j_1 = f_star_in_j_2 * g_star_in_j_0 - f_star_in_j_0 * g_star_in_j_2;
-    jac_phi_geometry[37] = h_star_in_j_1;
     const jg_real h_star_in_j_2 = f_star_in_j_0 * g_star_in_j_1 - f_star_in_j_1 * g_star_in_j_0;
+    jac_phi_geometry[35] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[36] = h_star_in_j_0;
+    jac_phi_geometry[37] = h_star_in_j_1;
     jac_phi_geometry[38] = h_star_in_j_2;
 }
 
@@ -486,63 +486,60 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real *const alphadot = velocity + 12;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[30] = A_ji_1;
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_v_velocity[29] = A_ji_6;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[27] = A_ji_0;
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_v_velocity[32] = A_ji_7;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_v_velocity[33] = A_ji_2;
     const jg_real A_ji_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_v_velocity[35] = A_ji_8;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
+    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[29] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[32] = A_ji_7;
+    jac_phi_q_v_velocity[34] = A_ji_5;
+    jac_phi_q_v_velocity[33] = A_ji_2;
+    jac_phi_q_v_velocity[35] = A_ji_8;
     jac_phi_q_v_velocity[31] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real t13 = A_j[6] * omega_i_in_j_0 - A_j[0] * omega_i_in_j_2;
     const jg_real t14 = A_j[0] * omega_i_in_j_1 - A_j[3] * omega_i_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_v_r_j[0] = t15;
-    jac_phi_q_v_r_i[0] = -t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_v_r_j[1] = t16;
-    jac_phi_q_v_r_i[1] = -t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_v_r_j[2] = t17;
-    jac_phi_q_v_r_i[2] = -t17;
     const jg_real t18 = A_j[4] * omega_i_in_j_2 - A_j[7] * omega_i_in_j_1;
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_r_j[0] = t15;
+    jac_phi_q_v_r_i[0] = -t15;
+    jac_phi_q_v_r_j[1] = t16;
+    jac_phi_q_v_r_i[1] = -t16;
+    jac_phi_q_v_r_j[2] = t17;
+    jac_phi_q_v_r_i[2] = -t17;
     jac_phi_q_v_r_j[3] = t21;
-    jac_phi_q_v_r_i[3] = -t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_v_r_j[4] = t22;
-    jac_phi_q_v_r_i[4] = -t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_v_r_j[5] = t23;
-    jac_phi_q_v_r_i[5] = -t23;
     const jg_real t24 = A_j[5] * omega_i_in_j_2 - A_j[8] * omega_i_in_j_1;
     const jg_real t25 = A_j[8] * omega_i_in_j_0 - A_j[2] * omega_i_in_j_2;
     const jg_real t26 = A_j[2] * omega_i_in_j_1 - A_j[5] * omega_i_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
+    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
+    jac_phi_q_v_r_i[3] = -t21;
+    jac_phi_q_v_r_j[4] = t22;
+    jac_phi_q_v_r_i[4] = -t22;
+    jac_phi_q_v_r_j[5] = t23;
+    jac_phi_q_v_r_i[5] = -t23;
     jac_phi_q_v_r_j[6] = t27;
     jac_phi_q_v_r_i[6] = -t27;
-    const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
     jac_phi_q_v_r_j[7] = t28;
-    jac_phi_q_v_r_i[7] = -t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_v_r_j[8] = t29;
-    jac_phi_q_v_r_i[8] = -t29;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -558,7 +555,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = v_i[0] * A_ji_0 + v_i[1] * A_ji_3 + v_i[2] * A_ji_6;
+    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
     /* v_2_in_j = v_j - v_i, axes of body j */
     const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
     /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
@@ -572,25 +569,21 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
-    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - e_ij_in_j_0 * omega_i_in_j_2;
+    const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = v_i[0] * A_ji_1 + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
+    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
     const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real t56 = A_j[3] * v_3_in_j_1;
     const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - e_ij_in_j_0 * t44 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
+    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
     const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
     const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
     const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = e_ij_in_j_0 * t46 - e_ij_in_j_1 * t57 - (A_j[6] * v_i[0] + v_i[1] * t43);
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
+    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -627,52 +620,53 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t92 = f_star_in_j_1 * t89 + t85 * h_star_in_j_0 - (f_star_in_j_0 * t78 + t88 * h_star_in_j_1);
     const jg_real t93 = C_j[3] * t86 + C_j[4] * t91 + C_j[5] * t92;
     /* omega_i_in_joint_j = omega_i, axes of joint j */
-    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + C_j[2] *
-        omega_i_in_j_2;
+    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + omega_i_in_j_2 *
+        C_j[2];
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
     const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    const jg_real t99 = C_j[0] * t57 + C_j[1] * t46 + C_j[2] * t44;
+    const jg_real t99 = C_j[0] * t57 + t46 * C_j[1] + t44 * C_j[2];
     const jg_real t100 = C_j[0] * t86 + C_j[1] * t91 + C_j[2] * t92;
     const jg_real omega_i_in_joint_j_1 = C_j[3] * omega_i_in_j_0 + C_j[4] * omega_i_in_j_1 + C_j[5] *
         omega_i_in_j_2;
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
-    const jg_real t103 = C_j[3] * t57 + C_j[4] * t46 + C_j[5] * t44;
+    const jg_real t103 = C_j[3] * t57 + C_j[4] * t46 + t44 * C_j[5];
     const jg_real t104 = C_j[7] * t85 + C_j[6] * t88 + C_j[8] * t81;
     const jg_real t105 = alphadot[0] * cosine_1;
     const jg_real t106 = C_j[7] * t78 + C_j[6] * t89 + C_j[8] * t83;
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    /* h_star_dot_h_j = h_star . h_j */
+    const jg_real h_star_dot_h_j = C_j[7] * h_star_in_j_1 + C_j[6] * h_star_in_j_0 + C_j[8] * h_star_in_j_2;
+    jac_phi_q_v_r_i[7] = -t28;
+    jac_phi_q_v_r_j[8] = t29;
+    jac_phi_q_v_r_i[8] = -t29;
+    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
+    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
+        A_ji_4 * t58));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
     jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t93 - omega_j_in_joint_j_1 * t100 + (t105 * t104 -
         (omega_i_in_joint_j_0 * t93 + t99 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t100 + t103 * g_star_dot_f_j))
         - alphadot[1] * t106));
-    /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = C_j[7] * h_star_in_j_1 + C_j[6] * h_star_in_j_0 + C_j[8] * h_star_in_j_2;
     jac_phi_q_v_velocity[57] = h_star_dot_h_j;
     /* h_star_dot_g_j = h_star . g_j */
     const jg_real h_star_dot_g_j = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
-    const jg_real t111 = C_j[6] * t57 + C_j[7] * t46 + C_j[8] * t44;
-    const jg_real omega_i_in_joint_j_2 = C_j[6] * omega_i_in_j_0 + C_j[7] * omega_i_in_j_1 + C_j[8] *
-        omega_i_in_j_2;
+    const jg_real t111 = t57 * C_j[6] + t46 * C_j[7] + t44 * C_j[8];
+    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
+        C_j[8];
     const jg_real t113 = C_j[3] * t89 + C_j[4] * t78 + C_j[5] * t83;
     const jg_real t114 = C_j[1] * t85 + C_j[0] * t88 + C_j[2] * t81;
     const jg_real t115 = alphadot[0] * sine_1;
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    jac_phi_q_v_A_i[4] = t103 * h_star_dot_h_j + omega_i_in_joint_j_1 * t106 - (t111 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t113) + (t115 * t114 - alphadot[1] * t100) - (omega_j_in_joint_j_1 * t106 -
-        omega_j_in_joint_j_2 * t113);
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
-    jac_phi_q_v_A_i[5] = t111 * f_star_dot_f_j + omega_i_in_joint_j_2 * t114 - (t99 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t104) + alphadot[0] * (cosine_1 * t93 - sine_1 * t113) - (omega_j_in_joint_j_2 * t114
-        - omega_j_in_joint_j_0 * t104);
     const jg_real t119 = A_j[1] * v_3_in_j_0;
     const jg_real t120 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t121 = A_j[7] * omega_i[0] + omega_i[1] * t120;
@@ -682,13 +676,9 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t125 = e_ij_in_j_1 * t121 - e_ij_in_j_2 * t123 - (A_j[1] * v_i[0] + v_i[1] * t124);
     const jg_real t126 = A_j[4] * v_3_in_j_1;
     const jg_real t127 = A_j[1] * omega_i[0] + omega_i[1] * t124;
-    const jg_real t128 = e_ij_in_j_2 * t127 - e_ij_in_j_0 * t121 - (A_j[4] * v_i[0] + v_i[1] * t122);
+    const jg_real t128 = e_ij_in_j_2 * t127 - t121 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t122);
     const jg_real t129 = A_j[7] * v_3_in_j_2;
-    const jg_real t130 = e_ij_in_j_0 * t123 - e_ij_in_j_1 * t127 - (A_j[7] * v_i[0] + v_i[1] * t120);
-    jac_phi_q_v_A_i[6] = t129 + A_ji_2 * t130 + (t119 + A_ji_0 * t125 + (t126 + A_ji_1 * t128));
-    jac_phi_q_v_A_i[7] = t120 * v_3_in_j_2 + A_ji_5 * t130 + (t124 * v_3_in_j_0 + A_ji_3 * t125 + (t122 * v_3_in_j_1
-        + A_ji_4 * t128));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t125 + A_ji_7 * t128 + A_ji_8 * t130;
+    const jg_real t130 = t123 * e_ij_in_j_0 - e_ij_in_j_1 * t127 - (v_i[1] * t120 + A_j[7] * v_i[0]);
     const jg_real t131 = t122 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
     const jg_real t132 = t120 * f_star_in_i_1 + A_j[7] * f_star_in_i_0;
     const jg_real t133 = t120 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
@@ -702,17 +692,27 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t139 = f_star_in_j_1 * t137 + t134 * h_star_in_j_0 - (f_star_in_j_0 * t131 + t136 *
         h_star_in_j_1);
     const jg_real t140 = C_j[3] * t135 + C_j[4] * t138 + C_j[5] * t139;
-    const jg_real t141 = C_j[0] * t127 + C_j[1] * t123 + C_j[2] * t121;
+    const jg_real t141 = C_j[0] * t127 + t123 * C_j[1] + t121 * C_j[2];
     const jg_real t142 = C_j[0] * t135 + C_j[1] * t138 + C_j[2] * t139;
-    const jg_real t143 = C_j[3] * t127 + C_j[4] * t123 + C_j[5] * t121;
+    const jg_real t143 = C_j[3] * t127 + C_j[4] * t123 + t121 * C_j[5];
     const jg_real t144 = C_j[7] * t134 + C_j[6] * t136 + C_j[8] * t132;
     const jg_real t145 = C_j[7] * t131 + C_j[6] * t137 + C_j[8] * t133;
+    const jg_real t146 = t127 * C_j[6] + t123 * C_j[7] + t121 * C_j[8];
+    const jg_real t147 = C_j[3] * t137 + C_j[4] * t131 + C_j[5] * t133;
+    const jg_real t148 = C_j[1] * t134 + C_j[0] * t136 + C_j[2] * t132;
+    jac_phi_q_v_A_i[4] = t103 * h_star_dot_h_j + omega_i_in_joint_j_1 * t106 - (t111 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t113) + (t115 * t114 - alphadot[1] * t100) - (omega_j_in_joint_j_1 * t106 -
+        omega_j_in_joint_j_2 * t113);
+    jac_phi_q_v_A_i[5] = t111 * f_star_dot_f_j + omega_i_in_joint_j_2 * t114 - (t99 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t104) + alphadot[0] * (cosine_1 * t93 - sine_1 * t113) - (omega_j_in_joint_j_2 * t114
+        - omega_j_in_joint_j_0 * t104);
+    jac_phi_q_v_A_i[6] = t129 + A_ji_2 * t130 + (t119 + A_ji_0 * t125 + (t126 + A_ji_1 * t128));
+    jac_phi_q_v_A_i[7] = t120 * v_3_in_j_2 + A_ji_5 * t130 + (t124 * v_3_in_j_0 + A_ji_3 * t125 + (t122 * v_3_in_j_1
+        + A_ji_4 * t128));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t125 + A_ji_7 * t128 + A_ji_8 * t130;
     jac_phi_q_v_A_i[9] = -(omega_j_in_joint_j_0 * t140 - omega_j_in_joint_j_1 * t142 + (t105 * t144 -
         (omega_i_in_joint_j_0 * t140 + t141 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t142 + t143 *
         g_star_dot_f_j)) - alphadot[1] * t145));
-    const jg_real t146 = C_j[6] * t127 + C_j[7] * t123 + C_j[8] * t121;
-    const jg_real t147 = C_j[3] * t137 + C_j[4] * t131 + C_j[5] * t133;
-    const jg_real t148 = C_j[1] * t134 + C_j[0] * t136 + C_j[2] * t132;
     jac_phi_q_v_A_i[10] = t143 * h_star_dot_h_j + omega_i_in_joint_j_1 * t145 - (t146 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t147) + (t115 * t148 - alphadot[1] * t142) - (omega_j_in_joint_j_1 * t145 -
         omega_j_in_joint_j_2 * t147);
@@ -728,13 +728,9 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t155 = e_ij_in_j_1 * t151 - e_ij_in_j_2 * t153 - (A_j[2] * v_i[0] + v_i[1] * t154);
     const jg_real t156 = A_j[5] * v_3_in_j_1;
     const jg_real t157 = A_j[2] * omega_i[0] + omega_i[1] * t154;
-    const jg_real t158 = e_ij_in_j_2 * t157 - e_ij_in_j_0 * t151 - (A_j[5] * v_i[0] + v_i[1] * t152);
+    const jg_real t158 = e_ij_in_j_2 * t157 - t151 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t152);
     const jg_real t159 = A_j[8] * v_3_in_j_2;
-    const jg_real t160 = e_ij_in_j_0 * t153 - e_ij_in_j_1 * t157 - (A_j[8] * v_i[0] + v_i[1] * t150);
-    jac_phi_q_v_A_i[12] = t159 + A_ji_2 * t160 + (t149 + A_ji_0 * t155 + (t156 + A_ji_1 * t158));
-    jac_phi_q_v_A_i[13] = t150 * v_3_in_j_2 + A_ji_5 * t160 + (t154 * v_3_in_j_0 + A_ji_3 * t155 + (t152 *
-        v_3_in_j_1 + A_ji_4 * t158));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t155 + A_ji_7 * t158 + A_ji_8 * t160;
+    const jg_real t160 = t153 * e_ij_in_j_0 - e_ij_in_j_1 * t157 - (v_i[1] * t150 + A_j[8] * v_i[0]);
     const jg_real t161 = t152 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
     const jg_real t162 = t150 * f_star_in_i_1 + A_j[8] * f_star_in_i_0;
     const jg_real t163 = t150 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
@@ -748,23 +744,14 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t169 = f_star_in_j_1 * t167 + t164 * h_star_in_j_0 - (f_star_in_j_0 * t161 + t166 *
         h_star_in_j_1);
     const jg_real t170 = C_j[3] * t165 + C_j[4] * t168 + C_j[5] * t169;
-    const jg_real t171 = C_j[0] * t157 + C_j[1] * t153 + C_j[2] * t151;
+    const jg_real t171 = C_j[0] * t157 + t153 * C_j[1] + t151 * C_j[2];
     const jg_real t172 = C_j[0] * t165 + C_j[1] * t168 + C_j[2] * t169;
-    const jg_real t173 = C_j[3] * t157 + C_j[4] * t153 + C_j[5] * t151;
+    const jg_real t173 = C_j[3] * t157 + C_j[4] * t153 + t151 * C_j[5];
     const jg_real t174 = C_j[7] * t164 + C_j[6] * t166 + C_j[8] * t162;
     const jg_real t175 = C_j[7] * t161 + C_j[6] * t167 + C_j[8] * t163;
-    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t170 - omega_j_in_joint_j_1 * t172 + (t105 * t174 -
-        (omega_i_in_joint_j_0 * t170 + t171 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t172 + t173 *
-        g_star_dot_f_j)) - alphadot[1] * t175));
-    const jg_real t176 = C_j[6] * t157 + C_j[7] * t153 + C_j[8] * t151;
+    const jg_real t176 = t157 * C_j[6] + t153 * C_j[7] + t151 * C_j[8];
     const jg_real t177 = C_j[3] * t167 + C_j[4] * t161 + C_j[5] * t163;
     const jg_real t178 = C_j[1] * t164 + C_j[0] * t166 + C_j[2] * t162;
-    jac_phi_q_v_A_i[16] = t173 * h_star_dot_h_j + omega_i_in_joint_j_1 * t175 - (t176 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t177) + (t115 * t178 - alphadot[1] * t172) - (omega_j_in_joint_j_1 * t175 -
-        omega_j_in_joint_j_2 * t177);
-    jac_phi_q_v_A_i[17] = t176 * f_star_dot_f_j + omega_i_in_joint_j_2 * t178 - (t171 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t174) + alphadot[0] * (cosine_1 * t170 - sine_1 * t177) - (omega_j_in_joint_j_2 *
-        t178 - omega_j_in_joint_j_0 * t174);
     const jg_real t179 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t180 = A_j[6] * omega_i[2] + omega_i[1] * t179;
     const jg_real t181 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
@@ -772,12 +759,24 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t183 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t184 = e_ij_in_j_1 * t180 - e_ij_in_j_2 * t182 - (A_j[0] * v_i[2] + v_i[1] * t183);
     const jg_real t185 = A_j[0] * omega_i[2] + omega_i[1] * t183;
-    const jg_real t186 = e_ij_in_j_2 * t185 - e_ij_in_j_0 * t180 - (A_j[3] * v_i[2] + v_i[1] * t181);
-    const jg_real t187 = e_ij_in_j_0 * t182 - e_ij_in_j_1 * t185 - (A_j[6] * v_i[2] + v_i[1] * t179);
+    const jg_real t186 = e_ij_in_j_2 * t185 - t180 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t181);
+    const jg_real t187 = e_ij_in_j_0 * t182 - e_ij_in_j_1 * t185 - (v_i[1] * t179 + A_j[6] * v_i[2]);
+    jac_phi_q_v_A_i[12] = t159 + A_ji_2 * t160 + (t149 + A_ji_0 * t155 + (t156 + A_ji_1 * t158));
+    jac_phi_q_v_A_i[13] = t150 * v_3_in_j_2 + A_ji_5 * t160 + (t154 * v_3_in_j_0 + A_ji_3 * t155 + (t152 *
+        v_3_in_j_1 + A_ji_4 * t158));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t155 + A_ji_7 * t158 + A_ji_8 * t160;
+    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t170 - omega_j_in_joint_j_1 * t172 + (t105 * t174 -
+        (omega_i_in_joint_j_0 * t170 + t171 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t172 + t173 *
+        g_star_dot_f_j)) - alphadot[1] * t175));
+    jac_phi_q_v_A_i[16] = t173 * h_star_dot_h_j + omega_i_in_joint_j_1 * t175 - (t176 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t177) + (t115 * t178 - alphadot[1] * t172) - (omega_j_in_joint_j_1 * t175 -
+        omega_j_in_joint_j_2 * t177);
+    jac_phi_q_v_A_i[17] = t176 * f_star_dot_f_j + omega_i_in_joint_j_2 * t178 - (t171 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t174) + alphadot[0] * (cosine_1 * t170 - sine_1 * t177) - (omega_j_in_joint_j_2 *
+        t178 - omega_j_in_joint_j_0 * t174);
     jac_phi_q_v_A_i[18] = A_ji_0 * t184 + A_ji_1 * t186 + A_ji_2 * t187;
     jac_phi_q_v_A_i[19] = t179 * v_3_in_j_2 + A_ji_5 * t187 + (t183 * v_3_in_j_0 + A_ji_3 * t184 + (t181 *
         v_3_in_j_1 + A_ji_4 * t186));
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t187 + (t42 + A_ji_6 * t184 + (t56 + A_ji_7 * t186));
     const jg_real t188 = t181 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
     const jg_real t189 = t179 * f_star_in_i_1 + A_j[6] * f_star_in_i_2;
     const jg_real t190 = t179 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
@@ -791,23 +790,14 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t196 = f_star_in_j_1 * t194 + t191 * h_star_in_j_0 - (f_star_in_j_0 * t188 + t193 *
         h_star_in_j_1);
     const jg_real t197 = C_j[3] * t192 + C_j[4] * t195 + C_j[5] * t196;
-    const jg_real t198 = C_j[0] * t185 + C_j[1] * t182 + C_j[2] * t180;
+    const jg_real t198 = C_j[0] * t185 + C_j[1] * t182 + t180 * C_j[2];
     const jg_real t199 = C_j[0] * t192 + C_j[1] * t195 + C_j[2] * t196;
     const jg_real t200 = C_j[3] * t185 + C_j[4] * t182 + C_j[5] * t180;
     const jg_real t201 = C_j[7] * t191 + C_j[6] * t193 + C_j[8] * t189;
     const jg_real t202 = C_j[7] * t188 + C_j[6] * t194 + C_j[8] * t190;
-    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t197 - omega_j_in_joint_j_1 * t199 + (t105 * t201 -
-        (omega_i_in_joint_j_0 * t197 + t198 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t199 + t200 *
-        g_star_dot_f_j)) - alphadot[1] * t202));
-    const jg_real t203 = C_j[6] * t185 + C_j[7] * t182 + C_j[8] * t180;
+    const jg_real t203 = t185 * C_j[6] + t182 * C_j[7] + t180 * C_j[8];
     const jg_real t204 = C_j[3] * t194 + C_j[4] * t188 + C_j[5] * t190;
     const jg_real t205 = C_j[1] * t191 + C_j[0] * t193 + C_j[2] * t189;
-    jac_phi_q_v_A_i[22] = t200 * h_star_dot_h_j + omega_i_in_joint_j_1 * t202 - (t203 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t204) + (t115 * t205 - alphadot[1] * t199) - (omega_j_in_joint_j_1 * t202 -
-        omega_j_in_joint_j_2 * t204);
-    jac_phi_q_v_A_i[23] = t203 * f_star_dot_f_j + omega_i_in_joint_j_2 * t205 - (t198 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t201) + alphadot[0] * (cosine_1 * t197 - sine_1 * t204) - (omega_j_in_joint_j_2 *
-        t205 - omega_j_in_joint_j_0 * t201);
     const jg_real t206 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t207 = A_j[7] * omega_i[2] + omega_i[1] * t206;
     const jg_real t208 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
@@ -815,12 +805,8 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t210 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t211 = e_ij_in_j_1 * t207 - e_ij_in_j_2 * t209 - (A_j[1] * v_i[2] + v_i[1] * t210);
     const jg_real t212 = A_j[1] * omega_i[2] + omega_i[1] * t210;
-    const jg_real t213 = e_ij_in_j_2 * t212 - e_ij_in_j_0 * t207 - (A_j[4] * v_i[2] + v_i[1] * t208);
-    const jg_real t214 = e_ij_in_j_0 * t209 - e_ij_in_j_1 * t212 - (A_j[7] * v_i[2] + v_i[1] * t206);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t211 + A_ji_1 * t213 + A_ji_2 * t214;
-    jac_phi_q_v_A_i[25] = t206 * v_3_in_j_2 + A_ji_5 * t214 + (t210 * v_3_in_j_0 + A_ji_3 * t211 + (t208 *
-        v_3_in_j_1 + A_ji_4 * t213));
-    jac_phi_q_v_A_i[26] = t129 + A_ji_8 * t214 + (t119 + A_ji_6 * t211 + (t126 + A_ji_7 * t213));
+    const jg_real t213 = e_ij_in_j_2 * t212 - t207 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t208);
+    const jg_real t214 = e_ij_in_j_0 * t209 - e_ij_in_j_1 * t212 - (v_i[1] * t206 + A_j[7] * v_i[2]);
     const jg_real t215 = t208 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
     const jg_real t216 = t206 * f_star_in_i_1 + A_j[7] * f_star_in_i_2;
     const jg_real t217 = t206 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
@@ -834,23 +820,31 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t223 = f_star_in_j_1 * t221 + t218 * h_star_in_j_0 - (f_star_in_j_0 * t215 + t220 *
         h_star_in_j_1);
     const jg_real t224 = C_j[3] * t219 + C_j[4] * t222 + C_j[5] * t223;
-    const jg_real t225 = C_j[0] * t212 + C_j[1] * t209 + C_j[2] * t207;
+    const jg_real t225 = C_j[0] * t212 + C_j[1] * t209 + t207 * C_j[2];
     const jg_real t226 = C_j[0] * t219 + C_j[1] * t222 + C_j[2] * t223;
     const jg_real t227 = C_j[3] * t212 + C_j[4] * t209 + C_j[5] * t207;
     const jg_real t228 = C_j[7] * t218 + C_j[6] * t220 + C_j[8] * t216;
     const jg_real t229 = C_j[7] * t215 + C_j[6] * t221 + C_j[8] * t217;
+    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t187 + (t42 + A_ji_6 * t184 + (t56 + A_ji_7 * t186));
+    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t197 - omega_j_in_joint_j_1 * t199 + (t105 * t201 -
+        (omega_i_in_joint_j_0 * t197 + t198 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t199 + t200 *
+        g_star_dot_f_j)) - alphadot[1] * t202));
+    jac_phi_q_v_A_i[22] = t200 * h_star_dot_h_j + omega_i_in_joint_j_1 * t202 - (t203 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t204) + (t115 * t205 - alphadot[1] * t199) - (omega_j_in_joint_j_1 * t202 -
+        omega_j_in_joint_j_2 * t204);
+    jac_phi_q_v_A_i[23] = t203 * f_star_dot_f_j + omega_i_in_joint_j_2 * t205 - (t198 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t201) + alphadot[0] * (cosine_1 * t197 - sine_1 * t204) - (omega_j_in_joint_j_2 *
+        t205 - omega_j_in_joint_j_0 * t201);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t211 + A_ji_1 * t213 + A_ji_2 * t214;
+    jac_phi_q_v_A_i[25] = t206 * v_3_in_j_2 + A_ji_5 * t214 + (t210 * v_3_in_j_0 + A_ji_3 * t211 + (t208 *
+        v_3_in_j_1 + A_ji_4 * t213));
+    jac_phi_q_v_A_i[26] = t129 + A_ji_8 * t214 + (t119 + A_ji_6 * t211 + (t126 + A_ji_7 * t213));
     jac_phi_q_v_A_i[27] = -(omega_j_in_joint_j_0 * t224 - omega_j_in_joint_j_1 * t226 + (t105 * t228 -
         (omega_i_in_joint_j_0 * t224 + t225 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t226 + t227 *
         g_star_dot_f_j)) - alphadot[1] * t229));
-    const jg_real t230 = C_j[6] * t212 + C_j[7] * t209 + C_j[8] * t207;
+    const jg_real t230 = t212 * C_j[6] + t209 * C_j[7] + t207 * C_j[8];
     const jg_real t231 = C_j[3] * t221 + C_j[4] * t215 + C_j[5] * t217;
     const jg_real t232 = C_j[1] * t218 + C_j[0] * t220 + C_j[2] * t216;
-    jac_phi_q_v_A_i[28] = t227 * h_star_dot_h_j + omega_i_in_joint_j_1 * t229 - (t230 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t231) + (t115 * t232 - alphadot[1] * t226) - (omega_j_in_joint_j_1 * t229 -
-        omega_j_in_joint_j_2 * t231);
-    jac_phi_q_v_A_i[29] = t230 * f_star_dot_f_j + omega_i_in_joint_j_2 * t232 - (t225 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t228) + alphadot[0] * (cosine_1 * t224 - sine_1 * t231) - (omega_j_in_joint_j_2 *
-        t232 - omega_j_in_joint_j_0 * t228);
     const jg_real t233 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t234 = A_j[8] * omega_i[2] + omega_i[1] * t233;
     const jg_real t235 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
@@ -858,12 +852,8 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t237 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t238 = e_ij_in_j_1 * t234 - e_ij_in_j_2 * t236 - (A_j[2] * v_i[2] + v_i[1] * t237);
     const jg_real t239 = A_j[2] * omega_i[2] + omega_i[1] * t237;
-    const jg_real t240 = e_ij_in_j_2 * t239 - e_ij_in_j_0 * t234 - (A_j[5] * v_i[2] + v_i[1] * t235);
-    const jg_real t241 = e_ij_in_j_0 * t236 - e_ij_in_j_1 * t239 - (A_j[8] * v_i[2] + v_i[1] * t233);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t238 + A_ji_1 * t240 + A_ji_2 * t241;
-    jac_phi_q_v_A_i[31] = t233 * v_3_in_j_2 + A_ji_5 * t241 + (t237 * v_3_in_j_0 + A_ji_3 * t238 + (t235 *
-        v_3_in_j_1 + A_ji_4 * t240));
-    jac_phi_q_v_A_i[32] = t159 + A_ji_8 * t241 + (t149 + A_ji_6 * t238 + (t156 + A_ji_7 * t240));
+    const jg_real t240 = e_ij_in_j_2 * t239 - t234 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t235);
+    const jg_real t241 = e_ij_in_j_0 * t236 - e_ij_in_j_1 * t239 - (v_i[1] * t233 + A_j[8] * v_i[2]);
     const jg_real t242 = t235 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
     const jg_real t243 = t233 * f_star_in_i_1 + A_j[8] * f_star_in_i_2;
     const jg_real t244 = t233 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
@@ -877,17 +867,27 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t250 = f_star_in_j_1 * t248 + t245 * h_star_in_j_0 - (f_star_in_j_0 * t242 + t247 *
         h_star_in_j_1);
     const jg_real t251 = C_j[3] * t246 + C_j[4] * t249 + C_j[5] * t250;
-    const jg_real t252 = C_j[0] * t239 + C_j[1] * t236 + C_j[2] * t234;
+    const jg_real t252 = C_j[0] * t239 + C_j[1] * t236 + t234 * C_j[2];
     const jg_real t253 = C_j[0] * t246 + C_j[1] * t249 + C_j[2] * t250;
     const jg_real t254 = C_j[3] * t239 + C_j[4] * t236 + C_j[5] * t234;
     const jg_real t255 = C_j[7] * t245 + C_j[6] * t247 + C_j[8] * t243;
     const jg_real t256 = C_j[7] * t242 + C_j[6] * t248 + C_j[8] * t244;
+    const jg_real t257 = t239 * C_j[6] + t236 * C_j[7] + t234 * C_j[8];
+    const jg_real t258 = C_j[3] * t248 + C_j[4] * t242 + C_j[5] * t244;
+    const jg_real t259 = C_j[1] * t245 + C_j[0] * t247 + C_j[2] * t243;
+    jac_phi_q_v_A_i[28] = t227 * h_star_dot_h_j + omega_i_in_joint_j_1 * t229 - (t230 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t231) + (t115 * t232 - alphadot[1] * t226) - (omega_j_in_joint_j_1 * t229 -
+        omega_j_in_joint_j_2 * t231);
+    jac_phi_q_v_A_i[29] = t230 * f_star_dot_f_j + omega_i_in_joint_j_2 * t232 - (t225 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t228) + alphadot[0] * (cosine_1 * t224 - sine_1 * t231) - (omega_j_in_joint_j_2 *
+        t232 - omega_j_in_joint_j_0 * t228);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t238 + A_ji_1 * t240 + A_ji_2 * t241;
+    jac_phi_q_v_A_i[31] = t233 * v_3_in_j_2 + A_ji_5 * t241 + (t237 * v_3_in_j_0 + A_ji_3 * t238 + (t235 *
+        v_3_in_j_1 + A_ji_4 * t240));
+    jac_phi_q_v_A_i[32] = t159 + A_ji_8 * t241 + (t149 + A_ji_6 * t238 + (t156 + A_ji_7 * t240));
     jac_phi_q_v_A_i[33] = -(omega_j_in_joint_j_0 * t251 - omega_j_in_joint_j_1 * t253 + (t105 * t255 -
         (omega_i_in_joint_j_0 * t251 + t252 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t253 + t254 *
         g_star_dot_f_j)) - alphadot[1] * t256));
-    const jg_real t257 = C_j[6] * t239 + C_j[7] * t236 + C_j[8] * t234;
-    const jg_real t258 = C_j[3] * t248 + C_j[4] * t242 + C_j[5] * t244;
-    const jg_real t259 = C_j[1] * t245 + C_j[0] * t247 + C_j[2] * t243;
     jac_phi_q_v_A_i[34] = t254 * h_star_dot_h_j + omega_i_in_joint_j_1 * t256 - (t257 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t258) + (t115 * t259 - alphadot[1] * t253) - (omega_j_in_joint_j_1 * t256 -
         omega_j_in_joint_j_2 * t258);
@@ -896,11 +896,11 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         t259 - omega_j_in_joint_j_0 * t255);
     const jg_real t260 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
     const jg_real t261 = omega_i[1] * t260;
-    const jg_real t262 = e_ij_in_j_1 * t261;
+    const jg_real t262 = t261 * e_ij_in_j_1;
     const jg_real t263 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t264 = omega_i[1] * t263;
     const jg_real t265 = e_ij_in_j_2 * t264;
-    const jg_real t266 = A_i[6] * v_i[2] + A_i[0] * v_i[0];
+    const jg_real t266 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
     const jg_real t267 = t262 - t265 - t266;
     const jg_real t268 = v_0_world_0 * omega_i_in_j_2;
     const jg_real t269 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
@@ -911,15 +911,12 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t274 = e_ij_in_j_1 * t269;
     const jg_real t275 = v_i[1] * t260;
     const jg_real t276 = t273 + t264 * e_ij_in_j_0 - t274 - t275;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t267 + A_ji_1 * t272 + A_ji_2 * t276;
-    jac_phi_q_v_A_j[1] = t260 * v_3_in_j_2 + A_ji_5 * t276 + (t263 * v_3_in_j_1 + A_ji_4 * t272 + A_ji_3 * t267);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t267 + A_ji_7 * t272 + A_ji_8 * t276;
     const jg_real t277 = t263 * h_star_in_i_1;
-    const jg_real t278 = f_star_in_j_2 * t277;
+    const jg_real t278 = t277 * f_star_in_j_2;
     const jg_real t279 = t260 * f_star_in_i_1;
     const jg_real t280 = t279 * h_star_in_j_1;
     const jg_real t281 = t260 * h_star_in_i_1;
-    const jg_real t282 = f_star_in_j_1 * t281;
+    const jg_real t282 = t281 * f_star_in_j_1;
     const jg_real t283 = t263 * f_star_in_i_1;
     const jg_real t284 = t283 * h_star_in_j_2;
     const jg_real t285 = t278 + t280 - (t282 + t284);
@@ -927,35 +924,26 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t287 = t286 * h_star_in_j_2;
     const jg_real t288 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
     const jg_real t289 = f_star_in_j_2 * t288;
-    const jg_real t290 = t287 + f_star_in_j_0 * t281 - (t289 + t279 * h_star_in_j_0);
+    const jg_real t290 = t287 + t281 * f_star_in_j_0 - (t289 + t279 * h_star_in_j_0);
     const jg_real t291 = f_star_in_j_1 * t288;
     const jg_real t292 = t286 * h_star_in_j_1;
-    const jg_real t293 = t291 + t283 * h_star_in_j_0 - (t292 + f_star_in_j_0 * t277);
+    const jg_real t293 = t291 + t283 * h_star_in_j_0 - (t292 + t277 * f_star_in_j_0);
     const jg_real t294 = C_j[3] * t285 + C_j[4] * t290 + C_j[5] * t293;
-    const jg_real t295 = C_j[0] * t269 + C_j[1] * t264 + C_j[2] * t261;
+    const jg_real t295 = C_j[0] * t269 + t264 * C_j[1] + t261 * C_j[2];
     const jg_real t296 = C_j[0] * t285 + C_j[1] * t290 + C_j[2] * t293;
-    const jg_real t297 = C_j[3] * t269 + C_j[4] * t264 + C_j[5] * t261;
+    const jg_real t297 = C_j[3] * t269 + t264 * C_j[4] + t261 * C_j[5];
     const jg_real t298 = C_j[7] * t283 + C_j[6] * t286 + C_j[8] * t279;
     const jg_real t299 = C_j[7] * t277 + C_j[6] * t288 + C_j[8] * t281;
-    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t294 - omega_j_in_joint_j_1 * t296 + (t105 * t298 -
-        (omega_i_in_joint_j_0 * t294 + t295 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t296 + t297 *
-        g_star_dot_f_j)) - alphadot[1] * t299));
-    const jg_real t300 = C_j[6] * t269 + C_j[7] * t264 + C_j[8] * t261;
+    const jg_real t300 = t269 * C_j[6] + t264 * C_j[7] + t261 * C_j[8];
     const jg_real t301 = C_j[3] * t288 + C_j[4] * t277 + C_j[5] * t281;
     const jg_real t302 = C_j[1] * t283 + C_j[0] * t286 + C_j[2] * t279;
-    jac_phi_q_v_A_j[4] = t297 * h_star_dot_h_j + omega_i_in_joint_j_1 * t299 - (t300 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t301) + (t115 * t302 - alphadot[1] * t296) - (omega_j_in_joint_j_1 * t299 -
-        omega_j_in_joint_j_2 * t301);
-    jac_phi_q_v_A_j[5] = t300 * f_star_dot_f_j + omega_i_in_joint_j_2 * t302 - (t295 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t298) + alphadot[0] * (cosine_1 * t294 - sine_1 * t301) - (omega_j_in_joint_j_2 *
-        t302 - omega_j_in_joint_j_0 * t298);
     const jg_real t303 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
     const jg_real t304 = omega_i[1] * t303;
-    const jg_real t305 = e_ij_in_j_1 * t304;
+    const jg_real t305 = t304 * e_ij_in_j_1;
     const jg_real t306 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
     const jg_real t307 = omega_i[1] * t306;
     const jg_real t308 = e_ij_in_j_2 * t307;
-    const jg_real t309 = A_i[7] * v_i[2] + A_i[1] * v_i[0];
+    const jg_real t309 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
     const jg_real t310 = t305 - t308 - t309;
     const jg_real t311 = v_0_world_1 * omega_i_in_j_2;
     const jg_real t312 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
@@ -966,15 +954,26 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t317 = e_ij_in_j_1 * t312;
     const jg_real t318 = v_i[1] * t303;
     const jg_real t319 = t316 + t307 * e_ij_in_j_0 - t317 - t318;
+    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t267 + A_ji_1 * t272 + A_ji_2 * t276;
+    jac_phi_q_v_A_j[1] = t260 * v_3_in_j_2 + A_ji_5 * t276 + (t263 * v_3_in_j_1 + A_ji_4 * t272 + A_ji_3 * t267);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t267 + A_ji_7 * t272 + A_ji_8 * t276;
+    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t294 - omega_j_in_joint_j_1 * t296 + (t105 * t298 -
+        (omega_i_in_joint_j_0 * t294 + t295 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t296 + t297 *
+        g_star_dot_f_j)) - alphadot[1] * t299));
+    jac_phi_q_v_A_j[4] = t297 * h_star_dot_h_j + omega_i_in_joint_j_1 * t299 - (t300 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t301) + (t115 * t302 - alphadot[1] * t296) - (omega_j_in_joint_j_1 * t299 -
+        omega_j_in_joint_j_2 * t301);
+    jac_phi_q_v_A_j[5] = t300 * f_star_dot_f_j + omega_i_in_joint_j_2 * t302 - (t295 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t298) + alphadot[0] * (cosine_1 * t294 - sine_1 * t301) - (omega_j_in_joint_j_2 *
+        t302 - omega_j_in_joint_j_0 * t298);
     jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t310 + A_ji_1 * t315 + A_ji_2 * t319;
     jac_phi_q_v_A_j[7] = t303 * v_3_in_j_2 + A_ji_5 * t319 + (t306 * v_3_in_j_1 + A_ji_4 * t315 + A_ji_3 * t310);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t310 + A_ji_7 * t315 + A_ji_8 * t319;
     const jg_real t320 = t306 * h_star_in_i_1;
-    const jg_real t321 = f_star_in_j_2 * t320;
+    const jg_real t321 = t320 * f_star_in_j_2;
     const jg_real t322 = t303 * f_star_in_i_1;
     const jg_real t323 = t322 * h_star_in_j_1;
     const jg_real t324 = t303 * h_star_in_i_1;
-    const jg_real t325 = f_star_in_j_1 * t324;
+    const jg_real t325 = t324 * f_star_in_j_1;
     const jg_real t326 = t306 * f_star_in_i_1;
     const jg_real t327 = t326 * h_star_in_j_2;
     const jg_real t328 = t321 + t323 - (t325 + t327);
@@ -982,35 +981,26 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t330 = t329 * h_star_in_j_2;
     const jg_real t331 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
     const jg_real t332 = f_star_in_j_2 * t331;
-    const jg_real t333 = t330 + f_star_in_j_0 * t324 - (t332 + t322 * h_star_in_j_0);
+    const jg_real t333 = t330 + t324 * f_star_in_j_0 - (t332 + t322 * h_star_in_j_0);
     const jg_real t334 = f_star_in_j_1 * t331;
     const jg_real t335 = t329 * h_star_in_j_1;
-    const jg_real t336 = t334 + t326 * h_star_in_j_0 - (t335 + f_star_in_j_0 * t320);
+    const jg_real t336 = t334 + t326 * h_star_in_j_0 - (t335 + t320 * f_star_in_j_0);
     const jg_real t337 = C_j[3] * t328 + C_j[4] * t333 + C_j[5] * t336;
-    const jg_real t338 = C_j[0] * t312 + C_j[1] * t307 + C_j[2] * t304;
+    const jg_real t338 = C_j[0] * t312 + t307 * C_j[1] + t304 * C_j[2];
     const jg_real t339 = C_j[0] * t328 + C_j[1] * t333 + C_j[2] * t336;
-    const jg_real t340 = C_j[3] * t312 + C_j[4] * t307 + C_j[5] * t304;
+    const jg_real t340 = C_j[3] * t312 + t307 * C_j[4] + t304 * C_j[5];
     const jg_real t341 = C_j[7] * t326 + C_j[6] * t329 + C_j[8] * t322;
     const jg_real t342 = C_j[7] * t320 + C_j[6] * t331 + C_j[8] * t324;
-    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t337 - omega_j_in_joint_j_1 * t339 + (t105 * t341 -
-        (omega_i_in_joint_j_0 * t337 + t338 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t339 + t340 *
-        g_star_dot_f_j)) - alphadot[1] * t342));
-    const jg_real t343 = C_j[6] * t312 + C_j[7] * t307 + C_j[8] * t304;
+    const jg_real t343 = t312 * C_j[6] + t307 * C_j[7] + t304 * C_j[8];
     const jg_real t344 = C_j[3] * t331 + C_j[4] * t320 + C_j[5] * t324;
     const jg_real t345 = C_j[1] * t326 + C_j[0] * t329 + C_j[2] * t322;
-    jac_phi_q_v_A_j[10] = t340 * h_star_dot_h_j + omega_i_in_joint_j_1 * t342 - (t343 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t344) + (t115 * t345 - alphadot[1] * t339) - (omega_j_in_joint_j_1 * t342 -
-        omega_j_in_joint_j_2 * t344);
-    jac_phi_q_v_A_j[11] = t343 * f_star_dot_f_j + omega_i_in_joint_j_2 * t345 - (t338 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t341) + alphadot[0] * (cosine_1 * t337 - sine_1 * t344) - (omega_j_in_joint_j_2 *
-        t345 - omega_j_in_joint_j_0 * t341);
     const jg_real t346 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
     const jg_real t347 = omega_i[1] * t346;
-    const jg_real t348 = e_ij_in_j_1 * t347;
+    const jg_real t348 = t347 * e_ij_in_j_1;
     const jg_real t349 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
     const jg_real t350 = omega_i[1] * t349;
     const jg_real t351 = e_ij_in_j_2 * t350;
-    const jg_real t352 = A_i[8] * v_i[2] + A_i[2] * v_i[0];
+    const jg_real t352 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
     const jg_real t353 = t348 - t351 - t352;
     const jg_real t354 = v_0_world_2 * omega_i_in_j_2;
     const jg_real t355 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
@@ -1021,15 +1011,12 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t360 = e_ij_in_j_1 * t355;
     const jg_real t361 = v_i[1] * t346;
     const jg_real t362 = t359 + t350 * e_ij_in_j_0 - t360 - t361;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t353 + A_ji_1 * t358 + A_ji_2 * t362;
-    jac_phi_q_v_A_j[13] = t346 * v_3_in_j_2 + A_ji_5 * t362 + (t349 * v_3_in_j_1 + A_ji_4 * t358 + A_ji_3 * t353);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t353 + A_ji_7 * t358 + A_ji_8 * t362;
     const jg_real t363 = t349 * h_star_in_i_1;
-    const jg_real t364 = f_star_in_j_2 * t363;
+    const jg_real t364 = t363 * f_star_in_j_2;
     const jg_real t365 = t346 * f_star_in_i_1;
     const jg_real t366 = t365 * h_star_in_j_1;
     const jg_real t367 = t346 * h_star_in_i_1;
-    const jg_real t368 = f_star_in_j_1 * t367;
+    const jg_real t368 = t367 * f_star_in_j_1;
     const jg_real t369 = t349 * f_star_in_i_1;
     const jg_real t370 = t369 * h_star_in_j_2;
     const jg_real t371 = t364 + t366 - (t368 + t370);
@@ -1037,61 +1024,74 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t373 = t372 * h_star_in_j_2;
     const jg_real t374 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
     const jg_real t375 = f_star_in_j_2 * t374;
-    const jg_real t376 = t373 + f_star_in_j_0 * t367 - (t375 + t365 * h_star_in_j_0);
+    const jg_real t376 = t373 + t367 * f_star_in_j_0 - (t375 + t365 * h_star_in_j_0);
     const jg_real t377 = f_star_in_j_1 * t374;
     const jg_real t378 = t372 * h_star_in_j_1;
-    const jg_real t379 = t377 + t369 * h_star_in_j_0 - (t378 + f_star_in_j_0 * t363);
+    const jg_real t379 = t377 + t369 * h_star_in_j_0 - (t378 + t363 * f_star_in_j_0);
     const jg_real t380 = C_j[3] * t371 + C_j[4] * t376 + C_j[5] * t379;
-    const jg_real t381 = C_j[0] * t355 + C_j[1] * t350 + C_j[2] * t347;
+    const jg_real t381 = C_j[0] * t355 + t350 * C_j[1] + t347 * C_j[2];
     const jg_real t382 = C_j[0] * t371 + C_j[1] * t376 + C_j[2] * t379;
-    const jg_real t383 = C_j[3] * t355 + C_j[4] * t350 + C_j[5] * t347;
+    const jg_real t383 = C_j[3] * t355 + t350 * C_j[4] + t347 * C_j[5];
     const jg_real t384 = C_j[7] * t369 + C_j[6] * t372 + C_j[8] * t365;
     const jg_real t385 = C_j[7] * t363 + C_j[6] * t374 + C_j[8] * t367;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t310 + A_ji_7 * t315 + A_ji_8 * t319;
+    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t337 - omega_j_in_joint_j_1 * t339 + (t105 * t341 -
+        (omega_i_in_joint_j_0 * t337 + t338 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t339 + t340 *
+        g_star_dot_f_j)) - alphadot[1] * t342));
+    jac_phi_q_v_A_j[10] = t340 * h_star_dot_h_j + omega_i_in_joint_j_1 * t342 - (t343 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t344) + (t115 * t345 - alphadot[1] * t339) - (omega_j_in_joint_j_1 * t342 -
+        omega_j_in_joint_j_2 * t344);
+    jac_phi_q_v_A_j[11] = t343 * f_star_dot_f_j + omega_i_in_joint_j_2 * t345 - (t338 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t341) + alphadot[0] * (cosine_1 * t337 - sine_1 * t344) - (omega_j_in_joint_j_2 *
+        t345 - omega_j_in_joint_j_0 * t341);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t353 + A_ji_1 * t358 + A_ji_2 * t362;
+    jac_phi_q_v_A_j[13] = t346 * v_3_in_j_2 + A_ji_5 * t362 + (t349 * v_3_in_j_1 + A_ji_4 * t358 + A_ji_3 * t353);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t353 + A_ji_7 * t358 + A_ji_8 * t362;
     jac_phi_q_v_A_j[15] = -(omega_j_in_joint_j_0 * t380 - omega_j_in_joint_j_1 * t382 + (t105 * t384 -
         (omega_i_in_joint_j_0 * t380 + t381 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t382 + t383 *
         g_star_dot_f_j)) - alphadot[1] * t385));
-    const jg_real t386 = C_j[6] * t355 + C_j[7] * t350 + C_j[8] * t347;
+    const jg_real t386 = t355 * C_j[6] + t350 * C_j[7] + t347 * C_j[8];
     const jg_real t387 = C_j[3] * t374 + C_j[4] * t363 + C_j[5] * t367;
     const jg_real t388 = C_j[1] * t369 + C_j[0] * t372 + C_j[2] * t365;
+    const jg_real t389 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
+    const jg_real t390 = omega_i[1] * t389;
+    const jg_real t391 = t390 * e_ij_in_j_0;
+    const jg_real t392 = t391 + t265 + t266;
+    const jg_real t393 = t390 * e_ij_in_j_1 + t268 - t270 + t271;
+    const jg_real t394 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t395 = t269 * e_ij_in_j_0;
+    const jg_real t396 = v_i[1] * t389;
+    const jg_real t397 = t395 - (t394 - e_ij_in_j_1 * t264) - t396;
+    const jg_real t398 = t389 * f_star_in_i_1;
+    const jg_real t399 = t389 * h_star_in_i_1;
+    const jg_real t400 = t289 + t398 * h_star_in_j_1 - (t399 * f_star_in_j_1 + t287);
+    const jg_real t401 = t399 * f_star_in_j_0;
+    const jg_real t402 = t398 * h_star_in_j_0;
+    const jg_real t403 = t401 - t284 - (t402 - t278);
+    const jg_real t404 = t286 * h_star_in_j_0;
+    const jg_real t405 = f_star_in_j_0 * t288;
+    const jg_real t406 = t404 - t277 * f_star_in_j_1 - (t405 - t283 * h_star_in_j_1);
+    const jg_real t407 = C_j[3] * t400 + C_j[4] * t403 + C_j[5] * t406;
+    const jg_real t408 = t269 * C_j[1] - t264 * C_j[0] + t390 * C_j[2];
+    const jg_real t409 = C_j[0] * t400 + C_j[1] * t403 + C_j[2] * t406;
+    const jg_real t410 = C_j[4] * t269 - t264 * C_j[3] + t390 * C_j[5];
+    const jg_real t411 = C_j[7] * t286 - C_j[6] * t283 + C_j[8] * t398;
+    const jg_real t412 = C_j[7] * t288 - C_j[6] * t277 + C_j[8] * t399;
+    const jg_real t413 = t269 * C_j[7] - t264 * C_j[6] + t390 * C_j[8];
+    const jg_real t414 = C_j[4] * t288 - C_j[3] * t277 + C_j[5] * t399;
+    const jg_real t415 = C_j[1] * t286 - C_j[0] * t283 + C_j[2] * t398;
     jac_phi_q_v_A_j[16] = t383 * h_star_dot_h_j + omega_i_in_joint_j_1 * t385 - (t386 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t387) + (t115 * t388 - alphadot[1] * t382) - (omega_j_in_joint_j_1 * t385 -
         omega_j_in_joint_j_2 * t387);
     jac_phi_q_v_A_j[17] = t386 * f_star_dot_f_j + omega_i_in_joint_j_2 * t388 - (t381 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t384) + alphadot[0] * (cosine_1 * t380 - sine_1 * t387) - (omega_j_in_joint_j_2 *
         t388 - omega_j_in_joint_j_0 * t384);
-    const jg_real t389 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
-    const jg_real t390 = omega_i[1] * t389;
-    const jg_real t391 = t390 * e_ij_in_j_0;
-    const jg_real t392 = t391 + t265 + t266;
-    const jg_real t393 = e_ij_in_j_1 * t390 + t268 - t270 + t271;
-    const jg_real t394 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t395 = e_ij_in_j_0 * t269;
-    const jg_real t396 = v_i[1] * t389;
-    const jg_real t397 = t395 - (t394 - e_ij_in_j_1 * t264) - t396;
     jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t392 + A_ji_0 * t393 + A_ji_2 * t397;
     jac_phi_q_v_A_j[19] = t389 * v_3_in_j_2 + A_ji_5 * t397 + (A_ji_3 * t393 - t263 * v_3_in_j_0 - A_ji_4 * t392);
     jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t392 + A_ji_6 * t393 + A_ji_8 * t397;
-    const jg_real t398 = t389 * f_star_in_i_1;
-    const jg_real t399 = t389 * h_star_in_i_1;
-    const jg_real t400 = t289 + t398 * h_star_in_j_1 - (f_star_in_j_1 * t399 + t287);
-    const jg_real t401 = f_star_in_j_0 * t399;
-    const jg_real t402 = t398 * h_star_in_j_0;
-    const jg_real t403 = t401 - t284 - (t402 - t278);
-    const jg_real t404 = t286 * h_star_in_j_0;
-    const jg_real t405 = f_star_in_j_0 * t288;
-    const jg_real t406 = t404 - f_star_in_j_1 * t277 - (t405 - t283 * h_star_in_j_1);
-    const jg_real t407 = C_j[3] * t400 + C_j[4] * t403 + C_j[5] * t406;
-    const jg_real t408 = C_j[1] * t269 - C_j[0] * t264 + C_j[2] * t390;
-    const jg_real t409 = C_j[0] * t400 + C_j[1] * t403 + C_j[2] * t406;
-    const jg_real t410 = C_j[4] * t269 - C_j[3] * t264 + C_j[5] * t390;
-    const jg_real t411 = C_j[7] * t286 - C_j[6] * t283 + C_j[8] * t398;
-    const jg_real t412 = C_j[7] * t288 - C_j[6] * t277 + C_j[8] * t399;
     jac_phi_q_v_A_j[21] = -(omega_j_in_joint_j_0 * t407 - omega_j_in_joint_j_1 * t409 + (t105 * t411 -
         (omega_i_in_joint_j_0 * t407 + t408 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t409 + t410 *
         g_star_dot_f_j)) - alphadot[1] * t412));
-    const jg_real t413 = C_j[7] * t269 - C_j[6] * t264 + C_j[8] * t390;
-    const jg_real t414 = C_j[4] * t288 - C_j[3] * t277 + C_j[5] * t399;
-    const jg_real t415 = C_j[1] * t286 - C_j[0] * t283 + C_j[2] * t398;
     jac_phi_q_v_A_j[22] = t410 * h_star_dot_h_j + omega_i_in_joint_j_1 * t412 - (t413 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t414) + (t115 * t415 - alphadot[1] * t409) - (omega_j_in_joint_j_1 * t412 -
         omega_j_in_joint_j_2 * t414);
@@ -1102,128 +1102,128 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t417 = omega_i[1] * t416;
     const jg_real t418 = t417 * e_ij_in_j_0;
     const jg_real t419 = t418 + t308 + t309;
-    const jg_real t420 = e_ij_in_j_1 * t417 + t311 - t313 + t314;
+    const jg_real t420 = t417 * e_ij_in_j_1 + t311 - t313 + t314;
     const jg_real t421 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t422 = e_ij_in_j_0 * t312;
+    const jg_real t422 = t312 * e_ij_in_j_0;
     const jg_real t423 = v_i[1] * t416;
     const jg_real t424 = t422 - (t421 - e_ij_in_j_1 * t307) - t423;
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t419 + A_ji_0 * t420 + A_ji_2 * t424;
-    jac_phi_q_v_A_j[25] = t416 * v_3_in_j_2 + A_ji_5 * t424 + (A_ji_3 * t420 - t306 * v_3_in_j_0 - A_ji_4 * t419);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t419 + A_ji_6 * t420 + A_ji_8 * t424;
     const jg_real t425 = t416 * f_star_in_i_1;
     const jg_real t426 = t416 * h_star_in_i_1;
-    const jg_real t427 = t332 + t425 * h_star_in_j_1 - (f_star_in_j_1 * t426 + t330);
-    const jg_real t428 = f_star_in_j_0 * t426;
+    const jg_real t427 = t332 + t425 * h_star_in_j_1 - (t426 * f_star_in_j_1 + t330);
+    const jg_real t428 = t426 * f_star_in_j_0;
     const jg_real t429 = t425 * h_star_in_j_0;
     const jg_real t430 = t428 - t327 - (t429 - t321);
     const jg_real t431 = t329 * h_star_in_j_0;
     const jg_real t432 = f_star_in_j_0 * t331;
-    const jg_real t433 = t431 - f_star_in_j_1 * t320 - (t432 - t326 * h_star_in_j_1);
+    const jg_real t433 = t431 - t320 * f_star_in_j_1 - (t432 - t326 * h_star_in_j_1);
     const jg_real t434 = C_j[3] * t427 + C_j[4] * t430 + C_j[5] * t433;
-    const jg_real t435 = C_j[1] * t312 - C_j[0] * t307 + C_j[2] * t417;
+    const jg_real t435 = t312 * C_j[1] - t307 * C_j[0] + t417 * C_j[2];
     const jg_real t436 = C_j[0] * t427 + C_j[1] * t430 + C_j[2] * t433;
-    const jg_real t437 = C_j[4] * t312 - C_j[3] * t307 + C_j[5] * t417;
+    const jg_real t437 = C_j[4] * t312 - t307 * C_j[3] + t417 * C_j[5];
     const jg_real t438 = C_j[7] * t329 - C_j[6] * t326 + C_j[8] * t425;
     const jg_real t439 = C_j[7] * t331 - C_j[6] * t320 + C_j[8] * t426;
+    const jg_real t440 = t312 * C_j[7] - t307 * C_j[6] + t417 * C_j[8];
+    const jg_real t441 = C_j[4] * t331 - C_j[3] * t320 + C_j[5] * t426;
+    const jg_real t442 = C_j[1] * t329 - C_j[0] * t326 + C_j[2] * t425;
+    const jg_real t443 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t444 = omega_i[1] * t443;
+    const jg_real t445 = t444 * e_ij_in_j_0;
+    const jg_real t446 = t445 + t351 + t352;
+    const jg_real t447 = t444 * e_ij_in_j_1 + t354 - t356 + t357;
+    const jg_real t448 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t449 = t355 * e_ij_in_j_0;
+    const jg_real t450 = v_i[1] * t443;
+    const jg_real t451 = t449 - (t448 - e_ij_in_j_1 * t350) - t450;
+    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t419 + A_ji_0 * t420 + A_ji_2 * t424;
+    jac_phi_q_v_A_j[25] = t416 * v_3_in_j_2 + A_ji_5 * t424 + (A_ji_3 * t420 - t306 * v_3_in_j_0 - A_ji_4 * t419);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t419 + A_ji_6 * t420 + A_ji_8 * t424;
     jac_phi_q_v_A_j[27] = -(omega_j_in_joint_j_0 * t434 - omega_j_in_joint_j_1 * t436 + (t105 * t438 -
         (omega_i_in_joint_j_0 * t434 + t435 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t436 + t437 *
         g_star_dot_f_j)) - alphadot[1] * t439));
-    const jg_real t440 = C_j[7] * t312 - C_j[6] * t307 + C_j[8] * t417;
-    const jg_real t441 = C_j[4] * t331 - C_j[3] * t320 + C_j[5] * t426;
-    const jg_real t442 = C_j[1] * t329 - C_j[0] * t326 + C_j[2] * t425;
     jac_phi_q_v_A_j[28] = t437 * h_star_dot_h_j + omega_i_in_joint_j_1 * t439 - (t440 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t441) + (t115 * t442 - alphadot[1] * t436) - (omega_j_in_joint_j_1 * t439 -
         omega_j_in_joint_j_2 * t441);
     jac_phi_q_v_A_j[29] = t440 * f_star_dot_f_j + omega_i_in_joint_j_2 * t442 - (t435 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t438) + alphadot[0] * (cosine_1 * t434 - sine_1 * t441) - (omega_j_in_joint_j_2 *
         t442 - omega_j_in_joint_j_0 * t438);
-    const jg_real t443 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t444 = omega_i[1] * t443;
-    const jg_real t445 = t444 * e_ij_in_j_0;
-    const jg_real t446 = t445 + t351 + t352;
-    const jg_real t447 = e_ij_in_j_1 * t444 + t354 - t356 + t357;
-    const jg_real t448 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t449 = e_ij_in_j_0 * t355;
-    const jg_real t450 = v_i[1] * t443;
-    const jg_real t451 = t449 - (t448 - e_ij_in_j_1 * t350) - t450;
     jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t446 + A_ji_0 * t447 + A_ji_2 * t451;
     jac_phi_q_v_A_j[31] = t443 * v_3_in_j_2 + A_ji_5 * t451 + (A_ji_3 * t447 - t349 * v_3_in_j_0 - A_ji_4 * t446);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t446 + A_ji_6 * t447 + A_ji_8 * t451;
     const jg_real t452 = t443 * f_star_in_i_1;
     const jg_real t453 = t443 * h_star_in_i_1;
-    const jg_real t454 = t375 + t452 * h_star_in_j_1 - (f_star_in_j_1 * t453 + t373);
-    const jg_real t455 = f_star_in_j_0 * t453;
+    const jg_real t454 = t375 + t452 * h_star_in_j_1 - (t453 * f_star_in_j_1 + t373);
+    const jg_real t455 = t453 * f_star_in_j_0;
     const jg_real t456 = t452 * h_star_in_j_0;
     const jg_real t457 = t455 - t370 - (t456 - t364);
     const jg_real t458 = t372 * h_star_in_j_0;
     const jg_real t459 = f_star_in_j_0 * t374;
-    const jg_real t460 = t458 - f_star_in_j_1 * t363 - (t459 - t369 * h_star_in_j_1);
+    const jg_real t460 = t458 - t363 * f_star_in_j_1 - (t459 - t369 * h_star_in_j_1);
     const jg_real t461 = C_j[3] * t454 + C_j[4] * t457 + C_j[5] * t460;
-    const jg_real t462 = C_j[1] * t355 - C_j[0] * t350 + C_j[2] * t444;
+    const jg_real t462 = t355 * C_j[1] - t350 * C_j[0] + t444 * C_j[2];
     const jg_real t463 = C_j[0] * t454 + C_j[1] * t457 + C_j[2] * t460;
-    const jg_real t464 = C_j[4] * t355 - C_j[3] * t350 + C_j[5] * t444;
+    const jg_real t464 = C_j[4] * t355 - t350 * C_j[3] + t444 * C_j[5];
     const jg_real t465 = C_j[7] * t372 - C_j[6] * t369 + C_j[8] * t452;
     const jg_real t466 = C_j[7] * t374 - C_j[6] * t363 + C_j[8] * t453;
+    const jg_real t467 = t355 * C_j[7] - t350 * C_j[6] + t444 * C_j[8];
+    const jg_real t468 = C_j[4] * t374 - C_j[3] * t363 + C_j[5] * t453;
+    const jg_real t469 = C_j[1] * t372 - C_j[0] * t369 + C_j[2] * t452;
+    const jg_real t470 = t262 - t391 - t266;
+    const jg_real t471 = t274 - (t273 - t390 * e_ij_in_j_2) + t275;
+    const jg_real t472 = t394 - t261 * e_ij_in_j_2 - t395 + t396;
+    const jg_real t473 = t292 - t399 * f_star_in_j_2 - (t291 - t398 * h_star_in_j_2);
+    const jg_real t474 = t405 - t279 * h_star_in_j_2 - (t404 - t281 * f_star_in_j_2);
+    const jg_real t475 = t280 + t401 - (t282 + t402);
+    const jg_real t476 = C_j[3] * t473 + C_j[4] * t474 + C_j[5] * t475;
+    const jg_real t477 = t269 * C_j[2] - (t261 * C_j[0] + t390 * C_j[1]);
+    const jg_real t478 = C_j[0] * t473 + C_j[1] * t474 + C_j[2] * t475;
+    const jg_real t479 = C_j[5] * t269 - (t261 * C_j[3] + t390 * C_j[4]);
+    const jg_real t480 = C_j[8] * t286 - (C_j[7] * t398 + C_j[6] * t279);
+    const jg_real t481 = C_j[8] * t288 - (C_j[7] * t399 + C_j[6] * t281);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t446 + A_ji_6 * t447 + A_ji_8 * t451;
     jac_phi_q_v_A_j[33] = -(omega_j_in_joint_j_0 * t461 - omega_j_in_joint_j_1 * t463 + (t105 * t465 -
         (omega_i_in_joint_j_0 * t461 + t462 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t463 + t464 *
         g_star_dot_f_j)) - alphadot[1] * t466));
-    const jg_real t467 = C_j[7] * t355 - C_j[6] * t350 + C_j[8] * t444;
-    const jg_real t468 = C_j[4] * t374 - C_j[3] * t363 + C_j[5] * t453;
-    const jg_real t469 = C_j[1] * t372 - C_j[0] * t369 + C_j[2] * t452;
     jac_phi_q_v_A_j[34] = t464 * h_star_dot_h_j + omega_i_in_joint_j_1 * t466 - (t467 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t468) + (t115 * t469 - alphadot[1] * t463) - (omega_j_in_joint_j_1 * t466 -
         omega_j_in_joint_j_2 * t468);
     jac_phi_q_v_A_j[35] = t467 * f_star_dot_f_j + omega_i_in_joint_j_2 * t469 - (t462 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t465) + alphadot[0] * (cosine_1 * t461 - sine_1 * t468) - (omega_j_in_joint_j_2 *
         t469 - omega_j_in_joint_j_0 * t465);
-    const jg_real t470 = t262 - t391 - t266;
-    const jg_real t471 = t274 - (t273 - e_ij_in_j_2 * t390) + t275;
-    const jg_real t472 = t394 - e_ij_in_j_2 * t261 - t395 + t396;
     jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t470 + (A_ji_0 * t471 + A_ji_1 * t472);
     jac_phi_q_v_A_j[37] = A_ji_3 * t471 - t260 * v_3_in_j_0 + (A_ji_4 * t472 - t389 * v_3_in_j_1) + A_ji_5 * t470;
     jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t470 + (A_ji_6 * t471 + A_ji_7 * t472);
-    const jg_real t473 = t292 - f_star_in_j_2 * t399 - (t291 - t398 * h_star_in_j_2);
-    const jg_real t474 = t405 - t279 * h_star_in_j_2 - (t404 - f_star_in_j_2 * t281);
-    const jg_real t475 = t280 + t401 - (t282 + t402);
-    const jg_real t476 = C_j[3] * t473 + C_j[4] * t474 + C_j[5] * t475;
-    const jg_real t477 = C_j[2] * t269 - (C_j[0] * t261 + C_j[1] * t390);
-    const jg_real t478 = C_j[0] * t473 + C_j[1] * t474 + C_j[2] * t475;
-    const jg_real t479 = C_j[5] * t269 - (C_j[3] * t261 + C_j[4] * t390);
-    const jg_real t480 = C_j[8] * t286 - (C_j[7] * t398 + C_j[6] * t279);
-    const jg_real t481 = C_j[8] * t288 - (C_j[7] * t399 + C_j[6] * t281);
     jac_phi_q_v_A_j[39] = -(omega_j_in_joint_j_0 * t476 - omega_j_in_joint_j_1 * t478 + (t105 * t480 -
         (omega_i_in_joint_j_0 * t476 + t477 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t478 + t479 *
         g_star_dot_f_j)) - alphadot[1] * t481));
-    const jg_real t482 = C_j[8] * t269 - (C_j[6] * t261 + C_j[7] * t390);
+    const jg_real t482 = t269 * C_j[8] - (t261 * C_j[6] + t390 * C_j[7]);
     const jg_real t483 = C_j[5] * t288 - (C_j[3] * t281 + C_j[4] * t399);
     const jg_real t484 = C_j[2] * t286 - (C_j[1] * t398 + C_j[0] * t279);
+    const jg_real t485 = t305 - t418 - t309;
+    const jg_real t486 = t317 - (t316 - t417 * e_ij_in_j_2) + t318;
+    const jg_real t487 = t421 - t304 * e_ij_in_j_2 - t422 + t423;
+    const jg_real t488 = t335 - t426 * f_star_in_j_2 - (t334 - t425 * h_star_in_j_2);
+    const jg_real t489 = t432 - t322 * h_star_in_j_2 - (t431 - t324 * f_star_in_j_2);
+    const jg_real t490 = t323 + t428 - (t325 + t429);
+    const jg_real t491 = C_j[3] * t488 + C_j[4] * t489 + C_j[5] * t490;
+    const jg_real t492 = t312 * C_j[2] - (t304 * C_j[0] + t417 * C_j[1]);
+    const jg_real t493 = C_j[0] * t488 + C_j[1] * t489 + C_j[2] * t490;
+    const jg_real t494 = C_j[5] * t312 - (t304 * C_j[3] + t417 * C_j[4]);
+    const jg_real t495 = C_j[8] * t329 - (C_j[7] * t425 + C_j[6] * t322);
+    const jg_real t496 = C_j[8] * t331 - (C_j[7] * t426 + C_j[6] * t324);
+    const jg_real t497 = t312 * C_j[8] - (t304 * C_j[6] + t417 * C_j[7]);
+    const jg_real t498 = C_j[5] * t331 - (C_j[3] * t324 + C_j[4] * t426);
+    const jg_real t499 = C_j[2] * t329 - (C_j[1] * t425 + C_j[0] * t322);
     jac_phi_q_v_A_j[40] = t479 * h_star_dot_h_j + omega_i_in_joint_j_1 * t481 - (t482 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t483) + (t115 * t484 - alphadot[1] * t478) - (omega_j_in_joint_j_1 * t481 -
         omega_j_in_joint_j_2 * t483);
     jac_phi_q_v_A_j[41] = t482 * f_star_dot_f_j + omega_i_in_joint_j_2 * t484 - (t477 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t480) + alphadot[0] * (cosine_1 * t476 - sine_1 * t483) - (omega_j_in_joint_j_2 *
         t484 - omega_j_in_joint_j_0 * t480);
-    const jg_real t485 = t305 - t418 - t309;
-    const jg_real t486 = t317 - (t316 - e_ij_in_j_2 * t417) + t318;
-    const jg_real t487 = t421 - e_ij_in_j_2 * t304 - t422 + t423;
     jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t485 + (A_ji_0 * t486 + A_ji_1 * t487);
     jac_phi_q_v_A_j[43] = A_ji_3 * t486 - t303 * v_3_in_j_0 + (A_ji_4 * t487 - t416 * v_3_in_j_1) + A_ji_5 * t485;
     jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t485 + (A_ji_6 * t486 + A_ji_7 * t487);
-    const jg_real t488 = t335 - f_star_in_j_2 * t426 - (t334 - t425 * h_star_in_j_2);
-    const jg_real t489 = t432 - t322 * h_star_in_j_2 - (t431 - f_star_in_j_2 * t324);
-    const jg_real t490 = t323 + t428 - (t325 + t429);
-    const jg_real t491 = C_j[3] * t488 + C_j[4] * t489 + C_j[5] * t490;
-    const jg_real t492 = C_j[2] * t312 - (C_j[0] * t304 + C_j[1] * t417);
-    const jg_real t493 = C_j[0] * t488 + C_j[1] * t489 + C_j[2] * t490;
-    const jg_real t494 = C_j[5] * t312 - (C_j[3] * t304 + C_j[4] * t417);
-    const jg_real t495 = C_j[8] * t329 - (C_j[7] * t425 + C_j[6] * t322);
-    const jg_real t496 = C_j[8] * t331 - (C_j[7] * t426 + C_j[6] * t324);
     jac_phi_q_v_A_j[45] = -(omega_j_in_joint_j_0 * t491 - omega_j_in_joint_j_1 * t493 + (t105 * t495 -
         (omega_i_in_joint_j_0 * t491 + t492 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t493 + t494 *
         g_star_dot_f_j)) - alphadot[1] * t496));
-    const jg_real t497 = C_j[8] * t312 - (C_j[6] * t304 + C_j[7] * t417);
-    const jg_real t498 = C_j[5] * t331 - (C_j[3] * t324 + C_j[4] * t426);
-    const jg_real t499 = C_j[2] * t329 - (C_j[1] * t425 + C_j[0] * t322);
     jac_phi_q_v_A_j[46] = t494 * h_star_dot_h_j + omega_i_in_joint_j_1 * t496 - (t497 * h_star_dot_g_j +
         omega_i_in_joint_j_2 * t498) + (t115 * t499 - alphadot[1] * t493) - (omega_j_in_joint_j_1 * t496 -
         omega_j_in_joint_j_2 * t498);
@@ -1231,32 +1231,20 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         omega_i_in_joint_j_0 * t495) + alphadot[0] * (cosine_1 * t491 - sine_1 * t498) - (omega_j_in_joint_j_2 *
         t499 - omega_j_in_joint_j_0 * t495);
     const jg_real t500 = t348 - t445 - t352;
-    const jg_real t501 = t360 - (t359 - e_ij_in_j_2 * t444) + t361;
-    const jg_real t502 = t448 - e_ij_in_j_2 * t347 - t449 + t450;
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t500 + (A_ji_0 * t501 + A_ji_1 * t502);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t501 - t346 * v_3_in_j_0 + (A_ji_4 * t502 - t443 * v_3_in_j_1) + A_ji_5 * t500;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t500 + (A_ji_6 * t501 + A_ji_7 * t502);
-    const jg_real t503 = t378 - f_star_in_j_2 * t453 - (t377 - t452 * h_star_in_j_2);
-    const jg_real t504 = t459 - t365 * h_star_in_j_2 - (t458 - f_star_in_j_2 * t367);
+    const jg_real t501 = t360 - (t359 - t444 * e_ij_in_j_2) + t361;
+    const jg_real t502 = t448 - t347 * e_ij_in_j_2 - t449 + t450;
+    const jg_real t503 = t378 - t453 * f_star_in_j_2 - (t377 - t452 * h_star_in_j_2);
+    const jg_real t504 = t459 - t365 * h_star_in_j_2 - (t458 - t367 * f_star_in_j_2);
     const jg_real t505 = t366 + t455 - (t368 + t456);
     const jg_real t506 = C_j[3] * t503 + C_j[4] * t504 + C_j[5] * t505;
-    const jg_real t507 = C_j[2] * t355 - (C_j[0] * t347 + C_j[1] * t444);
+    const jg_real t507 = t355 * C_j[2] - (t347 * C_j[0] + t444 * C_j[1]);
     const jg_real t508 = C_j[0] * t503 + C_j[1] * t504 + C_j[2] * t505;
-    const jg_real t509 = C_j[5] * t355 - (C_j[3] * t347 + C_j[4] * t444);
+    const jg_real t509 = C_j[5] * t355 - (t347 * C_j[3] + t444 * C_j[4]);
     const jg_real t510 = C_j[8] * t372 - (C_j[7] * t452 + C_j[6] * t365);
     const jg_real t511 = C_j[8] * t374 - (C_j[7] * t453 + C_j[6] * t367);
-    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t506 - omega_j_in_joint_j_1 * t508 + (t105 * t510 -
-        (omega_i_in_joint_j_0 * t506 + t507 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t508 + t509 *
-        g_star_dot_f_j)) - alphadot[1] * t511));
-    const jg_real t512 = C_j[8] * t355 - (C_j[6] * t347 + C_j[7] * t444);
+    const jg_real t512 = t355 * C_j[8] - (t347 * C_j[6] + t444 * C_j[7]);
     const jg_real t513 = C_j[5] * t374 - (C_j[3] * t367 + C_j[4] * t453);
     const jg_real t514 = C_j[2] * t372 - (C_j[1] * t452 + C_j[0] * t365);
-    jac_phi_q_v_A_j[52] = t509 * h_star_dot_h_j + omega_i_in_joint_j_1 * t511 - (t512 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t513) + (t115 * t514 - alphadot[1] * t508) - (omega_j_in_joint_j_1 * t511 -
-        omega_j_in_joint_j_2 * t513);
-    jac_phi_q_v_A_j[53] = t512 * f_star_dot_f_j + omega_i_in_joint_j_2 * t514 - (t507 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t510) + alphadot[0] * (cosine_1 * t506 - sine_1 * t513) - (omega_j_in_joint_j_2 *
-        t514 - omega_j_in_joint_j_0 * t510);
     const jg_real t515 = C_i[1] * t75 + C_i[4] * H_02;
     const jg_real t516 = C_i[0] * t75 + C_i[3] * H_02;
     const jg_real t517 = C_i[2] * t75 + C_i[5] * H_02;
@@ -1279,14 +1267,24 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t531 = C_j[0] * t525 + C_j[1] * t528 + C_j[2] * t529;
     const jg_real t532 = C_j[7] * t524 + C_j[6] * t526 + C_j[8] * t522;
     const jg_real t533 = C_j[7] * t518 + C_j[6] * t527 + C_j[8] * t523;
-    jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t530 - omega_j_in_joint_j_1 * t531 + (t105 * t532 -
-        (omega_i_in_joint_j_0 * t530 - omega_i_in_joint_j_1 * t531) - alphadot[1] * t533));
     const jg_real t534 = C_j[1] * t524 + C_j[0] * t526 + C_j[2] * t522;
     const jg_real t535 = C_j[3] * t527 + C_j[4] * t518 + C_j[5] * t523;
+    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t500 + (A_ji_0 * t501 + A_ji_1 * t502);
+    jac_phi_q_v_A_j[49] = A_ji_3 * t501 - t346 * v_3_in_j_0 + (A_ji_4 * t502 - t443 * v_3_in_j_1) + A_ji_5 * t500;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t500 + (A_ji_6 * t501 + A_ji_7 * t502);
+    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t506 - omega_j_in_joint_j_1 * t508 + (t105 * t510 -
+        (omega_i_in_joint_j_0 * t506 + t507 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t508 + t509 *
+        g_star_dot_f_j)) - alphadot[1] * t511));
+    jac_phi_q_v_A_j[52] = t509 * h_star_dot_h_j + omega_i_in_joint_j_1 * t511 - (t512 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t513) + (t115 * t514 - alphadot[1] * t508) - (omega_j_in_joint_j_1 * t511 -
+        omega_j_in_joint_j_2 * t513);
+    jac_phi_q_v_A_j[53] = t512 * f_star_dot_f_j + omega_i_in_joint_j_2 * t514 - (t507 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t510) + alphadot[0] * (cosine_1 * t506 - sine_1 * t513) - (omega_j_in_joint_j_2 *
+        t514 - omega_j_in_joint_j_0 * t510);
+    jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t530 - omega_j_in_joint_j_1 * t531 + (t105 * t532 -
+        (omega_i_in_joint_j_0 * t530 - omega_i_in_joint_j_1 * t531) - alphadot[1] * t533));
     jac_phi_q_v_alpha[1] = omega_i_in_joint_j_1 * t533 - omega_i_in_joint_j_2 * t535 + (t115 * t534 - alphadot[1] *
         t531) - (omega_j_in_joint_j_1 * t533 - omega_j_in_joint_j_2 * t535);
-    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t534 - omega_i_in_joint_j_0 * t532 + alphadot[0] * (cosine_1 *
-        t530 - sine_1 * t535) - (omega_j_in_joint_j_2 * t534 - omega_j_in_joint_j_0 * t532);
     const jg_real t536 = sine_0 * cosine_1;
     const jg_real t537 = cosine_0 * cosine_1;
     const jg_real t538 = C_i[1] * t536 - C_i[4] * t537 - C_i[7] * sine_1;
@@ -1301,105 +1299,107 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t547 = C_j[3] * t543 + C_j[4] * t545 + C_j[5] * t546;
     const jg_real t548 = C_j[0] * t543 + C_j[1] * t545 + C_j[2] * t546;
     const jg_real t549 = C_j[7] * t541 + C_j[6] * t544 + C_j[8] * t542;
-    jac_phi_q_v_alpha[3] = omega_i_in_joint_j_0 * t547 - omega_i_in_joint_j_1 * t548 + t115 * f_star_dot_h_j +
-        alphadot[1] * t549 - (omega_j_in_joint_j_0 * t547 - omega_j_in_joint_j_1 * t548);
     const jg_real t550 = C_j[3] * t544 + C_j[4] * t541 + C_j[5] * t542;
-    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t549 - omega_i_in_joint_j_2 * t550 + (t105 * f_star_dot_f_j -
-        alphadot[1] * t548) - (omega_j_in_joint_j_1 * t549 - omega_j_in_joint_j_2 * t550);
-    jac_phi_q_v_alpha[5] = alphadot[0] * (cosine_1 * t547 - sine_1 * g_star_dot_g_j - (cosine_1 * h_star_dot_g_j +
-        sine_1 * t550));
     const jg_real t551 = A_ji_1 * H_02;
     const jg_real t552 = A_ji_2 * cosine_0;
     const jg_real t553 = A_ji_2 * H_02;
     const jg_real t554 = A_ji_1 * cosine_0;
-    const jg_real t555 = f_star_in_j_2 * t551 + t552 * h_star_in_j_1 - (f_star_in_j_1 * t553 + t554 *
+    const jg_real t555 = t551 * f_star_in_j_2 + t552 * h_star_in_j_1 - (t553 * f_star_in_j_1 + t554 *
         h_star_in_j_2);
     const jg_real t556 = A_ji_0 * cosine_0;
     const jg_real t557 = A_ji_0 * H_02;
-    const jg_real t558 = f_star_in_j_0 * t553 + t556 * h_star_in_j_2 - (f_star_in_j_2 * t557 + t552 *
+    const jg_real t558 = t553 * f_star_in_j_0 + t556 * h_star_in_j_2 - (t557 * f_star_in_j_2 + t552 *
         h_star_in_j_0);
-    const jg_real t559 = f_star_in_j_1 * t557 + t554 * h_star_in_j_0 - (f_star_in_j_0 * t551 + t556 *
+    const jg_real t559 = t557 * f_star_in_j_1 + t554 * h_star_in_j_0 - (t551 * f_star_in_j_0 + t556 *
         h_star_in_j_1);
     const jg_real t560 = C_j[3] * t555 + C_j[4] * t558 + C_j[5] * t559;
     const jg_real t561 = C_j[0] * t555 + C_j[1] * t558 + C_j[2] * t559;
     const jg_real t562 = C_j[7] * t554 + C_j[6] * t556 + C_j[8] * t552;
     const jg_real t563 = C_j[7] * t551 + C_j[6] * t557 + C_j[8] * t553;
-    jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t560 - omega_j_in_joint_j_1 * t561 + (t105 * t562 -
-        (omega_i_in_joint_j_0 * t560 - omega_i_in_joint_j_1 * t561) - alphadot[1] * t563));
     const jg_real t564 = C_j[1] * t554 + C_j[0] * t556 + C_j[2] * t552;
     const jg_real t565 = C_j[3] * t557 + C_j[4] * t551 + C_j[5] * t553;
-    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t563 - omega_i_in_joint_j_2 * t565 + (t115 * t564 - alphadot[1]
-        * t561) - (omega_j_in_joint_j_1 * t563 - omega_j_in_joint_j_2 * t565);
-    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t564 - omega_i_in_joint_j_0 * t562 + alphadot[0] * (cosine_1 *
-        t560 - sine_1 * t565) - (omega_j_in_joint_j_2 * t564 - omega_j_in_joint_j_0 * t562);
     const jg_real t566 = A_ji_4 * H_02;
     const jg_real t567 = A_ji_5 * cosine_0;
     const jg_real t568 = A_ji_5 * H_02;
     const jg_real t569 = A_ji_4 * cosine_0;
-    const jg_real t570 = f_star_in_j_2 * t566 + t567 * h_star_in_j_1 - (f_star_in_j_1 * t568 + t569 *
+    const jg_real t570 = t566 * f_star_in_j_2 + t567 * h_star_in_j_1 - (t568 * f_star_in_j_1 + t569 *
         h_star_in_j_2);
     const jg_real t571 = A_ji_3 * cosine_0;
     const jg_real t572 = A_ji_3 * H_02;
-    const jg_real t573 = f_star_in_j_0 * t568 + t571 * h_star_in_j_2 - (f_star_in_j_2 * t572 + t567 *
+    const jg_real t573 = t568 * f_star_in_j_0 + t571 * h_star_in_j_2 - (t572 * f_star_in_j_2 + t567 *
         h_star_in_j_0);
-    const jg_real t574 = f_star_in_j_1 * t572 + t569 * h_star_in_j_0 - (f_star_in_j_0 * t566 + t571 *
+    const jg_real t574 = t572 * f_star_in_j_1 + t569 * h_star_in_j_0 - (t566 * f_star_in_j_0 + t571 *
         h_star_in_j_1);
     const jg_real t575 = C_j[3] * t570 + C_j[4] * t573 + C_j[5] * t574;
     const jg_real t576 = C_j[0] * t570 + C_j[1] * t573 + C_j[2] * t574;
     const jg_real t577 = C_j[7] * t569 + C_j[6] * t571 + C_j[8] * t567;
     const jg_real t578 = C_j[7] * t566 + C_j[6] * t572 + C_j[8] * t568;
+    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t534 - omega_i_in_joint_j_0 * t532 + alphadot[0] * (cosine_1 *
+        t530 - sine_1 * t535) - (omega_j_in_joint_j_2 * t534 - omega_j_in_joint_j_0 * t532);
+    jac_phi_q_v_alpha[3] = omega_i_in_joint_j_0 * t547 - omega_i_in_joint_j_1 * t548 + t115 * f_star_dot_h_j +
+        alphadot[1] * t549 - (omega_j_in_joint_j_0 * t547 - omega_j_in_joint_j_1 * t548);
+    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t549 - omega_i_in_joint_j_2 * t550 + (t105 * f_star_dot_f_j -
+        alphadot[1] * t548) - (omega_j_in_joint_j_1 * t549 - omega_j_in_joint_j_2 * t550);
+    jac_phi_q_v_alpha[5] = alphadot[0] * (cosine_1 * t547 - sine_1 * g_star_dot_g_j - (cosine_1 * h_star_dot_g_j +
+        sine_1 * t550));
+    jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t560 - omega_j_in_joint_j_1 * t561 + (t105 * t562 -
+        (omega_i_in_joint_j_0 * t560 - omega_i_in_joint_j_1 * t561) - alphadot[1] * t563));
+    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t563 - omega_i_in_joint_j_2 * t565 + (t115 * t564 - alphadot[1]
+        * t561) - (omega_j_in_joint_j_1 * t563 - omega_j_in_joint_j_2 * t565);
+    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t564 - omega_i_in_joint_j_0 * t562 + alphadot[0] * (cosine_1 *
+        t560 - sine_1 * t565) - (omega_j_in_joint_j_2 * t564 - omega_j_in_joint_j_0 * t562);
     jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t575 - omega_j_in_joint_j_1 * t576 + (t105 * t577 -
         (omega_i_in_joint_j_0 * t575 - omega_i_in_joint_j_1 * t576) - alphadot[1] * t578));
     const jg_real t579 = C_j[1] * t569 + C_j[0] * t571 + C_j[2] * t567;
     const jg_real t580 = C_j[3] * t572 + C_j[4] * t566 + C_j[5] * t568;
-    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t578 - omega_i_in_joint_j_2 * t580 + (t115 * t579 - alphadot[1]
-        * t576) - (omega_j_in_joint_j_1 * t578 - omega_j_in_joint_j_2 * t580);
-    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t579 - omega_i_in_joint_j_0 * t577 + alphadot[0] * (cosine_1 *
-        t575 - sine_1 * t580) - (omega_j_in_joint_j_2 * t579 - omega_j_in_joint_j_0 * t577);
     const jg_real t581 = A_ji_7 * H_02;
     const jg_real t582 = A_ji_8 * cosine_0;
     const jg_real t583 = A_ji_8 * H_02;
     const jg_real t584 = A_ji_7 * cosine_0;
-    const jg_real t585 = f_star_in_j_2 * t581 + t582 * h_star_in_j_1 - (f_star_in_j_1 * t583 + t584 *
+    const jg_real t585 = t581 * f_star_in_j_2 + t582 * h_star_in_j_1 - (t583 * f_star_in_j_1 + t584 *
         h_star_in_j_2);
     const jg_real t586 = A_ji_6 * cosine_0;
     const jg_real t587 = A_ji_6 * H_02;
-    const jg_real t588 = f_star_in_j_0 * t583 + t586 * h_star_in_j_2 - (f_star_in_j_2 * t587 + t582 *
+    const jg_real t588 = t583 * f_star_in_j_0 + t586 * h_star_in_j_2 - (f_star_in_j_2 * t587 + t582 *
         h_star_in_j_0);
-    const jg_real t589 = f_star_in_j_1 * t587 + t584 * h_star_in_j_0 - (f_star_in_j_0 * t581 + t586 *
+    const jg_real t589 = f_star_in_j_1 * t587 + t584 * h_star_in_j_0 - (t581 * f_star_in_j_0 + t586 *
         h_star_in_j_1);
     const jg_real t590 = C_j[3] * t585 + C_j[4] * t588 + C_j[5] * t589;
     const jg_real t591 = C_j[0] * t585 + C_j[1] * t588 + C_j[2] * t589;
     const jg_real t592 = C_j[7] * t584 + C_j[6] * t586 + C_j[8] * t582;
     const jg_real t593 = C_j[7] * t581 + C_j[6] * t587 + C_j[8] * t583;
-    jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t590 - omega_j_in_joint_j_1 * t591 + (t105 * t592 -
-        (omega_i_in_joint_j_0 * t590 - omega_i_in_joint_j_1 * t591) - alphadot[1] * t593));
     const jg_real t594 = C_j[1] * t584 + C_j[0] * t586 + C_j[2] * t582;
     const jg_real t595 = C_j[3] * t587 + C_j[4] * t581 + C_j[5] * t583;
-    jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t593 - omega_i_in_joint_j_2 * t595 + (t115 * t594 - alphadot[1]
-        * t591) - (omega_j_in_joint_j_1 * t593 - omega_j_in_joint_j_2 * t595);
-    jac_phi_q_v_geometry[8] = omega_i_in_joint_j_2 * t594 - omega_i_in_joint_j_0 * t592 + alphadot[0] * (cosine_1 *
-        t590 - sine_1 * t595) - (omega_j_in_joint_j_2 * t594 - omega_j_in_joint_j_0 * t592);
     const jg_real t596 = A_ji_2 * sine_0;
     const jg_real t597 = A_ji_1 * t75;
     const jg_real t598 = A_ji_1 * sine_0;
     const jg_real t599 = A_ji_2 * t75;
-    const jg_real t600 = t596 * h_star_in_j_1 - f_star_in_j_2 * t597 - (t598 * h_star_in_j_2 - f_star_in_j_1 *
-        t599);
+    const jg_real t600 = t596 * h_star_in_j_1 - t597 * f_star_in_j_2 - (t598 * h_star_in_j_2 - t599 *
+        f_star_in_j_1);
     const jg_real t601 = A_ji_0 * sine_0;
     const jg_real t602 = A_ji_0 * t75;
-    const jg_real t603 = t601 * h_star_in_j_2 - f_star_in_j_0 * t599 - (t596 * h_star_in_j_0 - f_star_in_j_2 *
-        t602);
-    const jg_real t604 = t598 * h_star_in_j_0 - f_star_in_j_1 * t602 - (t601 * h_star_in_j_1 - f_star_in_j_0 *
-        t597);
+    const jg_real t603 = t601 * h_star_in_j_2 - t599 * f_star_in_j_0 - (t596 * h_star_in_j_0 - t602 *
+        f_star_in_j_2);
+    const jg_real t604 = t598 * h_star_in_j_0 - t602 * f_star_in_j_1 - (t601 * h_star_in_j_1 - t597 *
+        f_star_in_j_0);
     const jg_real t605 = C_j[3] * t600 + C_j[4] * t603 + C_j[5] * t604;
     const jg_real t606 = C_j[0] * t600 + C_j[1] * t603 + C_j[2] * t604;
     const jg_real t607 = C_j[7] * t598 + C_j[6] * t601 + C_j[8] * t596;
     const jg_real t608 = C_j[7] * t597 + C_j[6] * t602 + C_j[8] * t599;
-    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t605 - omega_j_in_joint_j_1 * t606 + (t105 * t607 -
-        (omega_i_in_joint_j_0 * t605 - omega_i_in_joint_j_1 * t606) + alphadot[1] * t608));
     const jg_real t609 = C_j[1] * t598 + C_j[0] * t601 + C_j[2] * t596;
     const jg_real t610 = C_j[3] * t602 + C_j[4] * t597 + C_j[5] * t599;
+    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t578 - omega_i_in_joint_j_2 * t580 + (t115 * t579 - alphadot[1]
+        * t576) - (omega_j_in_joint_j_1 * t578 - omega_j_in_joint_j_2 * t580);
+    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t579 - omega_i_in_joint_j_0 * t577 + alphadot[0] * (cosine_1 *
+        t575 - sine_1 * t580) - (omega_j_in_joint_j_2 * t579 - omega_j_in_joint_j_0 * t577);
+    jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t590 - omega_j_in_joint_j_1 * t591 + (t105 * t592 -
+        (omega_i_in_joint_j_0 * t590 - omega_i_in_joint_j_1 * t591) - alphadot[1] * t593));
+    jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t593 - omega_i_in_joint_j_2 * t595 + (t115 * t594 - alphadot[1]
+        * t591) - (omega_j_in_joint_j_1 * t593 - omega_j_in_joint_j_2 * t595);
+    jac_phi_q_v_geometry[8] = omega_i_in_joint_j_2 * t594 - omega_i_in_joint_j_0 * t592 + alphadot[0] * (cosine_1 *
+        t590 - sine_1 * t595) - (omega_j_in_joint_j_2 * t594 - omega_j_in_joint_j_0 * t592);
+    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t605 - omega_j_in_joint_j_1 * t606 + (t105 * t607 -
+        (omega_i_in_joint_j_0 * t605 - omega_i_in_joint_j_1 * t606) + alphadot[1] * t608));
     jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t610 - omega_i_in_joint_j_1 * t608 + (t115 * t609 -
         alphadot[1] * t606) - (omega_j_in_joint_j_2 * t610 - omega_j_in_joint_j_1 * t608);
     jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t609 - omega_i_in_joint_j_0 * t607 + alphadot[0] * (sine_1 *
@@ -1408,101 +1408,101 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t612 = A_ji_4 * t75;
     const jg_real t613 = A_ji_4 * sine_0;
     const jg_real t614 = A_ji_5 * t75;
-    const jg_real t615 = t611 * h_star_in_j_1 - f_star_in_j_2 * t612 - (t613 * h_star_in_j_2 - f_star_in_j_1 *
-        t614);
+    const jg_real t615 = t611 * h_star_in_j_1 - t612 * f_star_in_j_2 - (t613 * h_star_in_j_2 - t614 *
+        f_star_in_j_1);
     const jg_real t616 = A_ji_3 * sine_0;
     const jg_real t617 = A_ji_3 * t75;
-    const jg_real t618 = t616 * h_star_in_j_2 - f_star_in_j_0 * t614 - (t611 * h_star_in_j_0 - f_star_in_j_2 *
-        t617);
-    const jg_real t619 = t613 * h_star_in_j_0 - f_star_in_j_1 * t617 - (t616 * h_star_in_j_1 - f_star_in_j_0 *
-        t612);
+    const jg_real t618 = t616 * h_star_in_j_2 - t614 * f_star_in_j_0 - (t611 * h_star_in_j_0 - t617 *
+        f_star_in_j_2);
+    const jg_real t619 = t613 * h_star_in_j_0 - t617 * f_star_in_j_1 - (t616 * h_star_in_j_1 - t612 *
+        f_star_in_j_0);
     const jg_real t620 = C_j[3] * t615 + C_j[4] * t618 + C_j[5] * t619;
     const jg_real t621 = C_j[0] * t615 + C_j[1] * t618 + C_j[2] * t619;
     const jg_real t622 = C_j[7] * t613 + C_j[6] * t616 + C_j[8] * t611;
     const jg_real t623 = C_j[7] * t612 + C_j[6] * t617 + C_j[8] * t614;
-    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t620 - omega_j_in_joint_j_1 * t621 + (t105 * t622 -
-        (omega_i_in_joint_j_0 * t620 - omega_i_in_joint_j_1 * t621) + alphadot[1] * t623));
     const jg_real t624 = C_j[1] * t613 + C_j[0] * t616 + C_j[2] * t611;
     const jg_real t625 = C_j[3] * t617 + C_j[4] * t612 + C_j[5] * t614;
-    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t625 - omega_i_in_joint_j_1 * t623 + (t115 * t624 -
-        alphadot[1] * t621) - (omega_j_in_joint_j_2 * t625 - omega_j_in_joint_j_1 * t623);
-    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t624 - omega_i_in_joint_j_0 * t622 + alphadot[0] * (sine_1 *
-        t625 + cosine_1 * t620) - (omega_j_in_joint_j_2 * t624 - omega_j_in_joint_j_0 * t622);
     const jg_real t626 = A_ji_8 * sine_0;
     const jg_real t627 = A_ji_7 * t75;
     const jg_real t628 = A_ji_7 * sine_0;
     const jg_real t629 = A_ji_8 * t75;
-    const jg_real t630 = t626 * h_star_in_j_1 - f_star_in_j_2 * t627 - (t628 * h_star_in_j_2 - f_star_in_j_1 *
-        t629);
+    const jg_real t630 = t626 * h_star_in_j_1 - t627 * f_star_in_j_2 - (t628 * h_star_in_j_2 - t629 *
+        f_star_in_j_1);
     const jg_real t631 = A_ji_6 * sine_0;
     const jg_real t632 = A_ji_6 * t75;
-    const jg_real t633 = t631 * h_star_in_j_2 - f_star_in_j_0 * t629 - (t626 * h_star_in_j_0 - f_star_in_j_2 *
+    const jg_real t633 = t631 * h_star_in_j_2 - t629 * f_star_in_j_0 - (t626 * h_star_in_j_0 - f_star_in_j_2 *
         t632);
-    const jg_real t634 = t628 * h_star_in_j_0 - f_star_in_j_1 * t632 - (t631 * h_star_in_j_1 - f_star_in_j_0 *
-        t627);
+    const jg_real t634 = t628 * h_star_in_j_0 - f_star_in_j_1 * t632 - (t631 * h_star_in_j_1 - t627 *
+        f_star_in_j_0);
     const jg_real t635 = C_j[3] * t630 + C_j[4] * t633 + C_j[5] * t634;
     const jg_real t636 = C_j[0] * t630 + C_j[1] * t633 + C_j[2] * t634;
     const jg_real t637 = C_j[7] * t628 + C_j[6] * t631 + C_j[8] * t626;
     const jg_real t638 = C_j[7] * t627 + C_j[6] * t632 + C_j[8] * t629;
-    jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t635 - omega_j_in_joint_j_1 * t636 + (t105 * t637 -
-        (omega_i_in_joint_j_0 * t635 - omega_i_in_joint_j_1 * t636) + alphadot[1] * t638));
     const jg_real t639 = C_j[1] * t628 + C_j[0] * t631 + C_j[2] * t626;
     const jg_real t640 = C_j[3] * t632 + C_j[4] * t627 + C_j[5] * t629;
+    const jg_real t641 = A_ji_1 * cosine_1;
+    const jg_real t642 = A_ji_2 * cosine_1;
+    const jg_real t643 = t641 * f_star_in_j_2 - t642 * f_star_in_j_1;
+    const jg_real t644 = A_ji_0 * cosine_1;
+    const jg_real t645 = t642 * f_star_in_j_0 - t644 * f_star_in_j_2;
+    const jg_real t646 = t644 * f_star_in_j_1 - t641 * f_star_in_j_0;
+    const jg_real t647 = C_j[3] * t643 + C_j[4] * t645 + C_j[5] * t646;
+    const jg_real t648 = C_j[0] * t643 + C_j[1] * t645 + C_j[2] * t646;
+    const jg_real t649 = C_j[7] * t641 + C_j[6] * t644 + C_j[8] * t642;
+    const jg_real t650 = C_j[3] * t644 + C_j[4] * t641 + C_j[5] * t642;
+    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t620 - omega_j_in_joint_j_1 * t621 + (t105 * t622 -
+        (omega_i_in_joint_j_0 * t620 - omega_i_in_joint_j_1 * t621) + alphadot[1] * t623));
+    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t625 - omega_i_in_joint_j_1 * t623 + (t115 * t624 -
+        alphadot[1] * t621) - (omega_j_in_joint_j_2 * t625 - omega_j_in_joint_j_1 * t623);
+    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t624 - omega_i_in_joint_j_0 * t622 + alphadot[0] * (sine_1 *
+        t625 + cosine_1 * t620) - (omega_j_in_joint_j_2 * t624 - omega_j_in_joint_j_0 * t622);
+    jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t635 - omega_j_in_joint_j_1 * t636 + (t105 * t637 -
+        (omega_i_in_joint_j_0 * t635 - omega_i_in_joint_j_1 * t636) + alphadot[1] * t638));
     jac_phi_q_v_geometry[16] = omega_i_in_joint_j_2 * t640 - omega_i_in_joint_j_1 * t638 + (t115 * t639 -
         alphadot[1] * t636) - (omega_j_in_joint_j_2 * t640 - omega_j_in_joint_j_1 * t638);
     jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t639 - omega_i_in_joint_j_0 * t637 + alphadot[0] * (sine_1 *
         t640 + cosine_1 * t635) - (omega_j_in_joint_j_2 * t639 - omega_j_in_joint_j_0 * t637);
-    const jg_real t641 = A_ji_1 * cosine_1;
-    const jg_real t642 = A_ji_2 * cosine_1;
-    const jg_real t643 = f_star_in_j_2 * t641 - f_star_in_j_1 * t642;
-    const jg_real t644 = A_ji_0 * cosine_1;
-    const jg_real t645 = f_star_in_j_0 * t642 - f_star_in_j_2 * t644;
-    const jg_real t646 = f_star_in_j_1 * t644 - f_star_in_j_0 * t641;
-    const jg_real t647 = C_j[3] * t643 + C_j[4] * t645 + C_j[5] * t646;
-    const jg_real t648 = C_j[0] * t643 + C_j[1] * t645 + C_j[2] * t646;
-    const jg_real t649 = C_j[7] * t641 + C_j[6] * t644 + C_j[8] * t642;
     jac_phi_q_v_geometry[18] = omega_i_in_joint_j_0 * t647 - omega_i_in_joint_j_1 * t648 + alphadot[1] * t649 -
         (omega_j_in_joint_j_0 * t647 - omega_j_in_joint_j_1 * t648);
-    const jg_real t650 = C_j[3] * t644 + C_j[4] * t641 + C_j[5] * t642;
     jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t649 - omega_i_in_joint_j_2 * t650 - alphadot[1] * t648 -
         (omega_j_in_joint_j_1 * t649 - omega_j_in_joint_j_2 * t650);
-    jac_phi_q_v_geometry[20] = alphadot[0] * (cosine_1 * t647 - sine_1 * t650);
     const jg_real t651 = A_ji_4 * cosine_1;
     const jg_real t652 = A_ji_5 * cosine_1;
-    const jg_real t653 = f_star_in_j_2 * t651 - f_star_in_j_1 * t652;
+    const jg_real t653 = t651 * f_star_in_j_2 - t652 * f_star_in_j_1;
     const jg_real t654 = A_ji_3 * cosine_1;
-    const jg_real t655 = f_star_in_j_0 * t652 - f_star_in_j_2 * t654;
-    const jg_real t656 = f_star_in_j_1 * t654 - f_star_in_j_0 * t651;
+    const jg_real t655 = t652 * f_star_in_j_0 - t654 * f_star_in_j_2;
+    const jg_real t656 = t654 * f_star_in_j_1 - t651 * f_star_in_j_0;
     const jg_real t657 = C_j[3] * t653 + C_j[4] * t655 + C_j[5] * t656;
     const jg_real t658 = C_j[0] * t653 + C_j[1] * t655 + C_j[2] * t656;
     const jg_real t659 = C_j[7] * t651 + C_j[6] * t654 + C_j[8] * t652;
-    jac_phi_q_v_geometry[21] = omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 * t658 + alphadot[1] * t659 -
-        (omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658);
     const jg_real t660 = C_j[3] * t654 + C_j[4] * t651 + C_j[5] * t652;
-    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t659 - omega_i_in_joint_j_2 * t660 - alphadot[1] * t658 -
-        (omega_j_in_joint_j_1 * t659 - omega_j_in_joint_j_2 * t660);
-    jac_phi_q_v_geometry[23] = alphadot[0] * (cosine_1 * t657 - sine_1 * t660);
     const jg_real t661 = A_ji_7 * cosine_1;
     const jg_real t662 = A_ji_8 * cosine_1;
-    const jg_real t663 = f_star_in_j_2 * t661 - f_star_in_j_1 * t662;
+    const jg_real t663 = t661 * f_star_in_j_2 - t662 * f_star_in_j_1;
     const jg_real t664 = A_ji_6 * cosine_1;
-    const jg_real t665 = f_star_in_j_0 * t662 - f_star_in_j_2 * t664;
-    const jg_real t666 = f_star_in_j_1 * t664 - f_star_in_j_0 * t661;
+    const jg_real t665 = t662 * f_star_in_j_0 - f_star_in_j_2 * t664;
+    const jg_real t666 = f_star_in_j_1 * t664 - t661 * f_star_in_j_0;
     const jg_real t667 = C_j[3] * t663 + C_j[4] * t665 + C_j[5] * t666;
     const jg_real t668 = C_j[0] * t663 + C_j[1] * t665 + C_j[2] * t666;
     const jg_real t669 = C_j[7] * t661 + C_j[6] * t664 + C_j[8] * t662;
+    const jg_real t670 = C_j[3] * t664 + C_j[4] * t661 + C_j[5] * t662;
+    const jg_real t671 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t672 = omega_j[1] - omega_i_in_j_1;
+    jac_phi_q_v_geometry[20] = alphadot[0] * (cosine_1 * t647 - sine_1 * t650);
+    jac_phi_q_v_geometry[21] = omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 * t658 + alphadot[1] * t659 -
+        (omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658);
+    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t659 - omega_i_in_joint_j_2 * t660 - alphadot[1] * t658 -
+        (omega_j_in_joint_j_1 * t659 - omega_j_in_joint_j_2 * t660);
+    jac_phi_q_v_geometry[23] = alphadot[0] * (cosine_1 * t657 - sine_1 * t660);
     jac_phi_q_v_geometry[24] = omega_i_in_joint_j_0 * t667 - omega_i_in_joint_j_1 * t668 + alphadot[1] * t669 -
         (omega_j_in_joint_j_0 * t667 - omega_j_in_joint_j_1 * t668);
-    const jg_real t670 = C_j[3] * t664 + C_j[4] * t661 + C_j[5] * t662;
     jac_phi_q_v_geometry[25] = omega_i_in_joint_j_1 * t669 - omega_i_in_joint_j_2 * t670 - alphadot[1] * t668 -
         (omega_j_in_joint_j_1 * t669 - omega_j_in_joint_j_2 * t670);
     jac_phi_q_v_geometry[26] = alphadot[0] * (cosine_1 * t667 - sine_1 * t670);
-    const jg_real t671 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t672 = omega_j[1] - omega_i_in_j_1;
     jac_phi_q_v_geometry[27] = -(A_ji_1 * t671 + A_ji_2 * t672);
+    const jg_real t673 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[28] = -(A_ji_4 * t671 + A_ji_5 * t672);
     jac_phi_q_v_geometry[29] = -(A_ji_7 * t671 + A_ji_8 * t672);
-    const jg_real t673 = omega_i_in_j_0 - omega_j[0];
     jac_phi_q_v_geometry[30] = A_ji_0 * t671 - A_ji_2 * t673;
     jac_phi_q_v_geometry[31] = A_ji_3 * t671 - A_ji_5 * t673;
     jac_phi_q_v_geometry[32] = A_ji_6 * t671 - A_ji_8 * t673;
@@ -1549,60 +1549,60 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
         (omega_j_in_joint_j_1 * h_star_in_j_1 - omega_j[1] * h_star_dot_g_j);
     jac_phi_q_v_geometry[59] = omega_i_in_j_1 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_1 - (omega_j[1]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_1);
+    const jg_real t674 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
+    const jg_real t675 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
     jac_phi_q_v_geometry[60] = alphadot[1] * h_star_in_j_2 - t105 * f_star_in_j_2;
     jac_phi_q_v_geometry[61] = omega_i_in_joint_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_2 - omega_j[2] * h_star_dot_g_j);
     jac_phi_q_v_geometry[62] = omega_i_in_j_2 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_2 - (omega_j[2]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_2);
     jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    const jg_real t674 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_velocity[1] = t674;
     jac_phi_q_v_velocity[3] = t674;
-    const jg_real t675 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
     jac_phi_q_v_velocity[2] = t675;
     jac_phi_q_v_velocity[6] = t675;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
     const jg_real t676 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t676;
-    jac_phi_q_v_velocity[7] = t676;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     const jg_real t677 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
     const jg_real t678 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
     const jg_real t679 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t680 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real t681 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
+    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
+    jac_phi_q_v_velocity[5] = t676;
+    jac_phi_q_v_velocity[7] = t676;
+    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
     jac_phi_q_v_velocity[9] = A_ji_0 * t677 + A_ji_1 * t678 + A_ji_2 * t679;
     jac_phi_q_v_velocity[10] = A_ji_3 * t677 + A_ji_4 * t678 + A_ji_5 * t679;
     jac_phi_q_v_velocity[11] = A_ji_6 * t677 + A_ji_7 * t678 + A_ji_8 * t679;
-    const jg_real t680 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    const jg_real t681 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
     jac_phi_q_v_velocity[12] = t680 * g_star_dot_g_j - t681 * g_star_dot_f_j;
     const jg_real t682 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    jac_phi_q_v_velocity[13] = t681 * h_star_dot_h_j - t682 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[14] = t682 * f_star_dot_f_j - t680 * f_star_dot_h_j;
     const jg_real t683 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
     const jg_real t684 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
     const jg_real t685 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    const jg_real t686 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real t687 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    const jg_real t688 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    jac_phi_q_v_velocity[13] = t681 * h_star_dot_h_j - t682 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[14] = t682 * f_star_dot_f_j - t680 * f_star_dot_h_j;
     jac_phi_q_v_velocity[15] = A_ji_0 * t683 + A_ji_1 * t684 + A_ji_2 * t685;
     jac_phi_q_v_velocity[16] = A_ji_3 * t683 + A_ji_4 * t684 + A_ji_5 * t685;
     jac_phi_q_v_velocity[17] = A_ji_6 * t683 + A_ji_7 * t684 + A_ji_8 * t685;
-    const jg_real t686 = C_j[0] * A_ji_3 + C_j[1] * A_ji_4 + A_ji_5 * C_j[2];
-    const jg_real t687 = C_j[3] * A_ji_3 + C_j[4] * A_ji_4 + A_ji_5 * C_j[5];
     jac_phi_q_v_velocity[18] = t686 * g_star_dot_g_j - t687 * g_star_dot_f_j;
-    const jg_real t688 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     jac_phi_q_v_velocity[19] = t687 * h_star_dot_h_j - t688 * h_star_dot_g_j;
     jac_phi_q_v_velocity[20] = t688 * f_star_dot_f_j - t686 * f_star_dot_h_j;
     const jg_real t689 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
     const jg_real t690 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
     const jg_real t691 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    const jg_real t692 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real t693 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real t694 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     jac_phi_q_v_velocity[21] = A_ji_0 * t689 + A_ji_1 * t690 + A_ji_2 * t691;
     jac_phi_q_v_velocity[22] = A_ji_3 * t689 + A_ji_4 * t690 + A_ji_5 * t691;
     jac_phi_q_v_velocity[23] = A_ji_6 * t689 + A_ji_7 * t690 + A_ji_8 * t691;
-    const jg_real t692 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real t693 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
     jac_phi_q_v_velocity[24] = t692 * g_star_dot_g_j - t693 * g_star_dot_f_j;
-    const jg_real t694 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
     jac_phi_q_v_velocity[25] = t693 * h_star_dot_h_j - t694 * h_star_dot_g_j;
     jac_phi_q_v_velocity[26] = t694 * f_star_dot_f_j - t692 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
     jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
     jac_phi_q_v_velocity[39] = C_j[3] * g_star_dot_f_j - C_j[0] * g_star_dot_g_j;
@@ -1614,7 +1614,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_velocity[45] = C_j[4] * g_star_dot_f_j - C_j[1] * g_star_dot_g_j;
     jac_phi_q_v_velocity[46] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
     jac_phi_q_v_velocity[47] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
     jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     jac_phi_q_v_velocity[51] = C_j[5] * g_star_dot_f_j - C_j[2] * g_star_dot_g_j;
@@ -1626,70 +1626,63 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_velocity[58] = -g_star_dot_f_j;
 }
 
-static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
-    const jg_real *JG_RESTRICT A_i, const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j,
-    const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_i, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_i,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_r_j, jg_real *JG_RESTRICT jac_phi_q_t_lambda_A_j,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_alpha, jg_real *JG_RESTRICT jac_phi_q_t_lambda_geometry,
-    jg_real *JG_RESTRICT jac_phi_q_t_lambda_lambda)
+static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i,
+    const jg_real *r_j, const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *lambda,
+    jg_real *jac_phi_q_t_lambda_r_i, jg_real *jac_phi_q_t_lambda_A_i, jg_real *jac_phi_q_t_lambda_r_j,
+    jg_real *jac_phi_q_t_lambda_A_j, jg_real *jac_phi_q_t_lambda_alpha, jg_real *jac_phi_q_t_lambda_geometry,
+    jg_real *jac_phi_q_t_lambda_lambda)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
     const jg_real A_ji_5 = A_ji_6 * A_ji_1 - A_ji_0 * A_ji_7;
-    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
+    jac_phi_q_t_lambda_lambda[24] = A_ji_6;
+    jac_phi_q_t_lambda_lambda[5] = A_ji_1;
+    jac_phi_q_t_lambda_lambda[4] = A_ji_0;
+    jac_phi_q_t_lambda_lambda[25] = A_ji_7;
+    jac_phi_q_t_lambda_lambda[16] = A_ji_5;
+    jac_phi_q_t_lambda_lambda[6] = A_ji_2;
+    jac_phi_q_t_lambda_lambda[26] = A_ji_8;
     jac_phi_q_t_lambda_geometry[80] = lambda_0_1_2_in_j_2;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
-    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    jac_phi_q_t_lambda_geometry[76] = lambda_0_1_2_in_j_1;
     const jg_real t10 = A_j[3] * lambda_0_1_2_in_j_2 - A_j[6] * lambda_0_1_2_in_j_1;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_8 * A_ji_1;
-    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    jac_phi_q_t_lambda_geometry[86] = lambda_0_1_2_in_j_0;
     const jg_real t13 = A_j[6] * lambda_0_1_2_in_j_0 - A_j[0] * lambda_0_1_2_in_j_2;
     const jg_real t14 = A_j[0] * lambda_0_1_2_in_j_1 - A_j[3] * lambda_0_1_2_in_j_0;
     const jg_real t15 = A_ji_0 * t10 + A_ji_1 * t13 + A_ji_2 * t14;
-    jac_phi_q_t_lambda_r_i[0] = t15;
     const jg_real t16 = A_ji_3 * t10 + A_ji_4 * t13 + A_ji_5 * t14;
-    jac_phi_q_t_lambda_r_i[1] = t16;
     const jg_real t17 = A_ji_6 * t10 + A_ji_7 * t13 + A_ji_8 * t14;
-    jac_phi_q_t_lambda_r_i[2] = t17;
     const jg_real t18 = A_j[4] * lambda_0_1_2_in_j_2 - A_j[7] * lambda_0_1_2_in_j_1;
     const jg_real t19 = A_j[7] * lambda_0_1_2_in_j_0 - A_j[1] * lambda_0_1_2_in_j_2;
     const jg_real t20 = A_j[1] * lambda_0_1_2_in_j_1 - A_j[4] * lambda_0_1_2_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
+    jac_phi_q_t_lambda_lambda[15] = A_ji_4;
+    jac_phi_q_t_lambda_geometry[76] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[14] = A_ji_3;
+    jac_phi_q_t_lambda_geometry[86] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_r_i[0] = t15;
+    jac_phi_q_t_lambda_r_i[1] = t16;
+    jac_phi_q_t_lambda_r_i[2] = t17;
     jac_phi_q_t_lambda_r_i[3] = t21;
     const jg_real t22 = A_ji_3 * t18 + A_ji_4 * t19 + A_ji_5 * t20;
-    jac_phi_q_t_lambda_r_i[4] = t22;
     const jg_real t23 = A_ji_6 * t18 + A_ji_7 * t19 + A_ji_8 * t20;
-    jac_phi_q_t_lambda_r_i[5] = t23;
     const jg_real t24 = A_j[5] * lambda_0_1_2_in_j_2 - A_j[8] * lambda_0_1_2_in_j_1;
     const jg_real t25 = A_j[8] * lambda_0_1_2_in_j_0 - A_j[2] * lambda_0_1_2_in_j_2;
     const jg_real t26 = A_j[2] * lambda_0_1_2_in_j_1 - A_j[5] * lambda_0_1_2_in_j_0;
     const jg_real t27 = A_ji_0 * t24 + A_ji_1 * t25 + A_ji_2 * t26;
-    jac_phi_q_t_lambda_r_i[6] = t27;
     const jg_real t28 = A_ji_3 * t24 + A_ji_4 * t25 + A_ji_5 * t26;
-    jac_phi_q_t_lambda_r_i[7] = t28;
     const jg_real t29 = A_ji_6 * t24 + A_ji_7 * t25 + A_ji_8 * t26;
-    jac_phi_q_t_lambda_r_i[8] = t29;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -1728,8 +1721,8 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t57 = t56 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
     const jg_real t58 = t56 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
     const jg_real g_star_in_j_0 = A_ji_3 * g_star_in_i_1 + A_ji_0 * g_star_in_i_0 + A_ji_6 * g_star_in_i_2;
-    const jg_real t60 = t51 * h_star_in_j_0 + t57 * g_star_in_j_2 - (t58 * h_star_in_j_2 + t49 * g_star_in_j_0);
-    const jg_real t61 = t58 * h_star_in_j_1 + t53 * g_star_in_j_0 - (t45 * h_star_in_j_0 + t57 * g_star_in_j_1);
+    const jg_real t60 = t51 * h_star_in_j_0 + t57 * g_star_in_j_2 - (h_star_in_j_2 * t58 + t49 * g_star_in_j_0);
+    const jg_real t61 = h_star_in_j_1 * t58 + t53 * g_star_in_j_0 - (t45 * h_star_in_j_0 + g_star_in_j_1 * t57);
     const jg_real t62 = C_j[6] * t54 + C_j[7] * t60 + C_j[8] * t61;
     const jg_real t63 = lambda[5] * t62;
     const jg_real t64 = C_j[0] * t54 + C_j[1] * t60 + C_j[2] * t61;
@@ -1748,9 +1741,7 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     /* v_2_in_star = lambda_4 f_j x h_star, axes of body star */
     const jg_real v_2_in_star = lambda[4] * f_j_dot_g_star;
     const jg_real t75 = lambda[0] * A_j[6] + lambda[1] * t48;
-    jac_phi_q_t_lambda_A_i[5] = t75;
     const jg_real t76 = lambda[0] * A_j[3] + lambda[1] * t40;
-    jac_phi_q_t_lambda_A_i[4] = t76;
     /* h_j_dot_f_star = h_j . f_star */
     const jg_real h_j_dot_f_star = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
     /* v_4_in_star = lambda_3 h_j x g_star, axes of body star */
@@ -1758,13 +1749,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t79 = lambda[3] * t62;
     /* h_j_dot_h_star = h_j . h_star */
     const jg_real h_j_dot_h_star = C_j[7] * h_star_in_j_1 + C_j[6] * h_star_in_j_0 + C_j[8] * h_star_in_j_2;
+    jac_phi_q_t_lambda_r_i[4] = t22;
+    jac_phi_q_t_lambda_r_i[5] = t23;
+    jac_phi_q_t_lambda_r_i[6] = t27;
+    jac_phi_q_t_lambda_r_i[7] = t28;
+    jac_phi_q_t_lambda_r_i[8] = t29;
+    jac_phi_q_t_lambda_A_i[5] = t75;
+    jac_phi_q_t_lambda_A_i[4] = t76;
     jac_phi_q_t_lambda_lambda[37] = h_j_dot_h_star;
     const jg_real t81 = lambda[3] * h_j_dot_h_star;
     const jg_real t82 = lambda[3] * (C_j[7] * t53 + C_j[6] * t57 + C_j[8] * t49);
     const jg_real t83 = t57 * v_4_in_star_2 + h_star_in_j_0 * t79 - (t54 * t81 + f_star_in_j_0 * t82) + (C_j[0] *
         t63 - C_j[6] * t65 + (s_j[1] * t75 - s_j[2] * t76 + (f_star_in_j_0 * t72 + t54 * v_2_in_star - (t58 * t70 +
         g_star_in_j_0 * t71))));
-    jac_phi_q_t_lambda_A_i[6] = t83;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
@@ -1792,11 +1789,9 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real v_6_in_j_0 = v_1_in_j_0 + v_5_in_j_0;
     const jg_real t99 = A_j[0] * v_6_in_j_0;
     const jg_real t100 = lambda[0] * A_j[0] + lambda[1] * t56;
-    jac_phi_q_t_lambda_A_i[3] = t100;
     const jg_real t101 = t53 * v_4_in_star_2 + h_star_in_j_1 * t79 - (t60 * t81 + f_star_in_j_1 * t82) + (C_j[1] *
         t63 - C_j[7] * t65 + (s_j[2] * t100 - s_j[0] * t75 + (f_star_in_j_1 * t72 + t60 * v_2_in_star - (t45 * t70 +
         g_star_in_j_1 * t71))));
-    jac_phi_q_t_lambda_A_i[7] = t101;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real t103 = v_0_in_j_2 * t100 - v_0_in_j_0 * t75 + t101;
     const jg_real v_3_in_j_1 = C_j[1] * v_3_in_joint_j - C_j[7] * t91;
@@ -1810,7 +1805,6 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t112 = t49 * v_4_in_star_2 + h_star_in_j_2 * t79 - (t61 * t81 + f_star_in_j_2 * t82) + (C_j[2] *
         t63 - C_j[8] * t65 + (s_j[0] * t76 - s_j[1] * t100 + (f_star_in_j_2 * t72 + t61 * v_2_in_star - (t51 * t70 +
         g_star_in_j_2 * t71))));
-    jac_phi_q_t_lambda_A_i[8] = t112;
     const jg_real t113 = v_0_in_j_0 * t76 - v_0_in_j_1 * t100 + t112;
     const jg_real v_3_in_j_2 = C_j[2] * v_3_in_joint_j - C_j[8] * t91;
     const jg_real v_2_in_j_2 = f_star_in_j_2 * v_2_in_star - g_star_in_j_2 * t70;
@@ -1820,13 +1814,16 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real v_1_in_j_2 = v_0_in_j_0 * lambda_0_1_2_in_j_1 - v_0_in_j_1 * lambda_0_1_2_in_j_0;
     const jg_real v_6_in_j_2 = v_1_in_j_2 + v_5_in_j_2;
     const jg_real t121 = A_j[6] * v_6_in_j_2;
+    jac_phi_q_t_lambda_A_i[6] = t83;
+    jac_phi_q_t_lambda_A_i[3] = t100;
+    jac_phi_q_t_lambda_A_i[7] = t101;
+    jac_phi_q_t_lambda_A_i[8] = t112;
     jac_phi_q_t_lambda_A_i[0] = -(t121 + A_ji_2 * t113 + (t99 + A_ji_0 * t89 + (t111 + A_ji_1 * t103)));
     jac_phi_q_t_lambda_A_i[1] = -(t48 * v_6_in_j_2 + A_ji_5 * t113 + (t56 * v_6_in_j_0 + A_ji_3 * t89 + (t40 *
         v_6_in_j_1 + A_ji_4 * t103)));
     jac_phi_q_t_lambda_A_i[2] = -(A_ji_6 * t89 + A_ji_7 * t103 + A_ji_8 * t113);
     jac_phi_q_t_lambda_A_i[9] = -(cosine_0 * (t79 - lambda[5] * (C_j[4] * t45 + C_j[3] * t58 + C_j[5] * t51)) +
         sine_0 * (lambda[5] * (C_j[4] * t53 + C_j[3] * t57 + C_j[5] * t49) - t71));
-    jac_phi_q_t_lambda_A_i[10] = t82 - t72;
     const jg_real t122 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t123 = t122 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
     const jg_real t124 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
@@ -1838,10 +1835,10 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t129 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t130 = t129 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
     const jg_real t131 = t129 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
-    const jg_real t132 = t126 * h_star_in_j_0 + t130 * g_star_in_j_2 - (t131 * h_star_in_j_2 + t125 *
+    const jg_real t132 = t126 * h_star_in_j_0 + t130 * g_star_in_j_2 - (h_star_in_j_2 * t131 + t125 *
         g_star_in_j_0);
-    const jg_real t133 = t131 * h_star_in_j_1 + t127 * g_star_in_j_0 - (t123 * h_star_in_j_0 + t130 *
-        g_star_in_j_1);
+    const jg_real t133 = h_star_in_j_1 * t131 + t127 * g_star_in_j_0 - (t123 * h_star_in_j_0 + g_star_in_j_1 *
+        t130);
     const jg_real t134 = C_j[6] * t128 + C_j[7] * t132 + C_j[8] * t133;
     const jg_real t135 = lambda[5] * t134;
     const jg_real t136 = C_j[0] * t128 + C_j[1] * t132 + C_j[2] * t133;
@@ -1849,38 +1846,33 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t138 = lambda[4] * t136;
     const jg_real t139 = lambda[4] * (C_j[1] * t123 + C_j[0] * t131 + C_j[2] * t126);
     const jg_real t140 = lambda[0] * A_j[7] + lambda[1] * t124;
-    jac_phi_q_t_lambda_A_i[16] = t140;
     const jg_real t141 = lambda[0] * A_j[4] + lambda[1] * t122;
-    jac_phi_q_t_lambda_A_i[15] = t141;
     const jg_real t142 = lambda[3] * t134;
     const jg_real t143 = lambda[3] * (C_j[7] * t127 + C_j[6] * t130 + C_j[8] * t125);
     const jg_real t144 = t130 * v_4_in_star_2 + h_star_in_j_0 * t142 - (t128 * t81 + f_star_in_j_0 * t143) + (C_j[0]
         * t135 - C_j[6] * t137 + (s_j[1] * t140 - s_j[2] * t141 + (f_star_in_j_0 * t139 + t128 * v_2_in_star - (t131
         * t70 + g_star_in_j_0 * t138))));
-    jac_phi_q_t_lambda_A_i[17] = t144;
     const jg_real t145 = v_0_in_j_1 * t140 - v_0_in_j_2 * t141 + t144;
     const jg_real t146 = A_j[1] * v_6_in_j_0;
     const jg_real t147 = lambda[0] * A_j[1] + lambda[1] * t129;
-    jac_phi_q_t_lambda_A_i[14] = t147;
     const jg_real t148 = t127 * v_4_in_star_2 + h_star_in_j_1 * t142 - (t132 * t81 + f_star_in_j_1 * t143) + (C_j[1]
         * t135 - C_j[7] * t137 + (s_j[2] * t147 - s_j[0] * t140 + (f_star_in_j_1 * t139 + t132 * v_2_in_star - (t123
         * t70 + g_star_in_j_1 * t138))));
-    jac_phi_q_t_lambda_A_i[18] = t148;
     const jg_real t149 = v_0_in_j_2 * t147 - v_0_in_j_0 * t140 + t148;
     const jg_real t150 = A_j[4] * v_6_in_j_1;
     const jg_real t151 = t125 * v_4_in_star_2 + h_star_in_j_2 * t142 - (t133 * t81 + f_star_in_j_2 * t143) + (C_j[2]
         * t135 - C_j[8] * t137 + (s_j[0] * t141 - s_j[1] * t147 + (f_star_in_j_2 * t139 + t133 * v_2_in_star - (t126
         * t70 + g_star_in_j_2 * t138))));
-    jac_phi_q_t_lambda_A_i[19] = t151;
     const jg_real t152 = v_0_in_j_0 * t141 - v_0_in_j_1 * t147 + t151;
     const jg_real t153 = A_j[7] * v_6_in_j_2;
+    jac_phi_q_t_lambda_A_i[10] = t82 - t72;
+    jac_phi_q_t_lambda_A_i[16] = t140;
+    jac_phi_q_t_lambda_A_i[15] = t141;
+    jac_phi_q_t_lambda_A_i[17] = t144;
+    jac_phi_q_t_lambda_A_i[14] = t147;
+    jac_phi_q_t_lambda_A_i[18] = t148;
+    jac_phi_q_t_lambda_A_i[19] = t151;
     jac_phi_q_t_lambda_A_i[11] = -(t153 + A_ji_2 * t152 + (t146 + A_ji_0 * t145 + (t150 + A_ji_1 * t149)));
-    jac_phi_q_t_lambda_A_i[12] = -(t124 * v_6_in_j_2 + A_ji_5 * t152 + (t129 * v_6_in_j_0 + A_ji_3 * t145 + (t122 *
-        v_6_in_j_1 + A_ji_4 * t149)));
-    jac_phi_q_t_lambda_A_i[13] = -(A_ji_6 * t145 + A_ji_7 * t149 + A_ji_8 * t152);
-    jac_phi_q_t_lambda_A_i[20] = -(cosine_0 * (t142 - lambda[5] * (C_j[4] * t123 + C_j[3] * t131 + C_j[5] * t126)) +
-        sine_0 * (lambda[5] * (C_j[4] * t127 + C_j[3] * t130 + C_j[5] * t125) - t138));
-    jac_phi_q_t_lambda_A_i[21] = t143 - t139;
     const jg_real t154 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t155 = t154 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
     const jg_real t156 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
@@ -1892,10 +1884,10 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t161 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t162 = t161 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
     const jg_real t163 = t161 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
-    const jg_real t164 = t158 * h_star_in_j_0 + t162 * g_star_in_j_2 - (t163 * h_star_in_j_2 + t157 *
+    const jg_real t164 = t158 * h_star_in_j_0 + t162 * g_star_in_j_2 - (h_star_in_j_2 * t163 + t157 *
         g_star_in_j_0);
-    const jg_real t165 = t163 * h_star_in_j_1 + t159 * g_star_in_j_0 - (t155 * h_star_in_j_0 + t162 *
-        g_star_in_j_1);
+    const jg_real t165 = h_star_in_j_1 * t163 + t159 * g_star_in_j_0 - (t155 * h_star_in_j_0 + g_star_in_j_1 *
+        t162);
     const jg_real t166 = C_j[6] * t160 + C_j[7] * t164 + C_j[8] * t165;
     const jg_real t167 = lambda[5] * t166;
     const jg_real t168 = C_j[0] * t160 + C_j[1] * t164 + C_j[2] * t165;
@@ -1903,38 +1895,35 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t170 = lambda[4] * t168;
     const jg_real t171 = lambda[4] * (C_j[1] * t155 + C_j[0] * t163 + C_j[2] * t158);
     const jg_real t172 = lambda[0] * A_j[8] + lambda[1] * t156;
-    jac_phi_q_t_lambda_A_i[27] = t172;
     const jg_real t173 = lambda[0] * A_j[5] + lambda[1] * t154;
-    jac_phi_q_t_lambda_A_i[26] = t173;
     const jg_real t174 = lambda[3] * t166;
     const jg_real t175 = lambda[3] * (C_j[7] * t159 + C_j[6] * t162 + C_j[8] * t157);
     const jg_real t176 = t162 * v_4_in_star_2 + h_star_in_j_0 * t174 - (t160 * t81 + f_star_in_j_0 * t175) + (C_j[0]
         * t167 - C_j[6] * t169 + (s_j[1] * t172 - s_j[2] * t173 + (f_star_in_j_0 * t171 + t160 * v_2_in_star - (t163
         * t70 + g_star_in_j_0 * t170))));
-    jac_phi_q_t_lambda_A_i[28] = t176;
     const jg_real t177 = v_0_in_j_1 * t172 - v_0_in_j_2 * t173 + t176;
     const jg_real t178 = A_j[2] * v_6_in_j_0;
     const jg_real t179 = lambda[0] * A_j[2] + lambda[1] * t161;
+    jac_phi_q_t_lambda_A_i[12] = -(t124 * v_6_in_j_2 + A_ji_5 * t152 + (t129 * v_6_in_j_0 + A_ji_3 * t145 + (t122 *
+        v_6_in_j_1 + A_ji_4 * t149)));
+    jac_phi_q_t_lambda_A_i[13] = -(A_ji_6 * t145 + A_ji_7 * t149 + A_ji_8 * t152);
+    jac_phi_q_t_lambda_A_i[20] = -(cosine_0 * (t142 - lambda[5] * (C_j[4] * t123 + C_j[3] * t131 + C_j[5] * t126)) +
+        sine_0 * (lambda[5] * (C_j[4] * t127 + C_j[3] * t130 + C_j[5] * t125) - t138));
+    jac_phi_q_t_lambda_A_i[21] = t143 - t139;
+    jac_phi_q_t_lambda_A_i[27] = t172;
+    jac_phi_q_t_lambda_A_i[26] = t173;
+    jac_phi_q_t_lambda_A_i[28] = t176;
     jac_phi_q_t_lambda_A_i[25] = t179;
     const jg_real t180 = t159 * v_4_in_star_2 + h_star_in_j_1 * t174 - (t164 * t81 + f_star_in_j_1 * t175) + (C_j[1]
         * t167 - C_j[7] * t169 + (s_j[2] * t179 - s_j[0] * t172 + (f_star_in_j_1 * t171 + t164 * v_2_in_star - (t155
         * t70 + g_star_in_j_1 * t170))));
-    jac_phi_q_t_lambda_A_i[29] = t180;
     const jg_real t181 = v_0_in_j_2 * t179 - v_0_in_j_0 * t172 + t180;
     const jg_real t182 = A_j[5] * v_6_in_j_1;
     const jg_real t183 = t157 * v_4_in_star_2 + h_star_in_j_2 * t174 - (t165 * t81 + f_star_in_j_2 * t175) + (C_j[2]
         * t167 - C_j[8] * t169 + (s_j[0] * t173 - s_j[1] * t179 + (f_star_in_j_2 * t171 + t165 * v_2_in_star - (t158
         * t70 + g_star_in_j_2 * t170))));
-    jac_phi_q_t_lambda_A_i[30] = t183;
     const jg_real t184 = v_0_in_j_0 * t173 - v_0_in_j_1 * t179 + t183;
     const jg_real t185 = A_j[8] * v_6_in_j_2;
-    jac_phi_q_t_lambda_A_i[22] = -(t185 + A_ji_2 * t184 + (t178 + A_ji_0 * t177 + (t182 + A_ji_1 * t181)));
-    jac_phi_q_t_lambda_A_i[23] = -(t156 * v_6_in_j_2 + A_ji_5 * t184 + (t161 * v_6_in_j_0 + A_ji_3 * t177 + (t154 *
-        v_6_in_j_1 + A_ji_4 * t181)));
-    jac_phi_q_t_lambda_A_i[24] = -(A_ji_6 * t177 + A_ji_7 * t181 + A_ji_8 * t184);
-    jac_phi_q_t_lambda_A_i[31] = -(cosine_0 * (t174 - lambda[5] * (C_j[4] * t155 + C_j[3] * t163 + C_j[5] * t158)) +
-        sine_0 * (lambda[5] * (C_j[4] * t159 + C_j[3] * t162 + C_j[5] * t157) - t170));
-    jac_phi_q_t_lambda_A_i[32] = t175 - t171;
     const jg_real t186 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t187 = t186 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
     const jg_real t188 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
@@ -1957,35 +1946,41 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t202 = lambda[4] * t200;
     const jg_real t203 = lambda[4] * (C_j[1] * t187 + C_j[0] * t195 + C_j[2] * t190);
     const jg_real t204 = lambda[2] * A_j[6] + lambda[1] * t188;
+    jac_phi_q_t_lambda_A_i[29] = t180;
+    jac_phi_q_t_lambda_A_i[30] = t183;
+    jac_phi_q_t_lambda_A_i[22] = -(t185 + A_ji_2 * t184 + (t178 + A_ji_0 * t177 + (t182 + A_ji_1 * t181)));
+    jac_phi_q_t_lambda_A_i[23] = -(t156 * v_6_in_j_2 + A_ji_5 * t184 + (t161 * v_6_in_j_0 + A_ji_3 * t177 + (t154 *
+        v_6_in_j_1 + A_ji_4 * t181)));
+    jac_phi_q_t_lambda_A_i[24] = -(A_ji_6 * t177 + A_ji_7 * t181 + A_ji_8 * t184);
+    jac_phi_q_t_lambda_A_i[31] = -(cosine_0 * (t174 - lambda[5] * (C_j[4] * t155 + C_j[3] * t163 + C_j[5] * t158)) +
+        sine_0 * (lambda[5] * (C_j[4] * t159 + C_j[3] * t162 + C_j[5] * t157) - t170));
+    jac_phi_q_t_lambda_A_i[32] = t175 - t171;
     jac_phi_q_t_lambda_A_i[38] = t204;
     const jg_real t205 = lambda[2] * A_j[3] + lambda[1] * t186;
-    jac_phi_q_t_lambda_A_i[37] = t205;
     const jg_real t206 = lambda[3] * t198;
     const jg_real t207 = lambda[3] * (C_j[7] * t191 + C_j[6] * t194 + C_j[8] * t189);
     const jg_real t208 = t194 * v_4_in_star_2 + h_star_in_j_0 * t206 - (t192 * t81 + f_star_in_j_0 * t207) + (C_j[0]
         * t199 - C_j[6] * t201 + (s_j[1] * t204 - s_j[2] * t205 + (f_star_in_j_0 * t203 + t192 * v_2_in_star - (t195
         * t70 + g_star_in_j_0 * t202))));
-    jac_phi_q_t_lambda_A_i[39] = t208;
     const jg_real t209 = v_0_in_j_1 * t204 - v_0_in_j_2 * t205 + t208;
     const jg_real t210 = lambda[2] * A_j[0] + lambda[1] * t193;
-    jac_phi_q_t_lambda_A_i[36] = t210;
     const jg_real t211 = t191 * v_4_in_star_2 + h_star_in_j_1 * t206 - (t196 * t81 + f_star_in_j_1 * t207) + (C_j[1]
         * t199 - C_j[7] * t201 + (s_j[2] * t210 - s_j[0] * t204 + (f_star_in_j_1 * t203 + t196 * v_2_in_star - (t187
         * t70 + g_star_in_j_1 * t202))));
-    jac_phi_q_t_lambda_A_i[40] = t211;
     const jg_real t212 = v_0_in_j_2 * t210 - v_0_in_j_0 * t204 + t211;
     const jg_real t213 = t189 * v_4_in_star_2 + h_star_in_j_2 * t206 - (t197 * t81 + f_star_in_j_2 * t207) + (C_j[2]
         * t199 - C_j[8] * t201 + (s_j[0] * t205 - s_j[1] * t210 + (f_star_in_j_2 * t203 + t197 * v_2_in_star - (t190
         * t70 + g_star_in_j_2 * t202))));
-    jac_phi_q_t_lambda_A_i[41] = t213;
     const jg_real t214 = v_0_in_j_0 * t205 - v_0_in_j_1 * t210 + t213;
+    jac_phi_q_t_lambda_A_i[37] = t205;
+    jac_phi_q_t_lambda_A_i[39] = t208;
+    jac_phi_q_t_lambda_A_i[36] = t210;
+    jac_phi_q_t_lambda_A_i[40] = t211;
+    jac_phi_q_t_lambda_A_i[41] = t213;
     jac_phi_q_t_lambda_A_i[33] = -(A_ji_0 * t209 + A_ji_1 * t212 + A_ji_2 * t214);
     jac_phi_q_t_lambda_A_i[34] = -(t188 * v_6_in_j_2 + A_ji_5 * t214 + (t193 * v_6_in_j_0 + A_ji_3 * t209 + (t186 *
         v_6_in_j_1 + A_ji_4 * t212)));
     jac_phi_q_t_lambda_A_i[35] = -(t121 + A_ji_8 * t214 + (t99 + A_ji_6 * t209 + (t111 + A_ji_7 * t212)));
-    jac_phi_q_t_lambda_A_i[42] = -(cosine_0 * (t206 - lambda[5] * (C_j[4] * t187 + C_j[3] * t195 + C_j[5] * t190)) +
-        sine_0 * (lambda[5] * (C_j[4] * t191 + C_j[3] * t194 + C_j[5] * t189) - t202));
-    jac_phi_q_t_lambda_A_i[43] = t207 - t203;
     const jg_real t215 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t216 = t215 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
     const jg_real t217 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
@@ -2008,35 +2003,31 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t231 = lambda[4] * t229;
     const jg_real t232 = lambda[4] * (C_j[1] * t216 + C_j[0] * t224 + C_j[2] * t219);
     const jg_real t233 = lambda[2] * A_j[7] + lambda[1] * t217;
-    jac_phi_q_t_lambda_A_i[49] = t233;
     const jg_real t234 = lambda[2] * A_j[4] + lambda[1] * t215;
-    jac_phi_q_t_lambda_A_i[48] = t234;
     const jg_real t235 = lambda[3] * t227;
     const jg_real t236 = lambda[3] * (C_j[7] * t220 + C_j[6] * t223 + C_j[8] * t218);
     const jg_real t237 = t223 * v_4_in_star_2 + h_star_in_j_0 * t235 - (t221 * t81 + f_star_in_j_0 * t236) + (C_j[0]
         * t228 - C_j[6] * t230 + (s_j[1] * t233 - s_j[2] * t234 + (f_star_in_j_0 * t232 + t221 * v_2_in_star - (t224
         * t70 + g_star_in_j_0 * t231))));
-    jac_phi_q_t_lambda_A_i[50] = t237;
     const jg_real t238 = v_0_in_j_1 * t233 - v_0_in_j_2 * t234 + t237;
     const jg_real t239 = lambda[2] * A_j[1] + lambda[1] * t222;
-    jac_phi_q_t_lambda_A_i[47] = t239;
     const jg_real t240 = t220 * v_4_in_star_2 + h_star_in_j_1 * t235 - (t225 * t81 + f_star_in_j_1 * t236) + (C_j[1]
         * t228 - C_j[7] * t230 + (s_j[2] * t239 - s_j[0] * t233 + (f_star_in_j_1 * t232 + t225 * v_2_in_star - (t216
         * t70 + g_star_in_j_1 * t231))));
-    jac_phi_q_t_lambda_A_i[51] = t240;
     const jg_real t241 = v_0_in_j_2 * t239 - v_0_in_j_0 * t233 + t240;
     const jg_real t242 = t218 * v_4_in_star_2 + h_star_in_j_2 * t235 - (t226 * t81 + f_star_in_j_2 * t236) + (C_j[2]
         * t228 - C_j[8] * t230 + (s_j[0] * t234 - s_j[1] * t239 + (f_star_in_j_2 * t232 + t226 * v_2_in_star - (t219
         * t70 + g_star_in_j_2 * t231))));
+    jac_phi_q_t_lambda_A_i[42] = -(cosine_0 * (t206 - lambda[5] * (C_j[4] * t187 + C_j[3] * t195 + C_j[5] * t190)) +
+        sine_0 * (lambda[5] * (C_j[4] * t191 + C_j[3] * t194 + C_j[5] * t189) - t202));
+    jac_phi_q_t_lambda_A_i[43] = t207 - t203;
+    jac_phi_q_t_lambda_A_i[49] = t233;
+    jac_phi_q_t_lambda_A_i[48] = t234;
+    jac_phi_q_t_lambda_A_i[50] = t237;
+    jac_phi_q_t_lambda_A_i[47] = t239;
+    jac_phi_q_t_lambda_A_i[51] = t240;
     jac_phi_q_t_lambda_A_i[52] = t242;
     const jg_real t243 = v_0_in_j_0 * t234 - v_0_in_j_1 * t239 + t242;
-    jac_phi_q_t_lambda_A_i[44] = -(A_ji_0 * t238 + A_ji_1 * t241 + A_ji_2 * t243);
-    jac_phi_q_t_lambda_A_i[45] = -(t217 * v_6_in_j_2 + A_ji_5 * t243 + (t222 * v_6_in_j_0 + A_ji_3 * t238 + (t215 *
-        v_6_in_j_1 + A_ji_4 * t241)));
-    jac_phi_q_t_lambda_A_i[46] = -(t153 + A_ji_8 * t243 + (t146 + A_ji_6 * t238 + (t150 + A_ji_7 * t241)));
-    jac_phi_q_t_lambda_A_i[53] = -(cosine_0 * (t235 - lambda[5] * (C_j[4] * t216 + C_j[3] * t224 + C_j[5] * t219)) +
-        sine_0 * (lambda[5] * (C_j[4] * t220 + C_j[3] * t223 + C_j[5] * t218) - t231));
-    jac_phi_q_t_lambda_A_i[54] = t236 - t232;
     const jg_real t244 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t245 = t244 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
     const jg_real t246 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
@@ -2059,28 +2050,35 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t260 = lambda[4] * t258;
     const jg_real t261 = lambda[4] * (C_j[1] * t245 + C_j[0] * t253 + C_j[2] * t248);
     const jg_real t262 = lambda[2] * A_j[8] + lambda[1] * t246;
-    jac_phi_q_t_lambda_A_i[60] = t262;
     const jg_real t263 = lambda[2] * A_j[5] + lambda[1] * t244;
-    jac_phi_q_t_lambda_A_i[59] = t263;
     const jg_real t264 = lambda[3] * t256;
     const jg_real t265 = lambda[3] * (C_j[7] * t249 + C_j[6] * t252 + C_j[8] * t247);
     const jg_real t266 = t252 * v_4_in_star_2 + h_star_in_j_0 * t264 - (t250 * t81 + f_star_in_j_0 * t265) + (C_j[0]
         * t257 - C_j[6] * t259 + (s_j[1] * t262 - s_j[2] * t263 + (f_star_in_j_0 * t261 + t250 * v_2_in_star - (t253
         * t70 + g_star_in_j_0 * t260))));
+    jac_phi_q_t_lambda_A_i[44] = -(A_ji_0 * t238 + A_ji_1 * t241 + A_ji_2 * t243);
+    jac_phi_q_t_lambda_A_i[45] = -(t217 * v_6_in_j_2 + A_ji_5 * t243 + (t222 * v_6_in_j_0 + A_ji_3 * t238 + (t215 *
+        v_6_in_j_1 + A_ji_4 * t241)));
+    jac_phi_q_t_lambda_A_i[46] = -(t153 + A_ji_8 * t243 + (t146 + A_ji_6 * t238 + (t150 + A_ji_7 * t241)));
+    jac_phi_q_t_lambda_A_i[53] = -(cosine_0 * (t235 - lambda[5] * (C_j[4] * t216 + C_j[3] * t224 + C_j[5] * t219)) +
+        sine_0 * (lambda[5] * (C_j[4] * t220 + C_j[3] * t223 + C_j[5] * t218) - t231));
+    jac_phi_q_t_lambda_A_i[54] = t236 - t232;
+    jac_phi_q_t_lambda_A_i[60] = t262;
+    jac_phi_q_t_lambda_A_i[59] = t263;
     jac_phi_q_t_lambda_A_i[61] = t266;
     const jg_real t267 = v_0_in_j_1 * t262 - v_0_in_j_2 * t263 + t266;
     const jg_real t268 = lambda[2] * A_j[2] + lambda[1] * t251;
-    jac_phi_q_t_lambda_A_i[58] = t268;
     const jg_real t269 = t249 * v_4_in_star_2 + h_star_in_j_1 * t264 - (t254 * t81 + f_star_in_j_1 * t265) + (C_j[1]
         * t257 - C_j[7] * t259 + (s_j[2] * t268 - s_j[0] * t262 + (f_star_in_j_1 * t261 + t254 * v_2_in_star - (t245
         * t70 + g_star_in_j_1 * t260))));
-    jac_phi_q_t_lambda_A_i[62] = t269;
     const jg_real t270 = v_0_in_j_2 * t268 - v_0_in_j_0 * t262 + t269;
     const jg_real t271 = t247 * v_4_in_star_2 + h_star_in_j_2 * t264 - (t255 * t81 + f_star_in_j_2 * t265) + (C_j[2]
         * t257 - C_j[8] * t259 + (s_j[0] * t263 - s_j[1] * t268 + (f_star_in_j_2 * t261 + t255 * v_2_in_star - (t248
         * t70 + g_star_in_j_2 * t260))));
-    jac_phi_q_t_lambda_A_i[63] = t271;
     const jg_real t272 = v_0_in_j_0 * t263 - v_0_in_j_1 * t268 + t271;
+    jac_phi_q_t_lambda_A_i[58] = t268;
+    jac_phi_q_t_lambda_A_i[62] = t269;
+    jac_phi_q_t_lambda_A_i[63] = t271;
     jac_phi_q_t_lambda_A_i[55] = -(A_ji_0 * t267 + A_ji_1 * t270 + A_ji_2 * t272);
     jac_phi_q_t_lambda_A_i[56] = -(t246 * v_6_in_j_2 + A_ji_5 * t272 + (t251 * v_6_in_j_0 + A_ji_3 * t267 + (t244 *
         v_6_in_j_1 + A_ji_4 * t270)));
@@ -2096,7 +2094,6 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_r_j[5] = -t23;
     jac_phi_q_t_lambda_r_j[6] = -t27;
     jac_phi_q_t_lambda_r_j[7] = -t28;
-    jac_phi_q_t_lambda_r_j[8] = -t29;
     const jg_real t273 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t274 = t273 * g_star_in_i_1;
     const jg_real t275 = t274 * h_star_in_j_2;
@@ -2124,30 +2121,31 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t297 = lambda[4] * t294;
     const jg_real t298 = lambda[4] * (C_j[1] * t274 + C_j[0] * t286 + C_j[2] * t279);
     const jg_real t299 = lambda[1] * t276;
-    jac_phi_q_t_lambda_A_j[5] = t299;
     const jg_real t300 = s_j[1] * t299;
     const jg_real t301 = lambda[1] * t273;
-    jac_phi_q_t_lambda_A_j[4] = t301;
     const jg_real t302 = s_j[2] * t301;
     const jg_real t303 = t284 * v_4_in_star_2;
     const jg_real t304 = lambda[3] * t292;
     const jg_real t305 = lambda[3] * (C_j[7] * t281 + C_j[6] * t284 + C_j[8] * t277);
     const jg_real t306 = t303 + h_star_in_j_0 * t304 - (t283 * t81 + f_star_in_j_0 * t305) + (C_j[0] * t293 - C_j[6]
         * t295 + (t300 - t302 + (f_star_in_j_0 * t298 + t283 * v_2_in_star - (t296 + g_star_in_j_0 * t297))));
-    jac_phi_q_t_lambda_A_j[6] = t306;
     const jg_real t307 = v_0_in_j_1 * t299;
     const jg_real t308 = v_0_in_j_2 * t301;
     const jg_real t309 = t307 - t308 + t306;
     const jg_real t310 = t274 * t70;
-    const jg_real t311 = lambda[0] * A_i[0] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[3] = t311;
-    jac_phi_q_t_lambda_A_j[37] = t311;
-    jac_phi_q_t_lambda_A_j[71] = t311;
+    const jg_real t311 = lambda[2] * A_i[6] + lambda[0] * A_i[0];
     const jg_real t312 = s_j[2] * t311;
     const jg_real t313 = t281 * v_4_in_star_2;
     const jg_real t314 = t313 + h_star_in_j_1 * t304 - (t288 * t81 + f_star_in_j_1 * t305) + (C_j[1] * t293 - C_j[7]
         * t295 + (t312 - s_j[0] * t299 + (f_star_in_j_1 * t298 + t288 * v_2_in_star - (t310 + g_star_in_j_1 *
         t297))));
+    jac_phi_q_t_lambda_r_j[8] = -t29;
+    jac_phi_q_t_lambda_A_j[5] = t299;
+    jac_phi_q_t_lambda_A_j[4] = t301;
+    jac_phi_q_t_lambda_A_j[6] = t306;
+    jac_phi_q_t_lambda_A_j[3] = t311;
+    jac_phi_q_t_lambda_A_j[37] = t311;
+    jac_phi_q_t_lambda_A_j[71] = t311;
     jac_phi_q_t_lambda_A_j[7] = t314;
     const jg_real t315 = v_0_world_0 * lambda_0_1_2_in_j_2;
     const jg_real t316 = v_0_in_j_2 * t311;
@@ -2158,17 +2156,9 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t321 = t320 + h_star_in_j_2 * t304 - (t291 * t81 + f_star_in_j_2 * t305) + (C_j[2] * t293 - C_j[8]
         * t295 + (s_j[0] * t301 - t319 + (f_star_in_j_2 * t298 + t291 * v_2_in_star - (t318 + g_star_in_j_2 *
         t297))));
-    jac_phi_q_t_lambda_A_j[8] = t321;
     const jg_real t322 = v_0_world_0 * lambda_0_1_2_in_j_1;
     const jg_real t323 = v_0_in_j_1 * t311;
-    const jg_real t324 = t322 + v_0_in_j_0 * t301 - t323 + t321;
-    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_6_in_j_0 + A_ji_0 * t309 + A_ji_1 * t317 + A_ji_2 * t324);
-    jac_phi_q_t_lambda_A_j[1] = -(t276 * v_6_in_j_2 + A_ji_5 * t324 + (t273 * v_6_in_j_1 + A_ji_4 * t317 + A_ji_3 *
-        t309));
-    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_6_in_j_0 + A_ji_6 * t309 + A_ji_7 * t317 + A_ji_8 * t324);
-    jac_phi_q_t_lambda_A_j[9] = -(cosine_0 * (t304 - lambda[5] * (C_j[4] * t274 + C_j[3] * t286 + C_j[5] * t279)) +
-        sine_0 * (lambda[5] * (C_j[4] * t281 + C_j[3] * t284 + C_j[5] * t277) - t297));
-    jac_phi_q_t_lambda_A_j[10] = t305 - t298;
+    const jg_real t324 = t322 + t301 * v_0_in_j_0 - t323 + t321;
     const jg_real t325 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
     const jg_real t326 = t325 * g_star_in_i_1;
     const jg_real t327 = t326 * h_star_in_j_2;
@@ -2196,9 +2186,17 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t349 = lambda[4] * t346;
     const jg_real t350 = lambda[4] * (C_j[1] * t326 + C_j[0] * t338 + C_j[2] * t331);
     const jg_real t351 = lambda[1] * t328;
-    jac_phi_q_t_lambda_A_j[16] = t351;
     const jg_real t352 = s_j[1] * t351;
     const jg_real t353 = lambda[1] * t325;
+    jac_phi_q_t_lambda_A_j[8] = t321;
+    jac_phi_q_t_lambda_A_j[0] = -(A_i[0] * v_6_in_j_0 + A_ji_0 * t309 + A_ji_1 * t317 + A_ji_2 * t324);
+    jac_phi_q_t_lambda_A_j[1] = -(t276 * v_6_in_j_2 + A_ji_5 * t324 + (t273 * v_6_in_j_1 + A_ji_4 * t317 + A_ji_3 *
+        t309));
+    jac_phi_q_t_lambda_A_j[2] = -(A_i[6] * v_6_in_j_0 + A_ji_6 * t309 + A_ji_7 * t317 + A_ji_8 * t324);
+    jac_phi_q_t_lambda_A_j[9] = -(cosine_0 * (t304 - lambda[5] * (C_j[4] * t274 + C_j[3] * t286 + C_j[5] * t279)) +
+        sine_0 * (lambda[5] * (C_j[4] * t281 + C_j[3] * t284 + C_j[5] * t277) - t297));
+    jac_phi_q_t_lambda_A_j[10] = t305 - t298;
+    jac_phi_q_t_lambda_A_j[16] = t351;
     jac_phi_q_t_lambda_A_j[15] = t353;
     const jg_real t354 = s_j[2] * t353;
     const jg_real t355 = t336 * v_4_in_star_2;
@@ -2206,21 +2204,16 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t357 = lambda[3] * (C_j[7] * t333 + C_j[6] * t336 + C_j[8] * t329);
     const jg_real t358 = t355 + h_star_in_j_0 * t356 - (t335 * t81 + f_star_in_j_0 * t357) + (C_j[0] * t345 - C_j[6]
         * t347 + (t352 - t354 + (f_star_in_j_0 * t350 + t335 * v_2_in_star - (t348 + g_star_in_j_0 * t349))));
-    jac_phi_q_t_lambda_A_j[17] = t358;
     const jg_real t359 = v_0_in_j_1 * t351;
     const jg_real t360 = v_0_in_j_2 * t353;
     const jg_real t361 = t359 - t360 + t358;
     const jg_real t362 = t326 * t70;
-    const jg_real t363 = lambda[0] * A_i[1] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[14] = t363;
-    jac_phi_q_t_lambda_A_j[48] = t363;
-    jac_phi_q_t_lambda_A_j[82] = t363;
+    const jg_real t363 = lambda[2] * A_i[7] + lambda[0] * A_i[1];
     const jg_real t364 = s_j[2] * t363;
     const jg_real t365 = t333 * v_4_in_star_2;
     const jg_real t366 = t365 + h_star_in_j_1 * t356 - (t340 * t81 + f_star_in_j_1 * t357) + (C_j[1] * t345 - C_j[7]
         * t347 + (t364 - s_j[0] * t351 + (f_star_in_j_1 * t350 + t340 * v_2_in_star - (t362 + g_star_in_j_1 *
         t349))));
-    jac_phi_q_t_lambda_A_j[18] = t366;
     const jg_real t367 = v_0_world_1 * lambda_0_1_2_in_j_2;
     const jg_real t368 = v_0_in_j_2 * t363;
     const jg_real t369 = t368 - (t367 + v_0_in_j_0 * t351) + t366;
@@ -2230,17 +2223,18 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t373 = t372 + h_star_in_j_2 * t356 - (t343 * t81 + f_star_in_j_2 * t357) + (C_j[2] * t345 - C_j[8]
         * t347 + (s_j[0] * t353 - t371 + (f_star_in_j_2 * t350 + t343 * v_2_in_star - (t370 + g_star_in_j_2 *
         t349))));
-    jac_phi_q_t_lambda_A_j[19] = t373;
     const jg_real t374 = v_0_world_1 * lambda_0_1_2_in_j_1;
     const jg_real t375 = v_0_in_j_1 * t363;
-    const jg_real t376 = t374 + v_0_in_j_0 * t353 - t375 + t373;
+    const jg_real t376 = t374 + t353 * v_0_in_j_0 - t375 + t373;
+    jac_phi_q_t_lambda_A_j[17] = t358;
+    jac_phi_q_t_lambda_A_j[14] = t363;
+    jac_phi_q_t_lambda_A_j[48] = t363;
+    jac_phi_q_t_lambda_A_j[82] = t363;
+    jac_phi_q_t_lambda_A_j[18] = t366;
+    jac_phi_q_t_lambda_A_j[19] = t373;
     jac_phi_q_t_lambda_A_j[11] = -(A_i[1] * v_6_in_j_0 + A_ji_0 * t361 + A_ji_1 * t369 + A_ji_2 * t376);
     jac_phi_q_t_lambda_A_j[12] = -(t328 * v_6_in_j_2 + A_ji_5 * t376 + (t325 * v_6_in_j_1 + A_ji_4 * t369 + A_ji_3 *
         t361));
-    jac_phi_q_t_lambda_A_j[13] = -(A_i[7] * v_6_in_j_0 + A_ji_6 * t361 + A_ji_7 * t369 + A_ji_8 * t376);
-    jac_phi_q_t_lambda_A_j[20] = -(cosine_0 * (t356 - lambda[5] * (C_j[4] * t326 + C_j[3] * t338 + C_j[5] * t331)) +
-        sine_0 * (lambda[5] * (C_j[4] * t333 + C_j[3] * t336 + C_j[5] * t329) - t349));
-    jac_phi_q_t_lambda_A_j[21] = t357 - t350;
     const jg_real t377 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
     const jg_real t378 = t377 * g_star_in_i_1;
     const jg_real t379 = t378 * h_star_in_j_2;
@@ -2268,22 +2262,26 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t401 = lambda[4] * t398;
     const jg_real t402 = lambda[4] * (C_j[1] * t378 + C_j[0] * t390 + C_j[2] * t383);
     const jg_real t403 = lambda[1] * t380;
-    jac_phi_q_t_lambda_A_j[27] = t403;
     const jg_real t404 = s_j[1] * t403;
     const jg_real t405 = lambda[1] * t377;
-    jac_phi_q_t_lambda_A_j[26] = t405;
     const jg_real t406 = s_j[2] * t405;
     const jg_real t407 = t388 * v_4_in_star_2;
     const jg_real t408 = lambda[3] * t396;
     const jg_real t409 = lambda[3] * (C_j[7] * t385 + C_j[6] * t388 + C_j[8] * t381);
     const jg_real t410 = t407 + h_star_in_j_0 * t408 - (t387 * t81 + f_star_in_j_0 * t409) + (C_j[0] * t397 - C_j[6]
         * t399 + (t404 - t406 + (f_star_in_j_0 * t402 + t387 * v_2_in_star - (t400 + g_star_in_j_0 * t401))));
-    jac_phi_q_t_lambda_A_j[28] = t410;
     const jg_real t411 = v_0_in_j_1 * t403;
     const jg_real t412 = v_0_in_j_2 * t405;
     const jg_real t413 = t411 - t412 + t410;
     const jg_real t414 = t378 * t70;
-    const jg_real t415 = lambda[0] * A_i[2] + lambda[2] * A_i[8];
+    const jg_real t415 = lambda[2] * A_i[8] + lambda[0] * A_i[2];
+    jac_phi_q_t_lambda_A_j[13] = -(A_i[7] * v_6_in_j_0 + A_ji_6 * t361 + A_ji_7 * t369 + A_ji_8 * t376);
+    jac_phi_q_t_lambda_A_j[20] = -(cosine_0 * (t356 - lambda[5] * (C_j[4] * t326 + C_j[3] * t338 + C_j[5] * t331)) +
+        sine_0 * (lambda[5] * (C_j[4] * t333 + C_j[3] * t336 + C_j[5] * t329) - t349));
+    jac_phi_q_t_lambda_A_j[21] = t357 - t350;
+    jac_phi_q_t_lambda_A_j[27] = t403;
+    jac_phi_q_t_lambda_A_j[26] = t405;
+    jac_phi_q_t_lambda_A_j[28] = t410;
     jac_phi_q_t_lambda_A_j[25] = t415;
     jac_phi_q_t_lambda_A_j[59] = t415;
     jac_phi_q_t_lambda_A_j[93] = t415;
@@ -2292,7 +2290,6 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t418 = t417 + h_star_in_j_1 * t408 - (t392 * t81 + f_star_in_j_1 * t409) + (C_j[1] * t397 - C_j[7]
         * t399 + (t416 - s_j[0] * t403 + (f_star_in_j_1 * t402 + t392 * v_2_in_star - (t414 + g_star_in_j_1 *
         t401))));
-    jac_phi_q_t_lambda_A_j[29] = t418;
     const jg_real t419 = v_0_world_2 * lambda_0_1_2_in_j_2;
     const jg_real t420 = v_0_in_j_2 * t415;
     const jg_real t421 = t420 - (t419 + v_0_in_j_0 * t403) + t418;
@@ -2302,17 +2299,9 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t425 = t424 + h_star_in_j_2 * t408 - (t395 * t81 + f_star_in_j_2 * t409) + (C_j[2] * t397 - C_j[8]
         * t399 + (s_j[0] * t405 - t423 + (f_star_in_j_2 * t402 + t395 * v_2_in_star - (t422 + g_star_in_j_2 *
         t401))));
-    jac_phi_q_t_lambda_A_j[30] = t425;
     const jg_real t426 = v_0_world_2 * lambda_0_1_2_in_j_1;
     const jg_real t427 = v_0_in_j_1 * t415;
-    const jg_real t428 = t426 + v_0_in_j_0 * t405 - t427 + t425;
-    jac_phi_q_t_lambda_A_j[22] = -(A_i[2] * v_6_in_j_0 + A_ji_0 * t413 + A_ji_1 * t421 + A_ji_2 * t428);
-    jac_phi_q_t_lambda_A_j[23] = -(t380 * v_6_in_j_2 + A_ji_5 * t428 + (t377 * v_6_in_j_1 + A_ji_4 * t421 + A_ji_3 *
-        t413));
-    jac_phi_q_t_lambda_A_j[24] = -(A_i[8] * v_6_in_j_0 + A_ji_6 * t413 + A_ji_7 * t421 + A_ji_8 * t428);
-    jac_phi_q_t_lambda_A_j[31] = -(cosine_0 * (t408 - lambda[5] * (C_j[4] * t378 + C_j[3] * t390 + C_j[5] * t383)) +
-        sine_0 * (lambda[5] * (C_j[4] * t385 + C_j[3] * t388 + C_j[5] * t381) - t401));
-    jac_phi_q_t_lambda_A_j[32] = t409 - t402;
+    const jg_real t428 = t426 + t405 * v_0_in_j_0 - t427 + t425;
     const jg_real t429 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
     const jg_real t430 = t429 * h_star_in_i_1;
     const jg_real t431 = t429 * g_star_in_i_1;
@@ -2330,19 +2319,26 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t443 = lambda[4] * t441;
     const jg_real t444 = lambda[4] * (C_j[1] * t286 - C_j[0] * t274 - C_j[2] * t431);
     const jg_real t445 = lambda[1] * t429;
+    jac_phi_q_t_lambda_A_j[29] = t418;
+    jac_phi_q_t_lambda_A_j[30] = t425;
+    jac_phi_q_t_lambda_A_j[22] = -(A_i[2] * v_6_in_j_0 + A_ji_0 * t413 + A_ji_1 * t421 + A_ji_2 * t428);
+    jac_phi_q_t_lambda_A_j[23] = -(t380 * v_6_in_j_2 + A_ji_5 * t428 + (t377 * v_6_in_j_1 + A_ji_4 * t421 + A_ji_3 *
+        t413));
+    jac_phi_q_t_lambda_A_j[24] = -(A_i[8] * v_6_in_j_0 + A_ji_6 * t413 + A_ji_7 * t421 + A_ji_8 * t428);
+    jac_phi_q_t_lambda_A_j[31] = -(cosine_0 * (t408 - lambda[5] * (C_j[4] * t378 + C_j[3] * t390 + C_j[5] * t383)) +
+        sine_0 * (lambda[5] * (C_j[4] * t385 + C_j[3] * t388 + C_j[5] * t381) - t401));
+    jac_phi_q_t_lambda_A_j[32] = t409 - t402;
     jac_phi_q_t_lambda_A_j[70] = t445;
     const jg_real t446 = lambda[3] * t439;
     const jg_real t447 = lambda[3] * (C_j[7] * t284 - C_j[6] * t281 - C_j[8] * t430);
     const jg_real t448 = h_star_in_j_0 * t446 - t313 - (t432 * t81 + f_star_in_j_0 * t447) + (C_j[0] * t440 - C_j[6]
         * t442 + (f_star_in_j_0 * t444 + t432 * v_2_in_star - (g_star_in_j_0 * t443 - t310) - (t312 + s_j[1] *
         t445)));
-    jac_phi_q_t_lambda_A_j[39] = t448;
     const jg_real t449 = t315 - v_0_in_j_1 * t445 - t316 + t448;
     const jg_real t450 = s_j[0] * t445;
     const jg_real t451 = t303 + h_star_in_j_1 * t446 - (t435 * t81 + f_star_in_j_1 * t447) + (C_j[1] * t440 - C_j[7]
         * t442 + (t450 - t302 + (f_star_in_j_1 * t444 + t435 * v_2_in_star - (t296 + g_star_in_j_1 * t443))));
-    jac_phi_q_t_lambda_A_j[40] = t451;
-    const jg_real t452 = v_0_in_j_0 * t445;
+    const jg_real t452 = t445 * v_0_in_j_0;
     const jg_real t453 = t452 - t308 + t451;
     const jg_real t454 = t431 * t70;
     const jg_real t455 = s_j[0] * t311;
@@ -2350,19 +2346,18 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t457 = h_star_in_j_2 * t446 - t456 - (t438 * t81 + f_star_in_j_2 * t447) + (C_j[2] * t440 - C_j[8]
         * t442 + (t455 + s_j[1] * t301 + (f_star_in_j_2 * t444 + t438 * v_2_in_star - (g_star_in_j_2 * t443 -
         t454))));
-    jac_phi_q_t_lambda_A_j[41] = t457;
     const jg_real t458 = v_0_world_0 * lambda_0_1_2_in_j_0;
     const jg_real t459 = v_0_in_j_0 * t311;
     const jg_real t460 = t459 - (t458 - v_0_in_j_1 * t301) + t457;
+    jac_phi_q_t_lambda_A_j[39] = t448;
+    jac_phi_q_t_lambda_A_j[40] = t451;
+    jac_phi_q_t_lambda_A_j[41] = t457;
     jac_phi_q_t_lambda_A_j[33] = -(A_i[0] * v_6_in_j_1 + A_ji_1 * t453 + A_ji_0 * t449 + A_ji_2 * t460);
     jac_phi_q_t_lambda_A_j[34] = -(A_ji_5 * t460 - t429 * v_6_in_j_2 + (A_ji_3 * t449 - t273 * v_6_in_j_0 + A_ji_4 *
         t453));
     jac_phi_q_t_lambda_A_j[35] = -(A_i[6] * v_6_in_j_1 + A_ji_7 * t453 + A_ji_6 * t449 + A_ji_8 * t460);
     jac_phi_q_t_lambda_A_j[36] = -t301;
     jac_phi_q_t_lambda_A_j[38] = -t445;
-    jac_phi_q_t_lambda_A_j[42] = -(cosine_0 * (t446 - lambda[5] * (C_j[4] * t286 - C_j[3] * t274 - C_j[5] * t431)) +
-        sine_0 * (lambda[5] * (C_j[4] * t284 - C_j[3] * t281 - C_j[5] * t430) - t443));
-    jac_phi_q_t_lambda_A_j[43] = t447 - t444;
     const jg_real t461 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
     const jg_real t462 = t461 * h_star_in_i_1;
     const jg_real t463 = t461 * g_star_in_i_1;
@@ -2380,19 +2375,16 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t475 = lambda[4] * t473;
     const jg_real t476 = lambda[4] * (C_j[1] * t338 - C_j[0] * t326 - C_j[2] * t463);
     const jg_real t477 = lambda[1] * t461;
-    jac_phi_q_t_lambda_A_j[81] = t477;
     const jg_real t478 = lambda[3] * t471;
     const jg_real t479 = lambda[3] * (C_j[7] * t336 - C_j[6] * t333 - C_j[8] * t462);
     const jg_real t480 = h_star_in_j_0 * t478 - t365 - (t464 * t81 + f_star_in_j_0 * t479) + (C_j[0] * t472 - C_j[6]
         * t474 + (f_star_in_j_0 * t476 + t464 * v_2_in_star - (g_star_in_j_0 * t475 - t362) - (t364 + s_j[1] *
         t477)));
-    jac_phi_q_t_lambda_A_j[50] = t480;
     const jg_real t481 = t367 - v_0_in_j_1 * t477 - t368 + t480;
     const jg_real t482 = s_j[0] * t477;
     const jg_real t483 = t355 + h_star_in_j_1 * t478 - (t467 * t81 + f_star_in_j_1 * t479) + (C_j[1] * t472 - C_j[7]
         * t474 + (t482 - t354 + (f_star_in_j_1 * t476 + t467 * v_2_in_star - (t348 + g_star_in_j_1 * t475))));
-    jac_phi_q_t_lambda_A_j[51] = t483;
-    const jg_real t484 = v_0_in_j_0 * t477;
+    const jg_real t484 = t477 * v_0_in_j_0;
     const jg_real t485 = t484 - t360 + t483;
     const jg_real t486 = t463 * t70;
     const jg_real t487 = s_j[0] * t363;
@@ -2400,19 +2392,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t489 = h_star_in_j_2 * t478 - t488 - (t470 * t81 + f_star_in_j_2 * t479) + (C_j[2] * t472 - C_j[8]
         * t474 + (t487 + s_j[1] * t353 + (f_star_in_j_2 * t476 + t470 * v_2_in_star - (g_star_in_j_2 * t475 -
         t486))));
-    jac_phi_q_t_lambda_A_j[52] = t489;
     const jg_real t490 = v_0_world_1 * lambda_0_1_2_in_j_0;
     const jg_real t491 = v_0_in_j_0 * t363;
     const jg_real t492 = t491 - (t490 - v_0_in_j_1 * t353) + t489;
+    jac_phi_q_t_lambda_A_j[42] = -(cosine_0 * (t446 - lambda[5] * (C_j[4] * t286 - C_j[3] * t274 - C_j[5] * t431)) +
+        sine_0 * (lambda[5] * (C_j[4] * t284 - C_j[3] * t281 - C_j[5] * t430) - t443));
+    jac_phi_q_t_lambda_A_j[43] = t447 - t444;
+    jac_phi_q_t_lambda_A_j[81] = t477;
+    jac_phi_q_t_lambda_A_j[50] = t480;
+    jac_phi_q_t_lambda_A_j[51] = t483;
+    jac_phi_q_t_lambda_A_j[52] = t489;
     jac_phi_q_t_lambda_A_j[44] = -(A_i[1] * v_6_in_j_1 + A_ji_1 * t485 + A_ji_0 * t481 + A_ji_2 * t492);
     jac_phi_q_t_lambda_A_j[45] = -(A_ji_5 * t492 - t461 * v_6_in_j_2 + (A_ji_3 * t481 - t325 * v_6_in_j_0 + A_ji_4 *
         t485));
-    jac_phi_q_t_lambda_A_j[46] = -(A_i[7] * v_6_in_j_1 + A_ji_7 * t485 + A_ji_6 * t481 + A_ji_8 * t492);
-    jac_phi_q_t_lambda_A_j[47] = -t353;
-    jac_phi_q_t_lambda_A_j[49] = -t477;
-    jac_phi_q_t_lambda_A_j[53] = -(cosine_0 * (t478 - lambda[5] * (C_j[4] * t338 - C_j[3] * t326 - C_j[5] * t463)) +
-        sine_0 * (lambda[5] * (C_j[4] * t336 - C_j[3] * t333 - C_j[5] * t462) - t475));
-    jac_phi_q_t_lambda_A_j[54] = t479 - t476;
     const jg_real t493 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
     const jg_real t494 = t493 * h_star_in_i_1;
     const jg_real t495 = t493 * g_star_in_i_1;
@@ -2430,19 +2422,25 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t507 = lambda[4] * t505;
     const jg_real t508 = lambda[4] * (C_j[1] * t390 - C_j[0] * t378 - C_j[2] * t495);
     const jg_real t509 = lambda[1] * t493;
-    jac_phi_q_t_lambda_A_j[92] = t509;
     const jg_real t510 = lambda[3] * t503;
     const jg_real t511 = lambda[3] * (C_j[7] * t388 - C_j[6] * t385 - C_j[8] * t494);
     const jg_real t512 = h_star_in_j_0 * t510 - t417 - (t496 * t81 + f_star_in_j_0 * t511) + (C_j[0] * t504 - C_j[6]
         * t506 + (f_star_in_j_0 * t508 + t496 * v_2_in_star - (g_star_in_j_0 * t507 - t414) - (t416 + s_j[1] *
         t509)));
-    jac_phi_q_t_lambda_A_j[61] = t512;
     const jg_real t513 = t419 - v_0_in_j_1 * t509 - t420 + t512;
     const jg_real t514 = s_j[0] * t509;
     const jg_real t515 = t407 + h_star_in_j_1 * t510 - (t499 * t81 + f_star_in_j_1 * t511) + (C_j[1] * t504 - C_j[7]
         * t506 + (t514 - t406 + (f_star_in_j_1 * t508 + t499 * v_2_in_star - (t400 + g_star_in_j_1 * t507))));
+    jac_phi_q_t_lambda_A_j[46] = -(A_i[7] * v_6_in_j_1 + A_ji_7 * t485 + A_ji_6 * t481 + A_ji_8 * t492);
+    jac_phi_q_t_lambda_A_j[47] = -t353;
+    jac_phi_q_t_lambda_A_j[49] = -t477;
+    jac_phi_q_t_lambda_A_j[53] = -(cosine_0 * (t478 - lambda[5] * (C_j[4] * t338 - C_j[3] * t326 - C_j[5] * t463)) +
+        sine_0 * (lambda[5] * (C_j[4] * t336 - C_j[3] * t333 - C_j[5] * t462) - t475));
+    jac_phi_q_t_lambda_A_j[54] = t479 - t476;
+    jac_phi_q_t_lambda_A_j[92] = t509;
+    jac_phi_q_t_lambda_A_j[61] = t512;
     jac_phi_q_t_lambda_A_j[62] = t515;
-    const jg_real t516 = v_0_in_j_0 * t509;
+    const jg_real t516 = t509 * v_0_in_j_0;
     const jg_real t517 = t516 - t412 + t515;
     const jg_real t518 = t495 * t70;
     const jg_real t519 = s_j[0] * t415;
@@ -2450,10 +2448,10 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t521 = h_star_in_j_2 * t510 - t520 - (t502 * t81 + f_star_in_j_2 * t511) + (C_j[2] * t504 - C_j[8]
         * t506 + (t519 + s_j[1] * t405 + (f_star_in_j_2 * t508 + t502 * v_2_in_star - (g_star_in_j_2 * t507 -
         t518))));
-    jac_phi_q_t_lambda_A_j[63] = t521;
     const jg_real t522 = v_0_world_2 * lambda_0_1_2_in_j_0;
     const jg_real t523 = v_0_in_j_0 * t415;
     const jg_real t524 = t523 - (t522 - v_0_in_j_1 * t405) + t521;
+    jac_phi_q_t_lambda_A_j[63] = t521;
     jac_phi_q_t_lambda_A_j[55] = -(A_i[2] * v_6_in_j_1 + A_ji_1 * t517 + A_ji_0 * t513 + A_ji_2 * t524);
     jac_phi_q_t_lambda_A_j[56] = -(A_ji_5 * t524 - t493 * v_6_in_j_2 + (A_ji_3 * t513 - t377 * v_6_in_j_0 + A_ji_4 *
         t517));
@@ -2477,17 +2475,17 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t536 = h_star_in_j_0 * t534 - t320 - (t525 * t81 + f_star_in_j_0 * t535) + (C_j[0] * t529 - C_j[6]
         * t531 + (t319 - s_j[2] * t445 + (f_star_in_j_0 * t533 + t525 * v_2_in_star - (g_star_in_j_0 * t532 -
         t318))));
-    jac_phi_q_t_lambda_A_j[72] = t536;
     const jg_real t537 = t323 - (v_0_in_j_2 * t445 + t322) + t536;
     const jg_real t538 = t456 + h_star_in_j_1 * t534 - (t526 * t81 + f_star_in_j_1 * t535) + (C_j[1] * t529 - C_j[7]
         * t531 + (f_star_in_j_1 * t533 + t526 * v_2_in_star - (t454 + g_star_in_j_1 * t532) - (t455 + s_j[2] *
         t299)));
-    jac_phi_q_t_lambda_A_j[73] = t538;
     const jg_real t539 = t458 - v_0_in_j_2 * t299 - t459 + t538;
     const jg_real t540 = t303 + h_star_in_j_2 * t534 - (t527 * t81 + f_star_in_j_2 * t535) + (C_j[2] * t529 - C_j[8]
         * t531 + (t450 + t300 + (f_star_in_j_2 * t533 + t527 * v_2_in_star - (t296 + g_star_in_j_2 * t532))));
-    jac_phi_q_t_lambda_A_j[74] = t540;
     const jg_real t541 = t452 + t307 + t540;
+    jac_phi_q_t_lambda_A_j[72] = t536;
+    jac_phi_q_t_lambda_A_j[73] = t538;
+    jac_phi_q_t_lambda_A_j[74] = t540;
     jac_phi_q_t_lambda_A_j[66] = -(A_i[0] * v_6_in_j_2 + A_ji_2 * t541 + (A_ji_0 * t537 + A_ji_1 * t539));
     jac_phi_q_t_lambda_A_j[67] = -(A_ji_3 * t537 - t276 * v_6_in_j_0 + (t429 * v_6_in_j_1 + A_ji_4 * t539) + A_ji_5
         * t541);
@@ -2495,7 +2493,6 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_A_j[69] = -t299;
     jac_phi_q_t_lambda_A_j[75] = -(cosine_0 * (t534 - lambda[5] * (C_j[4] * t431 - C_j[3] * t279 + C_j[5] * t286)) +
         sine_0 * (lambda[5] * (C_j[4] * t430 - C_j[3] * t277 + C_j[5] * t284) - t532));
-    jac_phi_q_t_lambda_A_j[76] = t535 - t533;
     const jg_real t542 = t463 * h_star_in_j_2 + t342 - (t341 + t462 * g_star_in_j_2);
     const jg_real t543 = t469 - t329 * g_star_in_j_2 - (t468 - t331 * h_star_in_j_2);
     const jg_real t544 = t465 - t332 - (t466 - t330);
@@ -2510,25 +2507,23 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t553 = h_star_in_j_0 * t551 - t372 - (t542 * t81 + f_star_in_j_0 * t552) + (C_j[0] * t546 - C_j[6]
         * t548 + (t371 - s_j[2] * t477 + (f_star_in_j_0 * t550 + t542 * v_2_in_star - (g_star_in_j_0 * t549 -
         t370))));
-    jac_phi_q_t_lambda_A_j[83] = t553;
     const jg_real t554 = t375 - (v_0_in_j_2 * t477 + t374) + t553;
     const jg_real t555 = t488 + h_star_in_j_1 * t551 - (t543 * t81 + f_star_in_j_1 * t552) + (C_j[1] * t546 - C_j[7]
         * t548 + (f_star_in_j_1 * t550 + t543 * v_2_in_star - (t486 + g_star_in_j_1 * t549) - (t487 + s_j[2] *
         t351)));
-    jac_phi_q_t_lambda_A_j[84] = t555;
     const jg_real t556 = t490 - v_0_in_j_2 * t351 - t491 + t555;
     const jg_real t557 = t355 + h_star_in_j_2 * t551 - (t544 * t81 + f_star_in_j_2 * t552) + (C_j[2] * t546 - C_j[8]
         * t548 + (t482 + t352 + (f_star_in_j_2 * t550 + t544 * v_2_in_star - (t348 + g_star_in_j_2 * t549))));
-    jac_phi_q_t_lambda_A_j[85] = t557;
     const jg_real t558 = t484 + t359 + t557;
+    jac_phi_q_t_lambda_A_j[76] = t535 - t533;
+    jac_phi_q_t_lambda_A_j[83] = t553;
+    jac_phi_q_t_lambda_A_j[84] = t555;
+    jac_phi_q_t_lambda_A_j[85] = t557;
     jac_phi_q_t_lambda_A_j[77] = -(A_i[1] * v_6_in_j_2 + A_ji_2 * t558 + (A_ji_0 * t554 + A_ji_1 * t556));
     jac_phi_q_t_lambda_A_j[78] = -(A_ji_3 * t554 - t328 * v_6_in_j_0 + (t461 * v_6_in_j_1 + A_ji_4 * t556) + A_ji_5
         * t558);
     jac_phi_q_t_lambda_A_j[79] = -(A_i[7] * v_6_in_j_2 + A_ji_8 * t558 + (A_ji_6 * t554 + A_ji_7 * t556));
     jac_phi_q_t_lambda_A_j[80] = -t351;
-    jac_phi_q_t_lambda_A_j[86] = -(cosine_0 * (t551 - lambda[5] * (C_j[4] * t463 - C_j[3] * t331 + C_j[5] * t338)) +
-        sine_0 * (lambda[5] * (C_j[4] * t462 - C_j[3] * t329 + C_j[5] * t336) - t549));
-    jac_phi_q_t_lambda_A_j[87] = t552 - t550;
     const jg_real t559 = t495 * h_star_in_j_2 + t394 - (t393 + t494 * g_star_in_j_2);
     const jg_real t560 = t501 - t381 * g_star_in_j_2 - (t500 - t383 * h_star_in_j_2);
     const jg_real t561 = t497 - t384 - (t498 - t382);
@@ -2543,25 +2538,24 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t570 = h_star_in_j_0 * t568 - t424 - (t559 * t81 + f_star_in_j_0 * t569) + (C_j[0] * t563 - C_j[6]
         * t565 + (t423 - s_j[2] * t509 + (f_star_in_j_0 * t567 + t559 * v_2_in_star - (g_star_in_j_0 * t566 -
         t422))));
-    jac_phi_q_t_lambda_A_j[94] = t570;
     const jg_real t571 = t427 - (v_0_in_j_2 * t509 + t426) + t570;
     const jg_real t572 = t520 + h_star_in_j_1 * t568 - (t560 * t81 + f_star_in_j_1 * t569) + (C_j[1] * t563 - C_j[7]
         * t565 + (f_star_in_j_1 * t567 + t560 * v_2_in_star - (t518 + g_star_in_j_1 * t566) - (t519 + s_j[2] *
         t403)));
-    jac_phi_q_t_lambda_A_j[95] = t572;
     const jg_real t573 = t522 - v_0_in_j_2 * t403 - t523 + t572;
     const jg_real t574 = t407 + h_star_in_j_2 * t568 - (t561 * t81 + f_star_in_j_2 * t569) + (C_j[2] * t563 - C_j[8]
         * t565 + (t514 + t404 + (f_star_in_j_2 * t567 + t561 * v_2_in_star - (t400 + g_star_in_j_2 * t566))));
-    jac_phi_q_t_lambda_A_j[96] = t574;
     const jg_real t575 = t516 + t411 + t574;
+    jac_phi_q_t_lambda_A_j[86] = -(cosine_0 * (t551 - lambda[5] * (C_j[4] * t463 - C_j[3] * t331 + C_j[5] * t338)) +
+        sine_0 * (lambda[5] * (C_j[4] * t462 - C_j[3] * t329 + C_j[5] * t336) - t549));
+    jac_phi_q_t_lambda_A_j[87] = t552 - t550;
+    jac_phi_q_t_lambda_A_j[94] = t570;
+    jac_phi_q_t_lambda_A_j[95] = t572;
+    jac_phi_q_t_lambda_A_j[96] = t574;
     jac_phi_q_t_lambda_A_j[88] = -(A_i[2] * v_6_in_j_2 + A_ji_2 * t575 + (A_ji_0 * t571 + A_ji_1 * t573));
     jac_phi_q_t_lambda_A_j[89] = -(A_ji_3 * t571 - t380 * v_6_in_j_0 + (t493 * v_6_in_j_1 + A_ji_4 * t573) + A_ji_5
         * t575);
     jac_phi_q_t_lambda_A_j[90] = -(A_i[8] * v_6_in_j_2 + A_ji_8 * t575 + (A_ji_6 * t571 + A_ji_7 * t573));
-    jac_phi_q_t_lambda_A_j[91] = -t403;
-    jac_phi_q_t_lambda_A_j[97] = -(cosine_0 * (t568 - lambda[5] * (C_j[4] * t495 - C_j[3] * t383 + C_j[5] * t390)) +
-        sine_0 * (lambda[5] * (C_j[4] * t494 - C_j[3] * t381 + C_j[5] * t388) - t566));
-    jac_phi_q_t_lambda_A_j[98] = t569 - t567;
     const jg_real t576 = C_i[1] * t35 + C_i[4] * H_02;
     const jg_real t577 = C_i[0] * t35 + C_i[3] * H_02;
     const jg_real t578 = C_i[2] * t35 + C_i[5] * H_02;
@@ -2590,42 +2584,42 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t598 = lambda[3] * (C_j[7] * t584 + C_j[6] * t587 + C_j[8] * t579);
     const jg_real t599 = t587 * v_4_in_star_2 + h_star_in_j_0 * t597 - (t586 * t81 + f_star_in_j_0 * t598) + (C_j[0]
         * t592 - C_j[6] * t594 + (t586 * v_2_in_star - f_star_in_j_0 * t596 - (g_star_in_j_0 * t595 - t588 * t70)));
-    jac_phi_q_t_lambda_alpha[3] = t599;
     const jg_real t600 = t584 * v_4_in_star_2 + h_star_in_j_1 * t597 - (t589 * t81 + f_star_in_j_1 * t598) + (C_j[1]
         * t592 - C_j[7] * t594 + (t589 * v_2_in_star - f_star_in_j_1 * t596 - (g_star_in_j_1 * t595 - t583 * t70)));
-    jac_phi_q_t_lambda_alpha[4] = t600;
     const jg_real t601 = t579 * v_4_in_star_2 + h_star_in_j_2 * t597 - (t590 * t81 + f_star_in_j_2 * t598) + (C_j[2]
         * t592 - C_j[8] * t594 + (t590 * v_2_in_star - f_star_in_j_2 * t596 - (g_star_in_j_2 * t595 - t585 * t70)));
+    jac_phi_q_t_lambda_A_j[91] = -t403;
+    jac_phi_q_t_lambda_A_j[97] = -(cosine_0 * (t568 - lambda[5] * (C_j[4] * t495 - C_j[3] * t383 + C_j[5] * t390)) +
+        sine_0 * (lambda[5] * (C_j[4] * t494 - C_j[3] * t381 + C_j[5] * t388) - t566));
+    jac_phi_q_t_lambda_A_j[98] = t569 - t567;
+    jac_phi_q_t_lambda_alpha[3] = t599;
+    jac_phi_q_t_lambda_alpha[4] = t600;
     jac_phi_q_t_lambda_alpha[5] = t601;
     jac_phi_q_t_lambda_alpha[0] = -(A_ji_0 * t599 + A_ji_1 * t600 + A_ji_2 * t601);
     jac_phi_q_t_lambda_alpha[1] = -(A_ji_3 * t599 + A_ji_4 * t600 + A_ji_5 * t601);
-    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t599 + A_ji_7 * t600 + A_ji_8 * t601);
-    jac_phi_q_t_lambda_alpha[6] = -(cosine_0 * (lambda[5] * (C_j[4] * t583 + C_j[3] * t588 + C_j[5] * t585) + t597)
-        + sine_0 * (lambda[5] * (C_j[4] * t584 + C_j[3] * t587 + C_j[5] * t579) - t595));
-    jac_phi_q_t_lambda_alpha[7] = t598 + t596;
     const jg_real t602 = lambda[3] * (C_j[7] * g_star_in_j_1 + C_j[6] * g_star_in_j_0 + C_j[8] * g_star_in_j_2);
     const jg_real t603 = lambda[4] * (C_j[1] * h_star_in_j_1 + C_j[0] * h_star_in_j_0 + C_j[2] * h_star_in_j_2);
     const jg_real t604 = f_star_in_j_0 * t602 - g_star_in_j_0 * v_4_in_star_2 + (f_star_in_j_0 * t603 -
         h_star_in_j_0 * t70);
-    jac_phi_q_t_lambda_alpha[11] = t604;
     const jg_real t605 = f_star_in_j_1 * t603 - h_star_in_j_1 * t70 + (f_star_in_j_1 * t602 - g_star_in_j_1 *
         v_4_in_star_2);
-    jac_phi_q_t_lambda_alpha[12] = t605;
     const jg_real t606 = f_star_in_j_2 * t603 - h_star_in_j_2 * t70 + (f_star_in_j_2 * t602 - g_star_in_j_2 *
         v_4_in_star_2);
+    jac_phi_q_t_lambda_alpha[2] = -(A_ji_6 * t599 + A_ji_7 * t600 + A_ji_8 * t601);
+    jac_phi_q_t_lambda_alpha[6] = -(cosine_0 * (lambda[5] * (C_j[4] * t583 + C_j[3] * t588 + C_j[5] * t585) + t597)
+        + sine_0 * (lambda[5] * (C_j[4] * t584 + C_j[3] * t587 + C_j[5] * t579) - t595));
+    jac_phi_q_t_lambda_alpha[7] = t598 + t596;
+    jac_phi_q_t_lambda_alpha[11] = t604;
+    jac_phi_q_t_lambda_alpha[12] = t605;
     jac_phi_q_t_lambda_alpha[13] = t606;
     jac_phi_q_t_lambda_alpha[8] = -(A_ji_0 * t604 + A_ji_1 * t605 + A_ji_2 * t606);
     jac_phi_q_t_lambda_alpha[9] = -(A_ji_3 * t604 + A_ji_4 * t605 + A_ji_5 * t606);
-    jac_phi_q_t_lambda_alpha[10] = -(A_ji_6 * t604 + A_ji_7 * t605 + A_ji_8 * t606);
     /* g_j_dot_g_star = g_j . g_star */
     const jg_real g_j_dot_g_star = C_j[4] * g_star_in_j_1 + C_j[3] * g_star_in_j_0 + C_j[5] * g_star_in_j_2;
     const jg_real t608 = lambda[5] * g_j_dot_g_star;
     /* g_j_dot_h_star = g_j . h_star */
     const jg_real g_j_dot_h_star = C_j[4] * h_star_in_j_1 + C_j[3] * h_star_in_j_0 + C_j[5] * h_star_in_j_2;
     const jg_real t610 = lambda[5] * g_j_dot_h_star;
-    jac_phi_q_t_lambda_alpha[14] = sine_0 * (v_4_in_star_2 - t608) + cosine_0 * t610 - (cosine_0 * (t610 - t70) -
-        sine_0 * t608);
-    jac_phi_q_t_lambda_alpha[15] = -(t602 + t603);
     const jg_real t611 = A_ji_2 * H_02;
     const jg_real t612 = A_ji_1 * t42;
     const jg_real t613 = A_ji_1 * H_02;
@@ -2648,19 +2642,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t627 = lambda[3] * (C_j[7] * t613 + C_j[6] * t616 + C_j[8] * t611);
     const jg_real t628 = t616 * v_4_in_star_2 + h_star_in_j_0 * t626 - (t615 * t81 + f_star_in_j_0 * t627) + (C_j[0]
         * t621 - C_j[6] * t623 + (t615 * v_2_in_star - f_star_in_j_0 * t625 - (g_star_in_j_0 * t624 - t617 * t70)));
-    jac_phi_q_t_lambda_geometry[3] = t628;
     const jg_real t629 = t613 * v_4_in_star_2 + h_star_in_j_1 * t626 - (t618 * t81 + f_star_in_j_1 * t627) + (C_j[1]
         * t621 - C_j[7] * t623 + (t618 * v_2_in_star - f_star_in_j_1 * t625 - (g_star_in_j_1 * t624 - t612 * t70)));
-    jac_phi_q_t_lambda_geometry[4] = t629;
     const jg_real t630 = t611 * v_4_in_star_2 + h_star_in_j_2 * t626 - (t619 * t81 + f_star_in_j_2 * t627) + (C_j[2]
         * t621 - C_j[8] * t623 + (t619 * v_2_in_star - f_star_in_j_2 * t625 - (g_star_in_j_2 * t624 - t614 * t70)));
+    jac_phi_q_t_lambda_alpha[10] = -(A_ji_6 * t604 + A_ji_7 * t605 + A_ji_8 * t606);
+    jac_phi_q_t_lambda_alpha[14] = sine_0 * (v_4_in_star_2 - t608) + cosine_0 * t610 - (cosine_0 * (t610 - t70) -
+        sine_0 * t608);
+    jac_phi_q_t_lambda_alpha[15] = -(t602 + t603);
+    jac_phi_q_t_lambda_geometry[3] = t628;
+    jac_phi_q_t_lambda_geometry[4] = t629;
     jac_phi_q_t_lambda_geometry[5] = t630;
     jac_phi_q_t_lambda_geometry[0] = -(A_ji_0 * t628 + A_ji_1 * t629 + A_ji_2 * t630);
     jac_phi_q_t_lambda_geometry[1] = -(A_ji_3 * t628 + A_ji_4 * t629 + A_ji_5 * t630);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t628 + A_ji_7 * t629 + A_ji_8 * t630);
-    jac_phi_q_t_lambda_geometry[6] = -(cosine_0 * (lambda[5] * (C_j[4] * t612 + C_j[3] * t617 + C_j[5] * t614) +
-        t626) + sine_0 * (lambda[5] * (C_j[4] * t613 + C_j[3] * t616 + C_j[5] * t611) - t624));
-    jac_phi_q_t_lambda_geometry[7] = t627 + t625;
     const jg_real t631 = A_ji_5 * H_02;
     const jg_real t632 = A_ji_4 * t42;
     const jg_real t633 = A_ji_4 * H_02;
@@ -2683,19 +2677,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t647 = lambda[3] * (C_j[7] * t633 + C_j[6] * t636 + C_j[8] * t631);
     const jg_real t648 = t636 * v_4_in_star_2 + h_star_in_j_0 * t646 - (t635 * t81 + f_star_in_j_0 * t647) + (C_j[0]
         * t641 - C_j[6] * t643 + (t635 * v_2_in_star - f_star_in_j_0 * t645 - (g_star_in_j_0 * t644 - t637 * t70)));
-    jac_phi_q_t_lambda_geometry[11] = t648;
     const jg_real t649 = t633 * v_4_in_star_2 + h_star_in_j_1 * t646 - (t638 * t81 + f_star_in_j_1 * t647) + (C_j[1]
         * t641 - C_j[7] * t643 + (t638 * v_2_in_star - f_star_in_j_1 * t645 - (g_star_in_j_1 * t644 - t632 * t70)));
-    jac_phi_q_t_lambda_geometry[12] = t649;
     const jg_real t650 = t631 * v_4_in_star_2 + h_star_in_j_2 * t646 - (t639 * t81 + f_star_in_j_2 * t647) + (C_j[2]
         * t641 - C_j[8] * t643 + (t639 * v_2_in_star - f_star_in_j_2 * t645 - (g_star_in_j_2 * t644 - t634 * t70)));
+    jac_phi_q_t_lambda_geometry[2] = -(A_ji_6 * t628 + A_ji_7 * t629 + A_ji_8 * t630);
+    jac_phi_q_t_lambda_geometry[6] = -(cosine_0 * (lambda[5] * (C_j[4] * t612 + C_j[3] * t617 + C_j[5] * t614) +
+        t626) + sine_0 * (lambda[5] * (C_j[4] * t613 + C_j[3] * t616 + C_j[5] * t611) - t624));
+    jac_phi_q_t_lambda_geometry[7] = t627 + t625;
+    jac_phi_q_t_lambda_geometry[11] = t648;
+    jac_phi_q_t_lambda_geometry[12] = t649;
     jac_phi_q_t_lambda_geometry[13] = t650;
     jac_phi_q_t_lambda_geometry[8] = -(A_ji_0 * t648 + A_ji_1 * t649 + A_ji_2 * t650);
     jac_phi_q_t_lambda_geometry[9] = -(A_ji_3 * t648 + A_ji_4 * t649 + A_ji_5 * t650);
-    jac_phi_q_t_lambda_geometry[10] = -(A_ji_6 * t648 + A_ji_7 * t649 + A_ji_8 * t650);
-    jac_phi_q_t_lambda_geometry[14] = -(cosine_0 * (lambda[5] * (C_j[4] * t632 + C_j[3] * t637 + C_j[5] * t634) +
-        t646) + sine_0 * (lambda[5] * (C_j[4] * t633 + C_j[3] * t636 + C_j[5] * t631) - t644));
-    jac_phi_q_t_lambda_geometry[15] = t647 + t645;
     const jg_real t651 = A_ji_8 * H_02;
     const jg_real t652 = A_ji_7 * t42;
     const jg_real t653 = A_ji_7 * H_02;
@@ -2718,19 +2712,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t667 = lambda[3] * (C_j[7] * t653 + C_j[6] * t656 + C_j[8] * t651);
     const jg_real t668 = t656 * v_4_in_star_2 + h_star_in_j_0 * t666 - (t655 * t81 + f_star_in_j_0 * t667) + (C_j[0]
         * t661 - C_j[6] * t663 + (t655 * v_2_in_star - f_star_in_j_0 * t665 - (g_star_in_j_0 * t664 - t657 * t70)));
-    jac_phi_q_t_lambda_geometry[19] = t668;
     const jg_real t669 = t653 * v_4_in_star_2 + h_star_in_j_1 * t666 - (t658 * t81 + f_star_in_j_1 * t667) + (C_j[1]
         * t661 - C_j[7] * t663 + (t658 * v_2_in_star - f_star_in_j_1 * t665 - (g_star_in_j_1 * t664 - t652 * t70)));
-    jac_phi_q_t_lambda_geometry[20] = t669;
     const jg_real t670 = t651 * v_4_in_star_2 + h_star_in_j_2 * t666 - (t659 * t81 + f_star_in_j_2 * t667) + (C_j[2]
         * t661 - C_j[8] * t663 + (t659 * v_2_in_star - f_star_in_j_2 * t665 - (g_star_in_j_2 * t664 - t654 * t70)));
+    jac_phi_q_t_lambda_geometry[10] = -(A_ji_6 * t648 + A_ji_7 * t649 + A_ji_8 * t650);
+    jac_phi_q_t_lambda_geometry[14] = -(cosine_0 * (lambda[5] * (C_j[4] * t632 + C_j[3] * t637 + C_j[5] * t634) +
+        t646) + sine_0 * (lambda[5] * (C_j[4] * t633 + C_j[3] * t636 + C_j[5] * t631) - t644));
+    jac_phi_q_t_lambda_geometry[15] = t647 + t645;
+    jac_phi_q_t_lambda_geometry[19] = t668;
+    jac_phi_q_t_lambda_geometry[20] = t669;
     jac_phi_q_t_lambda_geometry[21] = t670;
     jac_phi_q_t_lambda_geometry[16] = -(A_ji_0 * t668 + A_ji_1 * t669 + A_ji_2 * t670);
     jac_phi_q_t_lambda_geometry[17] = -(A_ji_3 * t668 + A_ji_4 * t669 + A_ji_5 * t670);
-    jac_phi_q_t_lambda_geometry[18] = -(A_ji_6 * t668 + A_ji_7 * t669 + A_ji_8 * t670);
-    jac_phi_q_t_lambda_geometry[22] = -(cosine_0 * (lambda[5] * (C_j[4] * t652 + C_j[3] * t657 + C_j[5] * t654) +
-        t666) + sine_0 * (lambda[5] * (C_j[4] * t653 + C_j[3] * t656 + C_j[5] * t651) - t664));
-    jac_phi_q_t_lambda_geometry[23] = t667 + t665;
     const jg_real t671 = A_ji_1 * H_11;
     const jg_real t672 = A_ji_2 * t35;
     const jg_real t673 = A_ji_2 * H_11;
@@ -2753,19 +2747,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t687 = lambda[3] * (C_j[7] * t674 + C_j[6] * t676 + C_j[8] * t672);
     const jg_real t688 = h_star_in_j_0 * t686 - t676 * v_4_in_star_2 - (t675 * t81 - f_star_in_j_0 * t687) + (C_j[0]
         * t681 - C_j[6] * t683 + (f_star_in_j_0 * t685 + t675 * v_2_in_star - (t677 * t70 + g_star_in_j_0 * t684)));
-    jac_phi_q_t_lambda_geometry[27] = t688;
     const jg_real t689 = h_star_in_j_1 * t686 - t674 * v_4_in_star_2 - (t678 * t81 - f_star_in_j_1 * t687) + (C_j[1]
         * t681 - C_j[7] * t683 + (f_star_in_j_1 * t685 + t678 * v_2_in_star - (t671 * t70 + g_star_in_j_1 * t684)));
-    jac_phi_q_t_lambda_geometry[28] = t689;
     const jg_real t690 = h_star_in_j_2 * t686 - t672 * v_4_in_star_2 - (t679 * t81 - f_star_in_j_2 * t687) + (C_j[2]
         * t681 - C_j[8] * t683 + (f_star_in_j_2 * t685 + t679 * v_2_in_star - (t673 * t70 + g_star_in_j_2 * t684)));
+    jac_phi_q_t_lambda_geometry[18] = -(A_ji_6 * t668 + A_ji_7 * t669 + A_ji_8 * t670);
+    jac_phi_q_t_lambda_geometry[22] = -(cosine_0 * (lambda[5] * (C_j[4] * t652 + C_j[3] * t657 + C_j[5] * t654) +
+        t666) + sine_0 * (lambda[5] * (C_j[4] * t653 + C_j[3] * t656 + C_j[5] * t651) - t664));
+    jac_phi_q_t_lambda_geometry[23] = t667 + t665;
+    jac_phi_q_t_lambda_geometry[27] = t688;
+    jac_phi_q_t_lambda_geometry[28] = t689;
     jac_phi_q_t_lambda_geometry[29] = t690;
     jac_phi_q_t_lambda_geometry[24] = -(A_ji_0 * t688 + A_ji_1 * t689 + A_ji_2 * t690);
     jac_phi_q_t_lambda_geometry[25] = -(A_ji_3 * t688 + A_ji_4 * t689 + A_ji_5 * t690);
-    jac_phi_q_t_lambda_geometry[26] = -(A_ji_6 * t688 + A_ji_7 * t689 + A_ji_8 * t690);
-    jac_phi_q_t_lambda_geometry[30] = sine_0 * (lambda[5] * (C_j[4] * t674 + C_j[3] * t676 + C_j[5] * t672) + t684)
-        - cosine_0 * (t686 - lambda[5] * (C_j[4] * t671 + C_j[3] * t677 + C_j[5] * t673));
-    jac_phi_q_t_lambda_geometry[31] = -(t687 + t685);
     const jg_real t691 = A_ji_4 * H_11;
     const jg_real t692 = A_ji_5 * t35;
     const jg_real t693 = A_ji_5 * H_11;
@@ -2788,19 +2782,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t707 = lambda[3] * (C_j[7] * t694 + C_j[6] * t696 + C_j[8] * t692);
     const jg_real t708 = h_star_in_j_0 * t706 - t696 * v_4_in_star_2 - (t695 * t81 - f_star_in_j_0 * t707) + (C_j[0]
         * t701 - C_j[6] * t703 + (f_star_in_j_0 * t705 + t695 * v_2_in_star - (t697 * t70 + g_star_in_j_0 * t704)));
-    jac_phi_q_t_lambda_geometry[35] = t708;
     const jg_real t709 = h_star_in_j_1 * t706 - t694 * v_4_in_star_2 - (t698 * t81 - f_star_in_j_1 * t707) + (C_j[1]
         * t701 - C_j[7] * t703 + (f_star_in_j_1 * t705 + t698 * v_2_in_star - (t691 * t70 + g_star_in_j_1 * t704)));
-    jac_phi_q_t_lambda_geometry[36] = t709;
     const jg_real t710 = h_star_in_j_2 * t706 - t692 * v_4_in_star_2 - (t699 * t81 - f_star_in_j_2 * t707) + (C_j[2]
         * t701 - C_j[8] * t703 + (f_star_in_j_2 * t705 + t699 * v_2_in_star - (t693 * t70 + g_star_in_j_2 * t704)));
+    jac_phi_q_t_lambda_geometry[26] = -(A_ji_6 * t688 + A_ji_7 * t689 + A_ji_8 * t690);
+    jac_phi_q_t_lambda_geometry[30] = sine_0 * (lambda[5] * (C_j[4] * t674 + C_j[3] * t676 + C_j[5] * t672) + t684)
+        - cosine_0 * (t686 - lambda[5] * (C_j[4] * t671 + C_j[3] * t677 + C_j[5] * t673));
+    jac_phi_q_t_lambda_geometry[31] = -(t687 + t685);
+    jac_phi_q_t_lambda_geometry[35] = t708;
+    jac_phi_q_t_lambda_geometry[36] = t709;
     jac_phi_q_t_lambda_geometry[37] = t710;
     jac_phi_q_t_lambda_geometry[32] = -(A_ji_0 * t708 + A_ji_1 * t709 + A_ji_2 * t710);
     jac_phi_q_t_lambda_geometry[33] = -(A_ji_3 * t708 + A_ji_4 * t709 + A_ji_5 * t710);
-    jac_phi_q_t_lambda_geometry[34] = -(A_ji_6 * t708 + A_ji_7 * t709 + A_ji_8 * t710);
-    jac_phi_q_t_lambda_geometry[38] = sine_0 * (lambda[5] * (C_j[4] * t694 + C_j[3] * t696 + C_j[5] * t692) + t704)
-        - cosine_0 * (t706 - lambda[5] * (C_j[4] * t691 + C_j[3] * t697 + C_j[5] * t693));
-    jac_phi_q_t_lambda_geometry[39] = -(t707 + t705);
     const jg_real t711 = A_ji_7 * H_11;
     const jg_real t712 = A_ji_8 * t35;
     const jg_real t713 = A_ji_8 * H_11;
@@ -2823,19 +2817,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t727 = lambda[3] * (C_j[7] * t714 + C_j[6] * t716 + C_j[8] * t712);
     const jg_real t728 = h_star_in_j_0 * t726 - t716 * v_4_in_star_2 - (t715 * t81 - f_star_in_j_0 * t727) + (C_j[0]
         * t721 - C_j[6] * t723 + (f_star_in_j_0 * t725 + t715 * v_2_in_star - (t717 * t70 + g_star_in_j_0 * t724)));
-    jac_phi_q_t_lambda_geometry[43] = t728;
     const jg_real t729 = h_star_in_j_1 * t726 - t714 * v_4_in_star_2 - (t718 * t81 - f_star_in_j_1 * t727) + (C_j[1]
         * t721 - C_j[7] * t723 + (f_star_in_j_1 * t725 + t718 * v_2_in_star - (t711 * t70 + g_star_in_j_1 * t724)));
-    jac_phi_q_t_lambda_geometry[44] = t729;
     const jg_real t730 = h_star_in_j_2 * t726 - t712 * v_4_in_star_2 - (t719 * t81 - f_star_in_j_2 * t727) + (C_j[2]
         * t721 - C_j[8] * t723 + (f_star_in_j_2 * t725 + t719 * v_2_in_star - (t713 * t70 + g_star_in_j_2 * t724)));
+    jac_phi_q_t_lambda_geometry[34] = -(A_ji_6 * t708 + A_ji_7 * t709 + A_ji_8 * t710);
+    jac_phi_q_t_lambda_geometry[38] = sine_0 * (lambda[5] * (C_j[4] * t694 + C_j[3] * t696 + C_j[5] * t692) + t704)
+        - cosine_0 * (t706 - lambda[5] * (C_j[4] * t691 + C_j[3] * t697 + C_j[5] * t693));
+    jac_phi_q_t_lambda_geometry[39] = -(t707 + t705);
+    jac_phi_q_t_lambda_geometry[43] = t728;
+    jac_phi_q_t_lambda_geometry[44] = t729;
     jac_phi_q_t_lambda_geometry[45] = t730;
     jac_phi_q_t_lambda_geometry[40] = -(A_ji_0 * t728 + A_ji_1 * t729 + A_ji_2 * t730);
     jac_phi_q_t_lambda_geometry[41] = -(A_ji_3 * t728 + A_ji_4 * t729 + A_ji_5 * t730);
-    jac_phi_q_t_lambda_geometry[42] = -(A_ji_6 * t728 + A_ji_7 * t729 + A_ji_8 * t730);
-    jac_phi_q_t_lambda_geometry[46] = sine_0 * (lambda[5] * (C_j[4] * t714 + C_j[3] * t716 + C_j[5] * t712) + t724)
-        - cosine_0 * (t726 - lambda[5] * (C_j[4] * t711 + C_j[3] * t717 + C_j[5] * t713));
-    jac_phi_q_t_lambda_geometry[47] = -(t727 + t725);
     const jg_real t731 = A_ji_1 * sine_0;
     const jg_real t732 = A_ji_2 * cosine_0;
     const jg_real t733 = A_ji_2 * sine_0;
@@ -2858,19 +2852,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t747 = lambda[3] * (C_j[7] * t734 + C_j[6] * t736 + C_j[8] * t732);
     const jg_real t748 = t736 * v_4_in_star_2 + h_star_in_j_0 * t746 - (t735 * t81 + f_star_in_j_0 * t747) + (C_j[0]
         * t741 - C_j[6] * t743 + (f_star_in_j_0 * t745 + t735 * v_2_in_star - (t737 * t70 + g_star_in_j_0 * t744)));
-    jac_phi_q_t_lambda_geometry[51] = t748;
     const jg_real t749 = t734 * v_4_in_star_2 + h_star_in_j_1 * t746 - (t738 * t81 + f_star_in_j_1 * t747) + (C_j[1]
         * t741 - C_j[7] * t743 + (f_star_in_j_1 * t745 + t738 * v_2_in_star - (t731 * t70 + g_star_in_j_1 * t744)));
-    jac_phi_q_t_lambda_geometry[52] = t749;
     const jg_real t750 = t732 * v_4_in_star_2 + h_star_in_j_2 * t746 - (t739 * t81 + f_star_in_j_2 * t747) + (C_j[2]
         * t741 - C_j[8] * t743 + (f_star_in_j_2 * t745 + t739 * v_2_in_star - (t733 * t70 + g_star_in_j_2 * t744)));
+    jac_phi_q_t_lambda_geometry[42] = -(A_ji_6 * t728 + A_ji_7 * t729 + A_ji_8 * t730);
+    jac_phi_q_t_lambda_geometry[46] = sine_0 * (lambda[5] * (C_j[4] * t714 + C_j[3] * t716 + C_j[5] * t712) + t724)
+        - cosine_0 * (t726 - lambda[5] * (C_j[4] * t711 + C_j[3] * t717 + C_j[5] * t713));
+    jac_phi_q_t_lambda_geometry[47] = -(t727 + t725);
+    jac_phi_q_t_lambda_geometry[51] = t748;
+    jac_phi_q_t_lambda_geometry[52] = t749;
     jac_phi_q_t_lambda_geometry[53] = t750;
     jac_phi_q_t_lambda_geometry[48] = -(A_ji_0 * t748 + A_ji_1 * t749 + A_ji_2 * t750);
     jac_phi_q_t_lambda_geometry[49] = -(A_ji_3 * t748 + A_ji_4 * t749 + A_ji_5 * t750);
-    jac_phi_q_t_lambda_geometry[50] = -(A_ji_6 * t748 + A_ji_7 * t749 + A_ji_8 * t750);
-    jac_phi_q_t_lambda_geometry[54] = -(cosine_0 * (t746 - lambda[5] * (C_j[4] * t731 + C_j[3] * t737 + C_j[5] *
-        t733)) + sine_0 * (lambda[5] * (C_j[4] * t734 + C_j[3] * t736 + C_j[5] * t732) - t744));
-    jac_phi_q_t_lambda_geometry[55] = t747 - t745;
     const jg_real t751 = A_ji_4 * sine_0;
     const jg_real t752 = A_ji_5 * cosine_0;
     const jg_real t753 = A_ji_5 * sine_0;
@@ -2893,19 +2887,19 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t767 = lambda[3] * (C_j[7] * t754 + C_j[6] * t756 + C_j[8] * t752);
     const jg_real t768 = t756 * v_4_in_star_2 + h_star_in_j_0 * t766 - (t755 * t81 + f_star_in_j_0 * t767) + (C_j[0]
         * t761 - C_j[6] * t763 + (f_star_in_j_0 * t765 + t755 * v_2_in_star - (t757 * t70 + g_star_in_j_0 * t764)));
-    jac_phi_q_t_lambda_geometry[59] = t768;
     const jg_real t769 = t754 * v_4_in_star_2 + h_star_in_j_1 * t766 - (t758 * t81 + f_star_in_j_1 * t767) + (C_j[1]
         * t761 - C_j[7] * t763 + (f_star_in_j_1 * t765 + t758 * v_2_in_star - (t751 * t70 + g_star_in_j_1 * t764)));
-    jac_phi_q_t_lambda_geometry[60] = t769;
     const jg_real t770 = t752 * v_4_in_star_2 + h_star_in_j_2 * t766 - (t759 * t81 + f_star_in_j_2 * t767) + (C_j[2]
         * t761 - C_j[8] * t763 + (f_star_in_j_2 * t765 + t759 * v_2_in_star - (t753 * t70 + g_star_in_j_2 * t764)));
+    jac_phi_q_t_lambda_geometry[50] = -(A_ji_6 * t748 + A_ji_7 * t749 + A_ji_8 * t750);
+    jac_phi_q_t_lambda_geometry[54] = -(cosine_0 * (t746 - lambda[5] * (C_j[4] * t731 + C_j[3] * t737 + C_j[5] *
+        t733)) + sine_0 * (lambda[5] * (C_j[4] * t734 + C_j[3] * t736 + C_j[5] * t732) - t744));
+    jac_phi_q_t_lambda_geometry[55] = t747 - t745;
+    jac_phi_q_t_lambda_geometry[59] = t768;
+    jac_phi_q_t_lambda_geometry[60] = t769;
     jac_phi_q_t_lambda_geometry[61] = t770;
     jac_phi_q_t_lambda_geometry[56] = -(A_ji_0 * t768 + A_ji_1 * t769 + A_ji_2 * t770);
     jac_phi_q_t_lambda_geometry[57] = -(A_ji_3 * t768 + A_ji_4 * t769 + A_ji_5 * t770);
-    jac_phi_q_t_lambda_geometry[58] = -(A_ji_6 * t768 + A_ji_7 * t769 + A_ji_8 * t770);
-    jac_phi_q_t_lambda_geometry[62] = -(cosine_0 * (t766 - lambda[5] * (C_j[4] * t751 + C_j[3] * t757 + C_j[5] *
-        t753)) + sine_0 * (lambda[5] * (C_j[4] * t754 + C_j[3] * t756 + C_j[5] * t752) - t764));
-    jac_phi_q_t_lambda_geometry[63] = t767 - t765;
     const jg_real t771 = A_ji_7 * sine_0;
     const jg_real t772 = A_ji_8 * cosine_0;
     const jg_real t773 = A_ji_8 * sine_0;
@@ -2928,12 +2922,16 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     const jg_real t787 = lambda[3] * (C_j[7] * t774 + C_j[6] * t776 + C_j[8] * t772);
     const jg_real t788 = t776 * v_4_in_star_2 + h_star_in_j_0 * t786 - (t775 * t81 + f_star_in_j_0 * t787) + (C_j[0]
         * t781 - C_j[6] * t783 + (f_star_in_j_0 * t785 + t775 * v_2_in_star - (t777 * t70 + g_star_in_j_0 * t784)));
-    jac_phi_q_t_lambda_geometry[67] = t788;
     const jg_real t789 = t774 * v_4_in_star_2 + h_star_in_j_1 * t786 - (t778 * t81 + f_star_in_j_1 * t787) + (C_j[1]
         * t781 - C_j[7] * t783 + (f_star_in_j_1 * t785 + t778 * v_2_in_star - (t771 * t70 + g_star_in_j_1 * t784)));
-    jac_phi_q_t_lambda_geometry[68] = t789;
     const jg_real t790 = t772 * v_4_in_star_2 + h_star_in_j_2 * t786 - (t779 * t81 + f_star_in_j_2 * t787) + (C_j[2]
         * t781 - C_j[8] * t783 + (f_star_in_j_2 * t785 + t779 * v_2_in_star - (t773 * t70 + g_star_in_j_2 * t784)));
+    jac_phi_q_t_lambda_geometry[58] = -(A_ji_6 * t768 + A_ji_7 * t769 + A_ji_8 * t770);
+    jac_phi_q_t_lambda_geometry[62] = -(cosine_0 * (t766 - lambda[5] * (C_j[4] * t751 + C_j[3] * t757 + C_j[5] *
+        t753)) + sine_0 * (lambda[5] * (C_j[4] * t754 + C_j[3] * t756 + C_j[5] * t752) - t764));
+    jac_phi_q_t_lambda_geometry[63] = t767 - t765;
+    jac_phi_q_t_lambda_geometry[67] = t788;
+    jac_phi_q_t_lambda_geometry[68] = t789;
     jac_phi_q_t_lambda_geometry[69] = t790;
     jac_phi_q_t_lambda_geometry[64] = -(A_ji_0 * t788 + A_ji_1 * t789 + A_ji_2 * t790);
     jac_phi_q_t_lambda_geometry[65] = -(A_ji_3 * t788 + A_ji_4 * t789 + A_ji_5 * t790);
@@ -2946,6 +2944,10 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_geometry[74] = A_ji_7 * lambda_0_1_2_in_j_2 - A_ji_8 * lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[75] = -lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[77] = A_ji_2 * lambda_0_1_2_in_j_0 - A_ji_0 * lambda_0_1_2_in_j_2;
+    const jg_real t791 = lambda[5] * f_star_in_j_0;
+    const jg_real t792 = lambda[4] * g_star_in_j_0;
+    const jg_real t793 = lambda[4] * f_star_in_j_0;
+    const jg_real t794 = v_3_in_joint_j - C_j[6] * t791 + (f_star_in_j_0 * t792 - g_star_in_j_0 * t793);
     jac_phi_q_t_lambda_geometry[78] = A_ji_5 * lambda_0_1_2_in_j_0 - A_ji_3 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[79] = A_ji_8 * lambda_0_1_2_in_j_0 - A_ji_6 * lambda_0_1_2_in_j_2;
     jac_phi_q_t_lambda_geometry[81] = -lambda_0_1_2_in_j_0;
@@ -2953,42 +2955,38 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_geometry[83] = A_ji_3 * lambda_0_1_2_in_j_1 - A_ji_4 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[84] = A_ji_6 * lambda_0_1_2_in_j_1 - A_ji_7 * lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[85] = -lambda_0_1_2_in_j_1;
-    const jg_real t791 = lambda[5] * f_star_in_j_0;
-    const jg_real t792 = lambda[4] * g_star_in_j_0;
-    const jg_real t793 = lambda[4] * f_star_in_j_0;
-    const jg_real t794 = v_3_in_joint_j - C_j[6] * t791 + (f_star_in_j_0 * t792 - g_star_in_j_0 * t793);
     jac_phi_q_t_lambda_geometry[90] = t794;
     const jg_real t795 = f_star_in_j_1 * t792 - g_star_in_j_1 * t793 - C_j[7] * t791;
-    jac_phi_q_t_lambda_geometry[91] = t795;
     const jg_real t796 = f_star_in_j_2 * t792 - g_star_in_j_2 * t793 - C_j[8] * t791;
+    const jg_real t797 = lambda[5] * f_star_in_j_1;
+    const jg_real t798 = lambda[4] * g_star_in_j_1;
+    const jg_real t799 = lambda[4] * f_star_in_j_1;
+    const jg_real t800 = v_3_in_joint_j - C_j[7] * t797 + (f_star_in_j_1 * t798 - g_star_in_j_1 * t799);
+    jac_phi_q_t_lambda_geometry[91] = t795;
     jac_phi_q_t_lambda_geometry[92] = t796;
     jac_phi_q_t_lambda_geometry[87] = -(A_ji_0 * t794 + A_ji_1 * t795 + A_ji_2 * t796);
     jac_phi_q_t_lambda_geometry[88] = -(A_ji_3 * t794 + A_ji_4 * t795 + A_ji_5 * t796);
     jac_phi_q_t_lambda_geometry[89] = -(A_ji_6 * t794 + A_ji_7 * t795 + A_ji_8 * t796);
     jac_phi_q_t_lambda_geometry[93] = sine_0 * t793;
     jac_phi_q_t_lambda_geometry[94] = -t792;
-    const jg_real t797 = lambda[5] * f_star_in_j_1;
-    const jg_real t798 = lambda[4] * g_star_in_j_1;
-    const jg_real t799 = lambda[4] * f_star_in_j_1;
-    const jg_real t800 = v_3_in_joint_j - C_j[7] * t797 + (f_star_in_j_1 * t798 - g_star_in_j_1 * t799);
     jac_phi_q_t_lambda_geometry[99] = t800;
     const jg_real t801 = f_star_in_j_0 * t798 - g_star_in_j_0 * t799 - C_j[6] * t797;
-    jac_phi_q_t_lambda_geometry[98] = t801;
     const jg_real t802 = f_star_in_j_2 * t798 - g_star_in_j_2 * t799 - C_j[8] * t797;
+    const jg_real t803 = lambda[5] * f_star_in_j_2;
+    const jg_real t804 = lambda[4] * g_star_in_j_2;
+    const jg_real t805 = lambda[4] * f_star_in_j_2;
+    const jg_real t806 = v_3_in_joint_j - C_j[8] * t803 + (f_star_in_j_2 * t804 - g_star_in_j_2 * t805);
+    jac_phi_q_t_lambda_geometry[98] = t801;
     jac_phi_q_t_lambda_geometry[100] = t802;
     jac_phi_q_t_lambda_geometry[95] = -(A_ji_0 * t801 + A_ji_1 * t800 + A_ji_2 * t802);
     jac_phi_q_t_lambda_geometry[96] = -(A_ji_3 * t801 + A_ji_4 * t800 + A_ji_5 * t802);
     jac_phi_q_t_lambda_geometry[97] = -(A_ji_6 * t801 + A_ji_7 * t800 + A_ji_8 * t802);
     jac_phi_q_t_lambda_geometry[101] = sine_0 * t799;
     jac_phi_q_t_lambda_geometry[102] = -t798;
-    const jg_real t803 = lambda[5] * f_star_in_j_2;
-    const jg_real t804 = lambda[4] * g_star_in_j_2;
-    const jg_real t805 = lambda[4] * f_star_in_j_2;
-    const jg_real t806 = v_3_in_joint_j - C_j[8] * t803 + (f_star_in_j_2 * t804 - g_star_in_j_2 * t805);
     jac_phi_q_t_lambda_geometry[108] = t806;
     const jg_real t807 = f_star_in_j_0 * t804 - g_star_in_j_0 * t805 - C_j[6] * t803;
-    jac_phi_q_t_lambda_geometry[106] = t807;
     const jg_real t808 = f_star_in_j_1 * t804 - g_star_in_j_1 * t805 - C_j[7] * t803;
+    jac_phi_q_t_lambda_geometry[106] = t807;
     jac_phi_q_t_lambda_geometry[107] = t808;
     jac_phi_q_t_lambda_geometry[103] = -(A_ji_0 * t807 + A_ji_1 * t808 + A_ji_2 * t806);
     jac_phi_q_t_lambda_geometry[104] = -(A_ji_3 * t807 + A_ji_4 * t808 + A_ji_5 * t806);
@@ -2996,110 +2994,110 @@ static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RE
     jac_phi_q_t_lambda_geometry[109] = sine_0 * t805;
     jac_phi_q_t_lambda_geometry[110] = -t804;
     jac_phi_q_t_lambda_geometry[111] = lambda[5] * g_star_in_j_0 * cosine_0 - lambda[5] * h_star_in_j_0 * sine_0;
-    jac_phi_q_t_lambda_geometry[112] = lambda[5] * g_star_in_j_1 * cosine_0 - lambda[5] * h_star_in_j_1 * sine_0;
-    jac_phi_q_t_lambda_geometry[113] = lambda[5] * g_star_in_j_2 * cosine_0 - lambda[5] * h_star_in_j_2 * sine_0;
     const jg_real t809 = lambda[3] * f_star_in_j_0;
     const jg_real t810 = lambda[3] * h_star_in_j_0;
-    jac_phi_q_t_lambda_geometry[121] = t810;
     const jg_real t811 = h_star_in_j_0 * t809 - f_star_in_j_0 * t810 + (C_j[0] * t791 - t91);
-    jac_phi_q_t_lambda_geometry[117] = t811;
     const jg_real t812 = h_star_in_j_1 * t809 - f_star_in_j_1 * t810 + C_j[1] * t791;
-    jac_phi_q_t_lambda_geometry[118] = t812;
     const jg_real t813 = h_star_in_j_2 * t809 - f_star_in_j_2 * t810 + C_j[2] * t791;
+    jac_phi_q_t_lambda_geometry[112] = lambda[5] * g_star_in_j_1 * cosine_0 - lambda[5] * h_star_in_j_1 * sine_0;
+    jac_phi_q_t_lambda_geometry[113] = lambda[5] * g_star_in_j_2 * cosine_0 - lambda[5] * h_star_in_j_2 * sine_0;
+    jac_phi_q_t_lambda_geometry[121] = t810;
+    jac_phi_q_t_lambda_geometry[117] = t811;
+    jac_phi_q_t_lambda_geometry[118] = t812;
     jac_phi_q_t_lambda_geometry[119] = t813;
     jac_phi_q_t_lambda_geometry[114] = -(A_ji_0 * t811 + A_ji_1 * t812 + A_ji_2 * t813);
     jac_phi_q_t_lambda_geometry[115] = -(A_ji_3 * t811 + A_ji_4 * t812 + A_ji_5 * t813);
-    jac_phi_q_t_lambda_geometry[116] = -(A_ji_6 * t811 + A_ji_7 * t812 + A_ji_8 * t813);
-    jac_phi_q_t_lambda_geometry[120] = -(cosine_0 * t809);
     const jg_real t814 = lambda[3] * f_star_in_j_1;
     const jg_real t815 = lambda[3] * h_star_in_j_1;
-    jac_phi_q_t_lambda_geometry[129] = t815;
     const jg_real t816 = C_j[1] * t797 - t91 + (h_star_in_j_1 * t814 - f_star_in_j_1 * t815);
-    jac_phi_q_t_lambda_geometry[126] = t816;
     const jg_real t817 = h_star_in_j_0 * t814 - f_star_in_j_0 * t815 + C_j[0] * t797;
-    jac_phi_q_t_lambda_geometry[125] = t817;
     const jg_real t818 = h_star_in_j_2 * t814 - f_star_in_j_2 * t815 + C_j[2] * t797;
+    jac_phi_q_t_lambda_geometry[116] = -(A_ji_6 * t811 + A_ji_7 * t812 + A_ji_8 * t813);
+    jac_phi_q_t_lambda_geometry[120] = -(cosine_0 * t809);
+    jac_phi_q_t_lambda_geometry[129] = t815;
+    jac_phi_q_t_lambda_geometry[126] = t816;
+    jac_phi_q_t_lambda_geometry[125] = t817;
     jac_phi_q_t_lambda_geometry[127] = t818;
     jac_phi_q_t_lambda_geometry[122] = -(A_ji_0 * t817 + A_ji_1 * t816 + A_ji_2 * t818);
     jac_phi_q_t_lambda_geometry[123] = -(A_ji_3 * t817 + A_ji_4 * t816 + A_ji_5 * t818);
-    jac_phi_q_t_lambda_geometry[124] = -(A_ji_6 * t817 + A_ji_7 * t816 + A_ji_8 * t818);
-    jac_phi_q_t_lambda_geometry[128] = -(cosine_0 * t814);
     const jg_real t819 = lambda[3] * f_star_in_j_2;
     const jg_real t820 = lambda[3] * h_star_in_j_2;
-    jac_phi_q_t_lambda_geometry[137] = t820;
     const jg_real t821 = C_j[2] * t803 - t91 + (h_star_in_j_2 * t819 - f_star_in_j_2 * t820);
-    jac_phi_q_t_lambda_geometry[135] = t821;
     const jg_real t822 = h_star_in_j_0 * t819 - f_star_in_j_0 * t820 + C_j[0] * t803;
-    jac_phi_q_t_lambda_geometry[133] = t822;
     const jg_real t823 = h_star_in_j_1 * t819 - f_star_in_j_1 * t820 + C_j[1] * t803;
+    jac_phi_q_t_lambda_geometry[124] = -(A_ji_6 * t817 + A_ji_7 * t816 + A_ji_8 * t818);
+    jac_phi_q_t_lambda_geometry[128] = -(cosine_0 * t814);
+    jac_phi_q_t_lambda_geometry[137] = t820;
+    jac_phi_q_t_lambda_geometry[135] = t821;
+    jac_phi_q_t_lambda_geometry[133] = t822;
     jac_phi_q_t_lambda_geometry[134] = t823;
     jac_phi_q_t_lambda_geometry[130] = -(A_ji_0 * t822 + A_ji_1 * t823 + A_ji_2 * t821);
     jac_phi_q_t_lambda_geometry[131] = -(A_ji_3 * t822 + A_ji_4 * t823 + A_ji_5 * t821);
+    const jg_real t824 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    const jg_real t825 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t824;
+    const jg_real t826 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    const jg_real t827 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t826;
+    const jg_real t828 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_geometry[132] = -(A_ji_6 * t822 + A_ji_7 * t823 + A_ji_8 * t821);
     jac_phi_q_t_lambda_geometry[136] = -(cosine_0 * t819);
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
-    const jg_real t824 = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_t_lambda_lambda[7] = t824;
-    const jg_real t825 = A_ji_2 * v_0_in_j_1 - A_ji_1 * v_0_in_j_2 + t824;
-    const jg_real t826 = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_t_lambda_lambda[8] = t826;
-    const jg_real t827 = A_ji_0 * v_0_in_j_2 - A_ji_2 * v_0_in_j_0 + t826;
-    const jg_real t828 = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_t_lambda_lambda[9] = t828;
     const jg_real t829 = A_ji_1 * v_0_in_j_0 - A_ji_0 * v_0_in_j_1 + t828;
+    const jg_real t830 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    const jg_real t831 = v_0_in_j_1 * A_ji_5 - A_ji_4 * v_0_in_j_2 + t830;
+    const jg_real t832 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    const jg_real t833 = v_0_in_j_2 * A_ji_3 - A_ji_5 * v_0_in_j_0 + t832;
+    const jg_real t834 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    const jg_real t835 = A_ji_4 * v_0_in_j_0 - v_0_in_j_1 * A_ji_3 + t834;
     jac_phi_q_t_lambda_lambda[1] = -(A_ji_0 * t825 + A_ji_1 * t827 + A_ji_2 * t829);
     jac_phi_q_t_lambda_lambda[2] = -(A_ji_3 * t825 + A_ji_4 * t827 + A_ji_5 * t829);
     jac_phi_q_t_lambda_lambda[3] = -(A_ji_6 * t825 + A_ji_7 * t827 + A_ji_8 * t829);
-    const jg_real t830 = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_t_lambda_lambda[17] = t830;
-    const jg_real t831 = v_0_in_j_1 * A_ji_5 - A_ji_4 * v_0_in_j_2 + t830;
-    const jg_real t832 = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     jac_phi_q_t_lambda_lambda[18] = t832;
-    const jg_real t833 = v_0_in_j_2 * A_ji_3 - v_0_in_j_0 * A_ji_5 + t832;
-    const jg_real t834 = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_t_lambda_lambda[19] = t834;
-    const jg_real t835 = A_ji_4 * v_0_in_j_0 - v_0_in_j_1 * A_ji_3 + t834;
     jac_phi_q_t_lambda_lambda[11] = -(A_ji_0 * t831 + A_ji_1 * t833 + A_ji_2 * t835);
     jac_phi_q_t_lambda_lambda[12] = -(A_ji_3 * t831 + A_ji_4 * t833 + A_ji_5 * t835);
-    jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t831 + A_ji_7 * t833 + A_ji_8 * t835);
     const jg_real t836 = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_t_lambda_lambda[27] = t836;
     const jg_real t837 = A_ji_8 * v_0_in_j_1 - A_ji_7 * v_0_in_j_2 + t836;
-    const jg_real t838 = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_t_lambda_lambda[28] = t838;
+    const jg_real t838 = s_j[2] * A_ji_6 - A_ji_8 * s_j[0];
     const jg_real t839 = A_ji_6 * v_0_in_j_2 - A_ji_8 * v_0_in_j_0 + t838;
     const jg_real t840 = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_t_lambda_lambda[29] = t840;
     const jg_real t841 = A_ji_7 * v_0_in_j_0 - A_ji_6 * v_0_in_j_1 + t840;
+    const jg_real t842 = h_star_in_j_0 * h_j_dot_f_star - f_star_in_j_0 * h_j_dot_h_star;
+    jac_phi_q_t_lambda_lambda[13] = -(A_ji_6 * t831 + A_ji_7 * t833 + A_ji_8 * t835);
+    jac_phi_q_t_lambda_lambda[27] = t836;
+    jac_phi_q_t_lambda_lambda[28] = t838;
+    jac_phi_q_t_lambda_lambda[29] = t840;
     jac_phi_q_t_lambda_lambda[21] = -(A_ji_0 * t837 + A_ji_1 * t839 + A_ji_2 * t841);
     jac_phi_q_t_lambda_lambda[22] = -(A_ji_3 * t837 + A_ji_4 * t839 + A_ji_5 * t841);
     jac_phi_q_t_lambda_lambda[23] = -(A_ji_6 * t837 + A_ji_7 * t839 + A_ji_8 * t841);
-    const jg_real t842 = h_star_in_j_0 * h_j_dot_f_star - f_star_in_j_0 * h_j_dot_h_star;
     jac_phi_q_t_lambda_lambda[33] = t842;
     const jg_real t843 = h_star_in_j_1 * h_j_dot_f_star - f_star_in_j_1 * h_j_dot_h_star;
-    jac_phi_q_t_lambda_lambda[34] = t843;
     const jg_real t844 = h_star_in_j_2 * h_j_dot_f_star - f_star_in_j_2 * h_j_dot_h_star;
+    const jg_real t845 = f_star_in_j_0 * f_j_dot_g_star - g_star_in_j_0 * f_j_dot_f_star;
+    const jg_real t846 = f_star_in_j_1 * f_j_dot_g_star - g_star_in_j_1 * f_j_dot_f_star;
+    jac_phi_q_t_lambda_lambda[34] = t843;
     jac_phi_q_t_lambda_lambda[35] = t844;
     jac_phi_q_t_lambda_lambda[30] = -(A_ji_0 * t842 + A_ji_1 * t843 + A_ji_2 * t844);
     jac_phi_q_t_lambda_lambda[31] = -(A_ji_3 * t842 + A_ji_4 * t843 + A_ji_5 * t844);
     jac_phi_q_t_lambda_lambda[32] = -(A_ji_6 * t842 + A_ji_7 * t843 + A_ji_8 * t844);
     jac_phi_q_t_lambda_lambda[36] = -(cosine_0 * h_j_dot_f_star);
-    const jg_real t845 = f_star_in_j_0 * f_j_dot_g_star - g_star_in_j_0 * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[41] = t845;
-    const jg_real t846 = f_star_in_j_1 * f_j_dot_g_star - g_star_in_j_1 * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[42] = t846;
     const jg_real t847 = f_star_in_j_2 * f_j_dot_g_star - g_star_in_j_2 * f_j_dot_f_star;
+    const jg_real t848 = C_j[0] * h_j_dot_f_star - C_j[6] * f_j_dot_f_star;
+    const jg_real t849 = C_j[1] * h_j_dot_f_star - C_j[7] * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[43] = t847;
     jac_phi_q_t_lambda_lambda[38] = -(A_ji_0 * t845 + A_ji_1 * t846 + A_ji_2 * t847);
     jac_phi_q_t_lambda_lambda[39] = -(A_ji_3 * t845 + A_ji_4 * t846 + A_ji_5 * t847);
     jac_phi_q_t_lambda_lambda[40] = -(A_ji_6 * t845 + A_ji_7 * t846 + A_ji_8 * t847);
     jac_phi_q_t_lambda_lambda[44] = sine_0 * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[45] = -f_j_dot_g_star;
-    const jg_real t848 = C_j[0] * h_j_dot_f_star - C_j[6] * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[49] = t848;
-    const jg_real t849 = C_j[1] * h_j_dot_f_star - C_j[7] * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[50] = t849;
     const jg_real t850 = C_j[2] * h_j_dot_f_star - C_j[8] * f_j_dot_f_star;
     jac_phi_q_t_lambda_lambda[51] = t850;

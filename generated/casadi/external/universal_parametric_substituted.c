@@ -46,15 +46,10 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
-    jac_phi_A_i[0] = e_ij_world_0;
-    jac_phi_A_i[12] = e_ij_world_0;
-    jac_phi_A_i[24] = e_ij_world_0;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
@@ -69,7 +64,6 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t9 = A_j[0] * g_star_in_i_0;
     const jg_real t10 = A_j[3] * g_star_in_i_0;
     const jg_real t11 = A_j[6] * g_star_in_i_0;
-    jac_phi_A_i[1] = C_j[6] * t9 + C_j[7] * t10 + C_j[8] * t11;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[0] * cosine_1 + C_i[3] * sine_1;
     const jg_real f_star_in_i_1 = C_i[1] * cosine_1 + C_i[4] * sine_1;
@@ -80,7 +74,6 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real f_star_world_2 = A_i[2] * f_star_in_i_0 + A_i[5] * f_star_in_i_1 + A_i[8] * f_star_in_i_2;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = A_j[3] * f_star_world_0 + A_j[4] * f_star_world_1 + A_j[5] * f_star_world_2;
-    jac_phi_geometry[40] = f_star_in_j_1;
     const jg_real g_star_in_i_1 = C_i[4] * H_11 - C_i[1] * t7 + C_i[7] * sine_0;
     const jg_real g_star_in_i_2 = C_i[5] * H_11 - C_i[2] * t7 + C_i[8] * sine_0;
     /* g_star_world = g_star, world axes */
@@ -89,112 +82,119 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real g_star_world_2 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_2 = A_j[6] * g_star_world_0 + A_j[7] * g_star_world_1 + A_j[8] * g_star_world_2;
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
+    jac_phi_A_i[0] = e_ij_world_0;
+    jac_phi_A_i[12] = e_ij_world_0;
+    jac_phi_A_i[24] = e_ij_world_0;
+    jac_phi_A_i[1] = C_j[6] * t9 + C_j[7] * t10 + C_j[8] * t11;
+    jac_phi_geometry[40] = f_star_in_j_1;
     jac_phi_geometry[44] = g_star_in_j_2;
     const jg_real t25 = A_j[3] * f_star_in_i_0;
     const jg_real f_star_in_j_2 = A_j[6] * f_star_world_0 + A_j[7] * f_star_world_1 + A_j[8] * f_star_world_2;
-    jac_phi_geometry[41] = f_star_in_j_2;
     const jg_real g_star_in_j_1 = A_j[3] * g_star_world_0 + A_j[4] * g_star_world_1 + A_j[5] * g_star_world_2;
-    jac_phi_geometry[43] = g_star_in_j_1;
     const jg_real t28 = A_j[6] * f_star_in_i_0;
     const jg_real g_star_in_j_0 = A_j[0] * g_star_world_0 + A_j[1] * g_star_world_1 + A_j[2] * g_star_world_2;
-    jac_phi_geometry[42] = g_star_in_j_0;
     const jg_real f_star_in_j_0 = A_j[0] * f_star_world_0 + A_j[1] * f_star_world_1 + A_j[2] * f_star_world_2;
-    jac_phi_geometry[39] = f_star_in_j_0;
     const jg_real t31 = A_j[0] * f_star_in_i_0;
+    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    jac_phi_geometry[41] = f_star_in_j_2;
+    jac_phi_geometry[43] = g_star_in_j_1;
+    jac_phi_geometry[42] = g_star_in_j_0;
+    jac_phi_geometry[39] = f_star_in_j_0;
     jac_phi_A_i[2] = C_j[0] * (t11 * f_star_in_j_1 + t25 * g_star_in_j_2 - (t10 * f_star_in_j_2 + t28 *
         g_star_in_j_1)) + C_j[1] * (t9 * f_star_in_j_2 + t28 * g_star_in_j_0 - (t11 * f_star_in_j_0 + t31 *
         g_star_in_j_2)) + C_j[2] * (t10 * f_star_in_j_0 + t31 * g_star_in_j_1 - (t9 * f_star_in_j_1 + t25 *
         g_star_in_j_0));
     jac_phi_A_i[3] = C_j[4] * t25 + C_j[3] * t31 + C_j[5] * t28;
-    const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
     const jg_real t34 = A_j[1] * g_star_in_i_0;
     const jg_real t35 = A_j[4] * g_star_in_i_0;
     const jg_real t36 = A_j[7] * g_star_in_i_0;
-    jac_phi_A_i[5] = C_j[6] * t34 + C_j[7] * t35 + C_j[8] * t36;
     const jg_real t37 = A_j[4] * f_star_in_i_0;
     const jg_real t38 = A_j[7] * f_star_in_i_0;
     const jg_real t39 = A_j[1] * f_star_in_i_0;
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real t42 = A_j[2] * g_star_in_i_0;
+    const jg_real t43 = A_j[5] * g_star_in_i_0;
+    const jg_real t44 = A_j[8] * g_star_in_i_0;
+    const jg_real t45 = A_j[5] * f_star_in_i_0;
+    const jg_real t46 = A_j[8] * f_star_in_i_0;
+    const jg_real t47 = A_j[2] * f_star_in_i_0;
+    jac_phi_A_i[5] = C_j[6] * t34 + C_j[7] * t35 + C_j[8] * t36;
     jac_phi_A_i[6] = C_j[0] * (t36 * f_star_in_j_1 + t37 * g_star_in_j_2 - (t35 * f_star_in_j_2 + t38 *
         g_star_in_j_1)) + C_j[1] * (t34 * f_star_in_j_2 + t38 * g_star_in_j_0 - (t36 * f_star_in_j_0 + t39 *
         g_star_in_j_2)) + C_j[2] * (t35 * f_star_in_j_0 + t39 * g_star_in_j_1 - (t34 * f_star_in_j_1 + t37 *
         g_star_in_j_0));
     jac_phi_A_i[7] = C_j[4] * t37 + C_j[3] * t39 + C_j[5] * t38;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
-    const jg_real t42 = A_j[2] * g_star_in_i_0;
-    const jg_real t43 = A_j[5] * g_star_in_i_0;
-    const jg_real t44 = A_j[8] * g_star_in_i_0;
     jac_phi_A_i[9] = C_j[6] * t42 + C_j[7] * t43 + C_j[8] * t44;
-    const jg_real t45 = A_j[5] * f_star_in_i_0;
-    const jg_real t46 = A_j[8] * f_star_in_i_0;
-    const jg_real t47 = A_j[2] * f_star_in_i_0;
     jac_phi_A_i[10] = C_j[0] * (t44 * f_star_in_j_1 + t45 * g_star_in_j_2 - (t43 * f_star_in_j_2 + t46 *
         g_star_in_j_1)) + C_j[1] * (t42 * f_star_in_j_2 + t46 * g_star_in_j_0 - (t44 * f_star_in_j_0 + t47 *
         g_star_in_j_2)) + C_j[2] * (t43 * f_star_in_j_0 + t47 * g_star_in_j_1 - (t42 * f_star_in_j_1 + t45 *
         g_star_in_j_0));
-    jac_phi_A_i[11] = C_j[4] * t45 + C_j[3] * t47 + C_j[5] * t46;
     const jg_real t48 = A_j[0] * g_star_in_i_1;
     const jg_real t49 = A_j[3] * g_star_in_i_1;
     const jg_real t50 = A_j[6] * g_star_in_i_1;
-    jac_phi_A_i[13] = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
     const jg_real t51 = A_j[3] * f_star_in_i_1;
     const jg_real t52 = A_j[6] * f_star_in_i_1;
     const jg_real t53 = A_j[0] * f_star_in_i_1;
+    const jg_real t54 = A_j[1] * g_star_in_i_1;
+    const jg_real t55 = A_j[4] * g_star_in_i_1;
+    const jg_real t56 = A_j[7] * g_star_in_i_1;
+    const jg_real t57 = A_j[4] * f_star_in_i_1;
+    const jg_real t58 = A_j[7] * f_star_in_i_1;
+    const jg_real t59 = A_j[1] * f_star_in_i_1;
+    const jg_real t60 = A_j[2] * g_star_in_i_1;
+    const jg_real t61 = A_j[5] * g_star_in_i_1;
+    const jg_real t62 = A_j[8] * g_star_in_i_1;
+    jac_phi_A_i[11] = C_j[4] * t45 + C_j[3] * t47 + C_j[5] * t46;
+    jac_phi_A_i[13] = C_j[6] * t48 + C_j[7] * t49 + C_j[8] * t50;
     jac_phi_A_i[14] = C_j[0] * (t50 * f_star_in_j_1 + t51 * g_star_in_j_2 - (t49 * f_star_in_j_2 + t52 *
         g_star_in_j_1)) + C_j[1] * (t48 * f_star_in_j_2 + t52 * g_star_in_j_0 - (t50 * f_star_in_j_0 + t53 *
         g_star_in_j_2)) + C_j[2] * (t49 * f_star_in_j_0 + t53 * g_star_in_j_1 - (t48 * f_star_in_j_1 + t51 *
         g_star_in_j_0));
     jac_phi_A_i[15] = C_j[4] * t51 + C_j[3] * t53 + C_j[5] * t52;
-    const jg_real t54 = A_j[1] * g_star_in_i_1;
-    const jg_real t55 = A_j[4] * g_star_in_i_1;
-    const jg_real t56 = A_j[7] * g_star_in_i_1;
     jac_phi_A_i[17] = C_j[6] * t54 + C_j[7] * t55 + C_j[8] * t56;
-    const jg_real t57 = A_j[4] * f_star_in_i_1;
-    const jg_real t58 = A_j[7] * f_star_in_i_1;
-    const jg_real t59 = A_j[1] * f_star_in_i_1;
     jac_phi_A_i[18] = C_j[0] * (t56 * f_star_in_j_1 + t57 * g_star_in_j_2 - (t55 * f_star_in_j_2 + t58 *
         g_star_in_j_1)) + C_j[1] * (t54 * f_star_in_j_2 + t58 * g_star_in_j_0 - (t56 * f_star_in_j_0 + t59 *
         g_star_in_j_2)) + C_j[2] * (t55 * f_star_in_j_0 + t59 * g_star_in_j_1 - (t54 * f_star_in_j_1 + t57 *
         g_star_in_j_0));
     jac_phi_A_i[19] = C_j[4] * t57 + C_j[3] * t59 + C_j[5] * t58;
-    const jg_real t60 = A_j[2] * g_star_in_i_1;
-    const jg_real t61 = A_j[5] * g_star_in_i_1;
-    const jg_real t62 = A_j[8] * g_star_in_i_1;
     jac_phi_A_i[21] = C_j[6] * t60 + C_j[7] * t61 + C_j[8] * t62;
     const jg_real t63 = A_j[5] * f_star_in_i_1;
     const jg_real t64 = A_j[8] * f_star_in_i_1;
     const jg_real t65 = A_j[2] * f_star_in_i_1;
+    const jg_real t66 = A_j[0] * g_star_in_i_2;
+    const jg_real t67 = A_j[3] * g_star_in_i_2;
+    const jg_real t68 = A_j[6] * g_star_in_i_2;
+    const jg_real t69 = A_j[3] * f_star_in_i_2;
+    const jg_real t70 = A_j[6] * f_star_in_i_2;
+    const jg_real t71 = A_j[0] * f_star_in_i_2;
+    const jg_real t72 = A_j[1] * g_star_in_i_2;
+    const jg_real t73 = A_j[4] * g_star_in_i_2;
+    const jg_real t74 = A_j[7] * g_star_in_i_2;
+    const jg_real t75 = A_j[4] * f_star_in_i_2;
+    const jg_real t76 = A_j[7] * f_star_in_i_2;
+    const jg_real t77 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[22] = C_j[0] * (t62 * f_star_in_j_1 + t63 * g_star_in_j_2 - (t61 * f_star_in_j_2 + t64 *
         g_star_in_j_1)) + C_j[1] * (t60 * f_star_in_j_2 + t64 * g_star_in_j_0 - (t62 * f_star_in_j_0 + t65 *
         g_star_in_j_2)) + C_j[2] * (t61 * f_star_in_j_0 + t65 * g_star_in_j_1 - (t60 * f_star_in_j_1 + t63 *
         g_star_in_j_0));
     jac_phi_A_i[23] = C_j[4] * t63 + C_j[3] * t65 + C_j[5] * t64;
-    const jg_real t66 = A_j[0] * g_star_in_i_2;
-    const jg_real t67 = A_j[3] * g_star_in_i_2;
-    const jg_real t68 = A_j[6] * g_star_in_i_2;
     jac_phi_A_i[25] = C_j[6] * t66 + C_j[7] * t67 + C_j[8] * t68;
-    const jg_real t69 = A_j[3] * f_star_in_i_2;
-    const jg_real t70 = A_j[6] * f_star_in_i_2;
-    const jg_real t71 = A_j[0] * f_star_in_i_2;
     jac_phi_A_i[26] = C_j[0] * (t68 * f_star_in_j_1 + t69 * g_star_in_j_2 - (t67 * f_star_in_j_2 + t70 *
         g_star_in_j_1)) + C_j[1] * (t66 * f_star_in_j_2 + t70 * g_star_in_j_0 - (t68 * f_star_in_j_0 + t71 *
         g_star_in_j_2)) + C_j[2] * (t67 * f_star_in_j_0 + t71 * g_star_in_j_1 - (t66 * f_star_in_j_1 + t69 *
         g_star_in_j_0));
     jac_phi_A_i[27] = C_j[4] * t69 + C_j[3] * t71 + C_j[5] * t70;
-    const jg_real t72 = A_j[1] * g_star_in_i_2;
-    const jg_real t73 = A_j[4] * g_star_in_i_2;
-    const jg_real t74 = A_j[7] * g_star_in_i_2;
     jac_phi_A_i[29] = C_j[6] * t72 + C_j[7] * t73 + C_j[8] * t74;
-    const jg_real t75 = A_j[4] * f_star_in_i_2;
-    const jg_real t76 = A_j[7] * f_star_in_i_2;
-    const jg_real t77 = A_j[1] * f_star_in_i_2;
     jac_phi_A_i[30] = C_j[0] * (t74 * f_star_in_j_1 + t75 * g_star_in_j_2 - (t73 * f_star_in_j_2 + t76 *
         g_star_in_j_1)) + C_j[1] * (t72 * f_star_in_j_2 + t76 * g_star_in_j_0 - (t74 * f_star_in_j_0 + t77 *
         g_star_in_j_2)) + C_j[2] * (t73 * f_star_in_j_0 + t77 * g_star_in_j_1 - (t72 * f_star_in_j_1 + t75 *
@@ -203,10 +203,12 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t78 = A_j[2] * g_star_in_i_2;
     const jg_real t79 = A_j[5] * g_star_in_i_2;
     const jg_real t80 = A_j[8] * g_star_in_i_2;
-    jac_phi_A_i[33] = C_j[6] * t78 + C_j[7] * t79 + C_j[8] * t80;
     const jg_real t81 = A_j[5] * f_star_in_i_2;
     const jg_real t82 = A_j[8] * f_star_in_i_2;
     const jg_real t83 = A_j[2] * f_star_in_i_2;
+    const jg_real t84 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
+    const jg_real t85 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
+    jac_phi_A_i[33] = C_j[6] * t78 + C_j[7] * t79 + C_j[8] * t80;
     jac_phi_A_i[34] = C_j[0] * (t80 * f_star_in_j_1 + t81 * g_star_in_j_2 - (t79 * f_star_in_j_2 + t82 *
         g_star_in_j_1)) + C_j[1] * (t78 * f_star_in_j_2 + t82 * g_star_in_j_0 - (t80 * f_star_in_j_0 + t83 *
         g_star_in_j_2)) + C_j[2] * (t79 * f_star_in_j_0 + t83 * g_star_in_j_1 - (t78 * f_star_in_j_1 + t81 *
@@ -216,45 +218,43 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     jac_phi_A_j[1] = s_j[0] * A_i[3];
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     jac_phi_A_j[3] = C_j[6] * g_star_world_0;
-    const jg_real t84 = f_star_world_0 * g_star_in_j_2 - g_star_world_0 * f_star_in_j_2;
-    const jg_real t85 = g_star_world_0 * f_star_in_j_1 - f_star_world_0 * g_star_in_j_1;
     jac_phi_A_j[4] = -(C_j[1] * t84 + C_j[2] * t85);
+    const jg_real t86 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
+    const jg_real t87 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[5] = C_j[3] * f_star_world_0;
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
     jac_phi_A_j[9] = C_j[6] * g_star_world_1;
-    const jg_real t86 = f_star_world_1 * g_star_in_j_2 - g_star_world_1 * f_star_in_j_2;
-    const jg_real t87 = g_star_world_1 * f_star_in_j_1 - f_star_world_1 * g_star_in_j_1;
     jac_phi_A_j[10] = -(C_j[1] * t86 + C_j[2] * t87);
     jac_phi_A_j[11] = C_j[3] * f_star_world_1;
     jac_phi_A_j[12] = s_j[0] * A_i[2];
+    const jg_real t88 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
+    const jg_real t89 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
     jac_phi_A_j[15] = C_j[6] * g_star_world_2;
-    const jg_real t88 = f_star_world_2 * g_star_in_j_2 - g_star_world_2 * f_star_in_j_2;
-    const jg_real t89 = g_star_world_2 * f_star_in_j_1 - f_star_world_2 * g_star_in_j_1;
     jac_phi_A_j[16] = -(C_j[1] * t88 + C_j[2] * t89);
     jac_phi_A_j[17] = C_j[3] * f_star_world_2;
     jac_phi_A_j[18] = s_j[1] * A_i[0];
     jac_phi_A_j[19] = s_j[1] * A_i[3];
     jac_phi_A_j[20] = s_j[1] * A_i[6];
-    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     const jg_real t90 = f_star_world_0 * g_star_in_j_0 - g_star_world_0 * f_star_in_j_0;
+    const jg_real t91 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
+    jac_phi_A_j[21] = C_j[7] * g_star_world_0;
     jac_phi_A_j[22] = C_j[0] * t84 - C_j[2] * t90;
     jac_phi_A_j[23] = C_j[4] * f_star_world_0;
     jac_phi_A_j[24] = s_j[1] * A_i[1];
     jac_phi_A_j[25] = s_j[1] * A_i[4];
     jac_phi_A_j[26] = s_j[1] * A_i[7];
     jac_phi_A_j[27] = C_j[7] * g_star_world_1;
-    const jg_real t91 = f_star_world_1 * g_star_in_j_0 - g_star_world_1 * f_star_in_j_0;
     jac_phi_A_j[28] = C_j[0] * t86 - C_j[2] * t91;
+    const jg_real t92 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[29] = C_j[4] * f_star_world_1;
     jac_phi_A_j[30] = s_j[1] * A_i[2];
     jac_phi_A_j[31] = s_j[1] * A_i[5];
     jac_phi_A_j[32] = s_j[1] * A_i[8];
     jac_phi_A_j[33] = C_j[7] * g_star_world_2;
-    const jg_real t92 = f_star_world_2 * g_star_in_j_0 - g_star_world_2 * f_star_in_j_0;
     jac_phi_A_j[34] = C_j[0] * t88 - C_j[2] * t92;
     jac_phi_A_j[35] = C_j[4] * f_star_world_2;
     jac_phi_A_j[36] = s_j[2] * A_i[0];
@@ -274,7 +274,6 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     jac_phi_A_j[50] = s_j[2] * A_i[8];
     jac_phi_A_j[51] = C_j[8] * g_star_world_2;
     jac_phi_A_j[52] = C_j[0] * t89 + C_j[1] * t92;
-    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
     const jg_real t93 = C_i[3] * t7 + C_i[0] * H_11;
     const jg_real t94 = C_i[4] * t7 + C_i[1] * H_11;
     const jg_real t95 = C_i[5] * t7 + C_i[2] * H_11;
@@ -284,7 +283,6 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t99 = A_j[0] * t96 + A_j[1] * t97 + A_j[2] * t98;
     const jg_real t100 = A_j[3] * t96 + A_j[4] * t97 + A_j[5] * t98;
     const jg_real t101 = A_j[6] * t96 + A_j[7] * t97 + A_j[8] * t98;
-    jac_phi_alpha[0] = -(C_j[6] * t99 + C_j[7] * t100 + C_j[8] * t101);
     const jg_real t102 = C_i[3] * cosine_1 - C_i[0] * sine_1;
     const jg_real t103 = C_i[4] * cosine_1 - C_i[1] * sine_1;
     const jg_real t104 = C_i[5] * cosine_1 - C_i[2] * sine_1;
@@ -294,11 +292,6 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t108 = A_j[3] * t105 + A_j[4] * t106 + A_j[5] * t107;
     const jg_real t109 = A_j[6] * t105 + A_j[7] * t106 + A_j[8] * t107;
     const jg_real t110 = A_j[0] * t105 + A_j[1] * t106 + A_j[2] * t107;
-    jac_phi_alpha[1] = C_j[0] * (t108 * g_star_in_j_2 - f_star_in_j_1 * t101 - (t109 * g_star_in_j_1 - f_star_in_j_2
-        * t100)) + C_j[1] * (t109 * g_star_in_j_0 - f_star_in_j_2 * t99 - (t110 * g_star_in_j_2 - f_star_in_j_0 *
-        t101)) + C_j[2] * (t110 * g_star_in_j_1 - f_star_in_j_0 * t100 - (t108 * g_star_in_j_0 - f_star_in_j_1 *
-        t99));
-    jac_phi_alpha[2] = C_j[4] * t108 + C_j[3] * t110 + C_j[5] * t109;
     const jg_real t111 = sine_0 * sine_1;
     const jg_real t112 = sine_0 * cosine_1;
     const jg_real t113 = C_i[0] * t111 - C_i[3] * t112 + C_i[6] * cosine_0;
@@ -310,6 +303,13 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t119 = A_j[0] * t116 + A_j[1] * t117 + A_j[2] * t118;
     const jg_real t120 = A_j[3] * t116 + A_j[4] * t117 + A_j[5] * t118;
     const jg_real t121 = A_j[6] * t116 + A_j[7] * t117 + A_j[8] * t118;
+    jac_phi_A_j[53] = C_j[5] * f_star_world_2;
+    jac_phi_alpha[0] = -(C_j[6] * t99 + C_j[7] * t100 + C_j[8] * t101);
+    jac_phi_alpha[1] = C_j[0] * (t108 * g_star_in_j_2 - f_star_in_j_1 * t101 - (t109 * g_star_in_j_1 - f_star_in_j_2
+        * t100)) + C_j[1] * (t109 * g_star_in_j_0 - f_star_in_j_2 * t99 - (t110 * g_star_in_j_2 - f_star_in_j_0 *
+        t101)) + C_j[2] * (t110 * g_star_in_j_1 - f_star_in_j_0 * t100 - (t108 * g_star_in_j_0 - f_star_in_j_1 *
+        t99));
+    jac_phi_alpha[2] = C_j[4] * t108 + C_j[3] * t110 + C_j[5] * t109;
     jac_phi_alpha[3] = C_j[6] * t119 + C_j[7] * t120 + C_j[8] * t121;
     jac_phi_alpha[4] = C_j[0] * (f_star_in_j_1 * t121 - f_star_in_j_2 * t120) + C_j[1] * (f_star_in_j_2 * t119 -
         f_star_in_j_0 * t121) + C_j[2] * (f_star_in_j_0 * t120 - f_star_in_j_1 * t119);
@@ -322,96 +322,96 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t125 = A_j[0] * t122 + A_j[1] * t123 + A_j[2] * t124;
     const jg_real t126 = A_j[3] * t122 + A_j[4] * t123 + A_j[5] * t124;
     const jg_real t127 = A_j[6] * t122 + A_j[7] * t123 + A_j[8] * t124;
-    jac_phi_geometry[3] = -(C_j[6] * t125 + C_j[7] * t126 + C_j[8] * t127);
     const jg_real t128 = A_i[0] * cosine_1;
     const jg_real t129 = A_i[1] * cosine_1;
     const jg_real t130 = A_i[2] * cosine_1;
     const jg_real t131 = A_j[3] * t128 + A_j[4] * t129 + A_j[5] * t130;
     const jg_real t132 = A_j[6] * t128 + A_j[7] * t129 + A_j[8] * t130;
     const jg_real t133 = A_j[0] * t128 + A_j[1] * t129 + A_j[2] * t130;
-    jac_phi_geometry[4] = C_j[0] * (t131 * g_star_in_j_2 - f_star_in_j_1 * t127 - (t132 * g_star_in_j_1 -
-        f_star_in_j_2 * t126)) + C_j[1] * (t132 * g_star_in_j_0 - f_star_in_j_2 * t125 - (t133 * g_star_in_j_2 -
-        f_star_in_j_0 * t127)) + C_j[2] * (t133 * g_star_in_j_1 - f_star_in_j_0 * t126 - (t131 * g_star_in_j_0 -
-        f_star_in_j_1 * t125));
-    jac_phi_geometry[5] = C_j[4] * t131 + C_j[3] * t133 + C_j[5] * t132;
     const jg_real t134 = A_i[3] * t7;
     const jg_real t135 = A_i[4] * t7;
     const jg_real t136 = A_i[5] * t7;
     const jg_real t137 = A_j[0] * t134 + A_j[1] * t135 + A_j[2] * t136;
     const jg_real t138 = A_j[3] * t134 + A_j[4] * t135 + A_j[5] * t136;
     const jg_real t139 = A_j[6] * t134 + A_j[7] * t135 + A_j[8] * t136;
-    jac_phi_geometry[6] = -(C_j[6] * t137 + C_j[7] * t138 + C_j[8] * t139);
     const jg_real t140 = A_i[3] * cosine_1;
     const jg_real t141 = A_i[4] * cosine_1;
     const jg_real t142 = A_i[5] * cosine_1;
     const jg_real t143 = A_j[3] * t140 + A_j[4] * t141 + A_j[5] * t142;
     const jg_real t144 = A_j[6] * t140 + A_j[7] * t141 + A_j[8] * t142;
     const jg_real t145 = A_j[0] * t140 + A_j[1] * t141 + A_j[2] * t142;
-    jac_phi_geometry[7] = C_j[0] * (t143 * g_star_in_j_2 - f_star_in_j_1 * t139 - (t144 * g_star_in_j_1 -
-        f_star_in_j_2 * t138)) + C_j[1] * (t144 * g_star_in_j_0 - f_star_in_j_2 * t137 - (t145 * g_star_in_j_2 -
-        f_star_in_j_0 * t139)) + C_j[2] * (t145 * g_star_in_j_1 - f_star_in_j_0 * t138 - (t143 * g_star_in_j_0 -
-        f_star_in_j_1 * t137));
-    jac_phi_geometry[8] = C_j[4] * t143 + C_j[3] * t145 + C_j[5] * t144;
     const jg_real t146 = A_i[6] * t7;
     const jg_real t147 = A_i[7] * t7;
     const jg_real t148 = A_i[8] * t7;
     const jg_real t149 = A_j[0] * t146 + A_j[1] * t147 + A_j[2] * t148;
     const jg_real t150 = A_j[3] * t146 + A_j[4] * t147 + A_j[5] * t148;
     const jg_real t151 = A_j[6] * t146 + A_j[7] * t147 + A_j[8] * t148;
-    jac_phi_geometry[9] = -(C_j[6] * t149 + C_j[7] * t150 + C_j[8] * t151);
     const jg_real t152 = A_i[6] * cosine_1;
     const jg_real t153 = A_i[7] * cosine_1;
     const jg_real t154 = A_i[8] * cosine_1;
     const jg_real t155 = A_j[3] * t152 + A_j[4] * t153 + A_j[5] * t154;
     const jg_real t156 = A_j[6] * t152 + A_j[7] * t153 + A_j[8] * t154;
     const jg_real t157 = A_j[0] * t152 + A_j[1] * t153 + A_j[2] * t154;
+    jac_phi_geometry[3] = -(C_j[6] * t125 + C_j[7] * t126 + C_j[8] * t127);
+    jac_phi_geometry[4] = C_j[0] * (t131 * g_star_in_j_2 - f_star_in_j_1 * t127 - (t132 * g_star_in_j_1 -
+        f_star_in_j_2 * t126)) + C_j[1] * (t132 * g_star_in_j_0 - f_star_in_j_2 * t125 - (t133 * g_star_in_j_2 -
+        f_star_in_j_0 * t127)) + C_j[2] * (t133 * g_star_in_j_1 - f_star_in_j_0 * t126 - (t131 * g_star_in_j_0 -
+        f_star_in_j_1 * t125));
+    jac_phi_geometry[5] = C_j[4] * t131 + C_j[3] * t133 + C_j[5] * t132;
+    jac_phi_geometry[6] = -(C_j[6] * t137 + C_j[7] * t138 + C_j[8] * t139);
+    jac_phi_geometry[7] = C_j[0] * (t143 * g_star_in_j_2 - f_star_in_j_1 * t139 - (t144 * g_star_in_j_1 -
+        f_star_in_j_2 * t138)) + C_j[1] * (t144 * g_star_in_j_0 - f_star_in_j_2 * t137 - (t145 * g_star_in_j_2 -
+        f_star_in_j_0 * t139)) + C_j[2] * (t145 * g_star_in_j_1 - f_star_in_j_0 * t138 - (t143 * g_star_in_j_0 -
+        f_star_in_j_1 * t137));
+    jac_phi_geometry[8] = C_j[4] * t143 + C_j[3] * t145 + C_j[5] * t144;
+    jac_phi_geometry[9] = -(C_j[6] * t149 + C_j[7] * t150 + C_j[8] * t151);
     jac_phi_geometry[10] = C_j[0] * (t155 * g_star_in_j_2 - f_star_in_j_1 * t151 - (t156 * g_star_in_j_1 -
         f_star_in_j_2 * t150)) + C_j[1] * (t156 * g_star_in_j_0 - f_star_in_j_2 * t149 - (t157 * g_star_in_j_2 -
         f_star_in_j_0 * t151)) + C_j[2] * (t157 * g_star_in_j_1 - f_star_in_j_0 * t150 - (t155 * g_star_in_j_0 -
         f_star_in_j_1 * t149));
-    jac_phi_geometry[11] = C_j[4] * t155 + C_j[3] * t157 + C_j[5] * t156;
     const jg_real t158 = A_i[0] * H_11;
     const jg_real t159 = A_i[1] * H_11;
     const jg_real t160 = A_i[2] * H_11;
     const jg_real t161 = A_j[0] * t158 + A_j[1] * t159 + A_j[2] * t160;
     const jg_real t162 = A_j[3] * t158 + A_j[4] * t159 + A_j[5] * t160;
     const jg_real t163 = A_j[6] * t158 + A_j[7] * t159 + A_j[8] * t160;
-    jac_phi_geometry[12] = C_j[6] * t161 + C_j[7] * t162 + C_j[8] * t163;
     const jg_real t164 = A_i[0] * sine_1;
     const jg_real t165 = A_i[1] * sine_1;
     const jg_real t166 = A_i[2] * sine_1;
     const jg_real t167 = A_j[3] * t164 + A_j[4] * t165 + A_j[5] * t166;
     const jg_real t168 = A_j[6] * t164 + A_j[7] * t165 + A_j[8] * t166;
     const jg_real t169 = A_j[0] * t164 + A_j[1] * t165 + A_j[2] * t166;
-    jac_phi_geometry[13] = C_j[0] * (f_star_in_j_1 * t163 + t167 * g_star_in_j_2 - (f_star_in_j_2 * t162 + t168 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t161 + t168 * g_star_in_j_0 - (f_star_in_j_0 * t163 + t169 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t162 + t169 * g_star_in_j_1 - (f_star_in_j_1 * t161 + t167 *
-        g_star_in_j_0));
-    jac_phi_geometry[14] = C_j[4] * t167 + C_j[3] * t169 + C_j[5] * t168;
     const jg_real t170 = A_i[3] * H_11;
     const jg_real t171 = A_i[4] * H_11;
     const jg_real t172 = A_i[5] * H_11;
     const jg_real t173 = A_j[0] * t170 + A_j[1] * t171 + A_j[2] * t172;
     const jg_real t174 = A_j[3] * t170 + A_j[4] * t171 + A_j[5] * t172;
     const jg_real t175 = A_j[6] * t170 + A_j[7] * t171 + A_j[8] * t172;
-    jac_phi_geometry[15] = C_j[6] * t173 + C_j[7] * t174 + C_j[8] * t175;
     const jg_real t176 = A_i[3] * sine_1;
     const jg_real t177 = A_i[4] * sine_1;
     const jg_real t178 = A_i[5] * sine_1;
     const jg_real t179 = A_j[3] * t176 + A_j[4] * t177 + A_j[5] * t178;
     const jg_real t180 = A_j[6] * t176 + A_j[7] * t177 + A_j[8] * t178;
     const jg_real t181 = A_j[0] * t176 + A_j[1] * t177 + A_j[2] * t178;
-    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t175 + t179 * g_star_in_j_2 - (f_star_in_j_2 * t174 + t180 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t173 + t180 * g_star_in_j_0 - (f_star_in_j_0 * t175 + t181 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t174 + t181 * g_star_in_j_1 - (f_star_in_j_1 * t173 + t179 *
-        g_star_in_j_0));
-    jac_phi_geometry[17] = C_j[4] * t179 + C_j[3] * t181 + C_j[5] * t180;
     const jg_real t182 = A_i[6] * H_11;
     const jg_real t183 = A_i[7] * H_11;
     const jg_real t184 = A_i[8] * H_11;
     const jg_real t185 = A_j[0] * t182 + A_j[1] * t183 + A_j[2] * t184;
     const jg_real t186 = A_j[3] * t182 + A_j[4] * t183 + A_j[5] * t184;
     const jg_real t187 = A_j[6] * t182 + A_j[7] * t183 + A_j[8] * t184;
+    jac_phi_geometry[11] = C_j[4] * t155 + C_j[3] * t157 + C_j[5] * t156;
+    jac_phi_geometry[12] = C_j[6] * t161 + C_j[7] * t162 + C_j[8] * t163;
+    jac_phi_geometry[13] = C_j[0] * (f_star_in_j_1 * t163 + t167 * g_star_in_j_2 - (f_star_in_j_2 * t162 + t168 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t161 + t168 * g_star_in_j_0 - (f_star_in_j_0 * t163 + t169 *
+        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t162 + t169 * g_star_in_j_1 - (f_star_in_j_1 * t161 + t167 *
+        g_star_in_j_0));
+    jac_phi_geometry[14] = C_j[4] * t167 + C_j[3] * t169 + C_j[5] * t168;
+    jac_phi_geometry[15] = C_j[6] * t173 + C_j[7] * t174 + C_j[8] * t175;
+    jac_phi_geometry[16] = C_j[0] * (f_star_in_j_1 * t175 + t179 * g_star_in_j_2 - (f_star_in_j_2 * t174 + t180 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t173 + t180 * g_star_in_j_0 - (f_star_in_j_0 * t175 + t181 *
+        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t174 + t181 * g_star_in_j_1 - (f_star_in_j_1 * t173 + t179 *
+        g_star_in_j_0));
+    jac_phi_geometry[17] = C_j[4] * t179 + C_j[3] * t181 + C_j[5] * t180;
     jac_phi_geometry[18] = C_j[6] * t185 + C_j[7] * t186 + C_j[8] * t187;
     const jg_real t188 = A_i[6] * sine_1;
     const jg_real t189 = A_i[7] * sine_1;
@@ -419,35 +419,35 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     const jg_real t191 = A_j[3] * t188 + A_j[4] * t189 + A_j[5] * t190;
     const jg_real t192 = A_j[6] * t188 + A_j[7] * t189 + A_j[8] * t190;
     const jg_real t193 = A_j[0] * t188 + A_j[1] * t189 + A_j[2] * t190;
-    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t187 + t191 * g_star_in_j_2 - (f_star_in_j_2 * t186 + t192 *
-        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t185 + t192 * g_star_in_j_0 - (f_star_in_j_0 * t187 + t193 *
-        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t186 + t193 * g_star_in_j_1 - (f_star_in_j_1 * t185 + t191 *
-        g_star_in_j_0));
-    jac_phi_geometry[20] = C_j[4] * t191 + C_j[3] * t193 + C_j[5] * t192;
     const jg_real t194 = A_i[0] * sine_0;
     const jg_real t195 = A_i[1] * sine_0;
     const jg_real t196 = A_i[2] * sine_0;
     const jg_real t197 = A_j[0] * t194 + A_j[1] * t195 + A_j[2] * t196;
     const jg_real t198 = A_j[3] * t194 + A_j[4] * t195 + A_j[5] * t196;
     const jg_real t199 = A_j[6] * t194 + A_j[7] * t195 + A_j[8] * t196;
-    jac_phi_geometry[21] = C_j[6] * t197 + C_j[7] * t198 + C_j[8] * t199;
-    jac_phi_geometry[22] = C_j[0] * (f_star_in_j_1 * t199 - f_star_in_j_2 * t198) + C_j[1] * (f_star_in_j_2 * t197 -
-        f_star_in_j_0 * t199) + C_j[2] * (f_star_in_j_0 * t198 - f_star_in_j_1 * t197);
     const jg_real t200 = A_i[3] * sine_0;
     const jg_real t201 = A_i[4] * sine_0;
     const jg_real t202 = A_i[5] * sine_0;
     const jg_real t203 = A_j[0] * t200 + A_j[1] * t201 + A_j[2] * t202;
     const jg_real t204 = A_j[3] * t200 + A_j[4] * t201 + A_j[5] * t202;
     const jg_real t205 = A_j[6] * t200 + A_j[7] * t201 + A_j[8] * t202;
-    jac_phi_geometry[23] = C_j[6] * t203 + C_j[7] * t204 + C_j[8] * t205;
-    jac_phi_geometry[24] = C_j[0] * (f_star_in_j_1 * t205 - f_star_in_j_2 * t204) + C_j[1] * (f_star_in_j_2 * t203 -
-        f_star_in_j_0 * t205) + C_j[2] * (f_star_in_j_0 * t204 - f_star_in_j_1 * t203);
     const jg_real t206 = A_i[6] * sine_0;
     const jg_real t207 = A_i[7] * sine_0;
     const jg_real t208 = A_i[8] * sine_0;
     const jg_real t209 = A_j[0] * t206 + A_j[1] * t207 + A_j[2] * t208;
     const jg_real t210 = A_j[3] * t206 + A_j[4] * t207 + A_j[5] * t208;
     const jg_real t211 = A_j[6] * t206 + A_j[7] * t207 + A_j[8] * t208;
+    jac_phi_geometry[19] = C_j[0] * (f_star_in_j_1 * t187 + t191 * g_star_in_j_2 - (f_star_in_j_2 * t186 + t192 *
+        g_star_in_j_1)) + C_j[1] * (f_star_in_j_2 * t185 + t192 * g_star_in_j_0 - (f_star_in_j_0 * t187 + t193 *
+        g_star_in_j_2)) + C_j[2] * (f_star_in_j_0 * t186 + t193 * g_star_in_j_1 - (f_star_in_j_1 * t185 + t191 *
+        g_star_in_j_0));
+    jac_phi_geometry[20] = C_j[4] * t191 + C_j[3] * t193 + C_j[5] * t192;
+    jac_phi_geometry[21] = C_j[6] * t197 + C_j[7] * t198 + C_j[8] * t199;
+    jac_phi_geometry[22] = C_j[0] * (f_star_in_j_1 * t199 - f_star_in_j_2 * t198) + C_j[1] * (f_star_in_j_2 * t197 -
+        f_star_in_j_0 * t199) + C_j[2] * (f_star_in_j_0 * t198 - f_star_in_j_1 * t197);
+    jac_phi_geometry[23] = C_j[6] * t203 + C_j[7] * t204 + C_j[8] * t205;
+    jac_phi_geometry[24] = C_j[0] * (f_star_in_j_1 * t205 - f_star_in_j_2 * t204) + C_j[1] * (f_star_in_j_2 * t203 -
+        f_star_in_j_0 * t205) + C_j[2] * (f_star_in_j_0 * t204 - f_star_in_j_1 * t203);
     jac_phi_geometry[25] = C_j[6] * t209 + C_j[7] * t210 + C_j[8] * t211;
     jac_phi_geometry[26] = C_j[0] * (f_star_in_j_1 * t211 - f_star_in_j_2 * t210) + C_j[1] * (f_star_in_j_2 * t209 -
         f_star_in_j_0 * t211) + C_j[2] * (f_star_in_j_0 * t210 - f_star_in_j_1 * t209);
@@ -459,13 +459,13 @@ static void jg_universal_parametric_substituted_phi_jacobian(const jg_real *JG_R
     jac_phi_geometry[32] = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[33] = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[34] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
-    jac_phi_geometry[35] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_0 = f_star_in_j_1 * g_star_in_j_2 - f_star_in_j_2 * g_star_in_j_1;
-    jac_phi_geometry[36] = h_star_in_j_0;
     const jg_real h_star_in_j_1 = f_star_in_j_2 * g_star_in_j_0 - f_star_in_j_0 * g_star_in_j_2;
-    jac_phi_geometry[37] = h_star_in_j_1;
     const jg_real h_star_in_j_2 = f_star_in_j_0 * g_star_in_j_1 - f_star_in_j_1 * g_star_in_j_0;
+    jac_phi_geometry[35] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
+    jac_phi_geometry[36] = h_star_in_j_0;
+    jac_phi_geometry[37] = h_star_in_j_1;
     jac_phi_geometry[38] = h_star_in_j_2;
 }
 
@@ -489,23 +489,17 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    jac_phi_q_v_velocity[45] = sine_1;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     const jg_real t6 = cosine_0 * sine_1;
-    jac_phi_q_v_velocity[46] = cosine_1;
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = C_i[1] * H_02 - C_i[4] * t6 + C_i[7] * cosine_1;
-    jac_phi_q_v_velocity[12] = h_j_in_i_1;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_2 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    jac_phi_q_v_velocity[15] = f_j_in_i_2;
     const jg_real t9 = C_i[1] * t6 + C_i[4] * H_02;
     const jg_real t10 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real h_j_in_i_2 = C_i[2] * H_02 - C_i[5] * t6 + C_i[8] * cosine_1;
-    jac_phi_q_v_velocity[17] = h_j_in_i_2;
     const jg_real f_j_in_i_1 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    jac_phi_q_v_velocity[10] = f_j_in_i_1;
     const jg_real t13 = C_i[2] * t6 + C_i[5] * H_02;
     const jg_real t14 = t2 * h_j_in_i_1 + f_j_in_i_2 * t9 - (t10 * h_j_in_i_2 + f_j_in_i_1 * t13);
     /* v_j_in_joint_j = v_j, axes of joint j */
@@ -525,18 +519,24 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
         s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
     const jg_real s_j_cross_omega_j_in_joint_j_2 = C_j[6] * s_j_cross_omega_j_in_j_0 + C_j[7] *
         s_j_cross_omega_j_in_j_1 + C_j[8] * s_j_cross_omega_j_in_j_2;
+    const jg_real f_j_in_i_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
+    jac_phi_q_v_velocity[45] = sine_1;
+    jac_phi_q_v_velocity[46] = cosine_1;
+    jac_phi_q_v_velocity[12] = h_j_in_i_1;
+    jac_phi_q_v_velocity[15] = f_j_in_i_2;
+    jac_phi_q_v_velocity[17] = h_j_in_i_2;
+    jac_phi_q_v_velocity[10] = f_j_in_i_1;
     jac_phi_q_v_alpha[0] = v_j_in_joint_j_0 * t17 + v_j_in_joint_j_1 * t14 + v_j_in_joint_j_2 * t19 -
         (s_j_cross_omega_j_in_joint_j_0 * t17 + s_j_cross_omega_j_in_joint_j_1 * t14 +
         s_j_cross_omega_j_in_joint_j_2 * t19);
-    const jg_real f_j_in_i_0 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     jac_phi_q_v_velocity[5] = f_j_in_i_0;
     const jg_real h_j_in_i_0 = C_i[0] * H_02 - C_i[3] * t6 + C_i[6] * cosine_1;
-    jac_phi_q_v_velocity[7] = h_j_in_i_0;
     const jg_real t28 = t17 * h_j_in_i_2 + f_j_in_i_0 * t13 - (t2 * h_j_in_i_0 + f_j_in_i_2 * t19);
+    const jg_real t29 = t10 * h_j_in_i_0 + f_j_in_i_1 * t19 - (t17 * h_j_in_i_1 + f_j_in_i_0 * t9);
+    jac_phi_q_v_velocity[7] = h_j_in_i_0;
     jac_phi_q_v_alpha[1] = v_j_in_joint_j_0 * t10 + v_j_in_joint_j_1 * t28 + v_j_in_joint_j_2 * t9 -
         (s_j_cross_omega_j_in_joint_j_0 * t10 + s_j_cross_omega_j_in_joint_j_1 * t28 +
         s_j_cross_omega_j_in_joint_j_2 * t9);
-    const jg_real t29 = t10 * h_j_in_i_0 + f_j_in_i_1 * t19 - (t17 * h_j_in_i_1 + f_j_in_i_0 * t9);
     jac_phi_q_v_alpha[2] = v_j_in_joint_j_0 * t2 + v_j_in_joint_j_1 * t29 + v_j_in_joint_j_2 * t13 -
         (s_j_cross_omega_j_in_joint_j_0 * t2 + s_j_cross_omega_j_in_joint_j_1 * t29 + s_j_cross_omega_j_in_joint_j_2
         * t13);
@@ -545,143 +545,143 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_geometry[2] = omega_i[2];
     jac_phi_q_v_alpha[3] = omega_i[0] * t17 + omega_i[1] * t10 + omega_i[2] * t2;
     jac_phi_q_v_alpha[4] = omega_i[0] * t14 + omega_i[1] * t28 + omega_i[2] * t29;
-    jac_phi_q_v_alpha[5] = omega_i[0] * t19 + omega_i[1] * t9 + omega_i[2] * t13;
     const jg_real t30 = sine_0 * cosine_1;
     const jg_real t31 = cosine_0 * cosine_1;
     const jg_real t32 = C_i[1] * t30 - C_i[4] * t31 - C_i[7] * sine_1;
     const jg_real t33 = C_i[2] * t30 - C_i[5] * t31 - C_i[8] * sine_1;
     const jg_real t34 = f_j_in_i_2 * t32 - f_j_in_i_1 * t33;
     const jg_real t35 = C_i[0] * t30 - C_i[3] * t31 - C_i[6] * sine_1;
+    const jg_real t36 = f_j_in_i_0 * t33 - f_j_in_i_2 * t35;
+    const jg_real t37 = f_j_in_i_1 * t35 - f_j_in_i_0 * t32;
+    jac_phi_q_v_alpha[5] = omega_i[0] * t19 + omega_i[1] * t9 + omega_i[2] * t13;
     jac_phi_q_v_alpha[6] = v_j_in_joint_j_2 * t35 + v_j_in_joint_j_1 * t34 - (s_j_cross_omega_j_in_joint_j_2 * t35 +
         s_j_cross_omega_j_in_joint_j_1 * t34);
-    const jg_real t36 = f_j_in_i_0 * t33 - f_j_in_i_2 * t35;
     jac_phi_q_v_alpha[7] = v_j_in_joint_j_2 * t32 + v_j_in_joint_j_1 * t36 - (s_j_cross_omega_j_in_joint_j_2 * t32 +
         s_j_cross_omega_j_in_joint_j_1 * t36);
-    const jg_real t37 = f_j_in_i_1 * t35 - f_j_in_i_0 * t32;
     jac_phi_q_v_alpha[8] = v_j_in_joint_j_2 * t33 + v_j_in_joint_j_1 * t37 - (s_j_cross_omega_j_in_joint_j_2 * t33 +
         s_j_cross_omega_j_in_joint_j_1 * t37);
     jac_phi_q_v_alpha[9] = omega_i[0] * t34 + omega_i[1] * t36 + omega_i[2] * t37 + alphadot[0] * cosine_1;
     jac_phi_q_v_alpha[10] = omega_i[0] * t35 + omega_i[1] * t32 + omega_i[2] * t33 - alphadot[0] * sine_1;
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
-    jac_phi_q_v_geometry[4] = -omega_i[1];
     const jg_real t38 = v_j_in_joint_j_0 * cosine_0 + v_j_in_joint_j_2 * H_02 - (s_j_cross_omega_j_in_joint_j_0 *
         cosine_0 + s_j_cross_omega_j_in_joint_j_2 * H_02);
+    const jg_real t39 = H_02 * f_j_in_i_2 - cosine_0 * h_j_in_i_2;
+    const jg_real t40 = s_j_cross_omega_j_in_joint_j_1 * t39 - v_j_in_joint_j_1 * t39;
+    const jg_real t41 = cosine_0 * h_j_in_i_1 - H_02 * f_j_in_i_1;
+    const jg_real t42 = s_j_cross_omega_j_in_joint_j_1 * t41 - v_j_in_joint_j_1 * t41;
+    jac_phi_q_v_geometry[4] = -omega_i[1];
     jac_phi_q_v_geometry[6] = t38;
     jac_phi_q_v_geometry[13] = t38;
     jac_phi_q_v_geometry[20] = t38;
-    const jg_real t39 = H_02 * f_j_in_i_2 - cosine_0 * h_j_in_i_2;
-    const jg_real t40 = s_j_cross_omega_j_in_joint_j_1 * t39 - v_j_in_joint_j_1 * t39;
     jac_phi_q_v_geometry[7] = t40;
-    const jg_real t41 = cosine_0 * h_j_in_i_1 - H_02 * f_j_in_i_1;
-    const jg_real t42 = s_j_cross_omega_j_in_joint_j_1 * t41 - v_j_in_joint_j_1 * t41;
     jac_phi_q_v_geometry[8] = t42;
     jac_phi_q_v_geometry[9] = omega_i[0] * cosine_0;
     jac_phi_q_v_geometry[10] = -(omega_i[1] * t39 + omega_i[2] * t41);
-    jac_phi_q_v_geometry[11] = omega_i[0] * H_02;
-    jac_phi_q_v_geometry[12] = -t40;
     const jg_real t43 = H_02 * f_j_in_i_0 - cosine_0 * h_j_in_i_0;
     const jg_real t44 = s_j_cross_omega_j_in_joint_j_1 * t43 - v_j_in_joint_j_1 * t43;
+    jac_phi_q_v_geometry[11] = omega_i[0] * H_02;
+    jac_phi_q_v_geometry[12] = -t40;
     jac_phi_q_v_geometry[14] = t44;
     jac_phi_q_v_geometry[15] = omega_i[1] * cosine_0;
     jac_phi_q_v_geometry[16] = omega_i[0] * t39 - omega_i[2] * t43;
     jac_phi_q_v_geometry[17] = omega_i[1] * H_02;
     jac_phi_q_v_geometry[18] = -t42;
     jac_phi_q_v_geometry[19] = -t44;
+    const jg_real t45 = v_j_in_joint_j_0 * sine_0 - v_j_in_joint_j_2 * t6 - (s_j_cross_omega_j_in_joint_j_0 * sine_0
+        - s_j_cross_omega_j_in_joint_j_2 * t6);
+    const jg_real t46 = t6 * f_j_in_i_2 + sine_0 * h_j_in_i_2;
+    const jg_real t47 = v_j_in_joint_j_1 * t46 - s_j_cross_omega_j_in_joint_j_1 * t46;
+    const jg_real t48 = sine_0 * h_j_in_i_1 + t6 * f_j_in_i_1;
+    const jg_real t49 = s_j_cross_omega_j_in_joint_j_1 * t48 - v_j_in_joint_j_1 * t48;
     jac_phi_q_v_geometry[21] = omega_i[2] * cosine_0;
     jac_phi_q_v_geometry[22] = omega_i[0] * t41 + omega_i[1] * t43;
     jac_phi_q_v_geometry[23] = omega_i[2] * H_02;
-    const jg_real t45 = v_j_in_joint_j_0 * sine_0 - v_j_in_joint_j_2 * t6 - (s_j_cross_omega_j_in_joint_j_0 * sine_0
-        - s_j_cross_omega_j_in_joint_j_2 * t6);
     jac_phi_q_v_geometry[24] = t45;
     jac_phi_q_v_geometry[31] = t45;
     jac_phi_q_v_geometry[38] = t45;
-    const jg_real t46 = t6 * f_j_in_i_2 + sine_0 * h_j_in_i_2;
-    const jg_real t47 = v_j_in_joint_j_1 * t46 - s_j_cross_omega_j_in_joint_j_1 * t46;
     jac_phi_q_v_geometry[25] = t47;
-    const jg_real t48 = sine_0 * h_j_in_i_1 + t6 * f_j_in_i_1;
-    const jg_real t49 = s_j_cross_omega_j_in_joint_j_1 * t48 - v_j_in_joint_j_1 * t48;
     jac_phi_q_v_geometry[26] = t49;
+    const jg_real t50 = t6 * f_j_in_i_0 + sine_0 * h_j_in_i_0;
+    const jg_real t51 = v_j_in_joint_j_1 * t50 - s_j_cross_omega_j_in_joint_j_1 * t50;
     jac_phi_q_v_geometry[27] = omega_i[0] * sine_0;
     jac_phi_q_v_geometry[28] = omega_i[1] * t46 - omega_i[2] * t48;
     jac_phi_q_v_geometry[29] = -(omega_i[0] * t6);
     jac_phi_q_v_geometry[30] = -t47;
-    const jg_real t50 = t6 * f_j_in_i_0 + sine_0 * h_j_in_i_0;
-    const jg_real t51 = v_j_in_joint_j_1 * t50 - s_j_cross_omega_j_in_joint_j_1 * t50;
     jac_phi_q_v_geometry[32] = t51;
     jac_phi_q_v_geometry[33] = omega_i[1] * sine_0;
     jac_phi_q_v_geometry[34] = omega_i[2] * t50 - omega_i[0] * t46;
     jac_phi_q_v_geometry[35] = -(omega_i[1] * t6);
+    const jg_real t52 = v_j_in_joint_j_2 * cosine_1 - s_j_cross_omega_j_in_joint_j_2 * cosine_1;
     jac_phi_q_v_geometry[36] = -t49;
     jac_phi_q_v_geometry[37] = -t51;
     jac_phi_q_v_geometry[39] = omega_i[2] * sine_0;
     jac_phi_q_v_geometry[40] = omega_i[0] * t48 - omega_i[1] * t50;
     jac_phi_q_v_geometry[41] = -(omega_i[2] * t6);
-    const jg_real t52 = v_j_in_joint_j_2 * cosine_1 - s_j_cross_omega_j_in_joint_j_2 * cosine_1;
     jac_phi_q_v_geometry[42] = t52;
     jac_phi_q_v_geometry[48] = t52;
     jac_phi_q_v_geometry[54] = t52;
     const jg_real t53 = cosine_1 * f_j_in_i_2;
     const jg_real t54 = s_j_cross_omega_j_in_joint_j_1 * t53 - v_j_in_joint_j_1 * t53;
-    jac_phi_q_v_geometry[43] = t54;
     const jg_real t55 = cosine_1 * f_j_in_i_1;
     const jg_real t56 = v_j_in_joint_j_1 * t55 - s_j_cross_omega_j_in_joint_j_1 * t55;
+    const jg_real t57 = cosine_1 * f_j_in_i_0;
+    const jg_real t58 = s_j_cross_omega_j_in_joint_j_1 * t57 - v_j_in_joint_j_1 * t57;
+    jac_phi_q_v_geometry[43] = t54;
     jac_phi_q_v_geometry[44] = t56;
     jac_phi_q_v_geometry[45] = omega_i[2] * t55 - omega_i[1] * t53;
     jac_phi_q_v_geometry[46] = omega_i[0] * cosine_1;
     jac_phi_q_v_geometry[47] = -t54;
-    const jg_real t57 = cosine_1 * f_j_in_i_0;
-    const jg_real t58 = s_j_cross_omega_j_in_joint_j_1 * t57 - v_j_in_joint_j_1 * t57;
     jac_phi_q_v_geometry[49] = t58;
     jac_phi_q_v_geometry[50] = omega_i[0] * t53 - omega_i[2] * t57;
     jac_phi_q_v_geometry[51] = omega_i[1] * cosine_1;
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
+    const jg_real t60 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
+    const jg_real t61 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
+    const jg_real t62 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
+    const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
     jac_phi_q_v_geometry[52] = -t56;
     jac_phi_q_v_geometry[53] = -t58;
     jac_phi_q_v_geometry[55] = omega_i[1] * t57 - omega_i[0] * t55;
     jac_phi_q_v_geometry[56] = omega_i[2] * cosine_1;
-    /* g_j_in_i = g_j, axes of body i */
-    const jg_real g_j_in_i_0 = f_j_in_i_2 * h_j_in_i_1 - f_j_in_i_1 * h_j_in_i_2;
     jac_phi_q_v_velocity[6] = g_j_in_i_0;
-    const jg_real t60 = omega_j[1] * C_j[5] - omega_j[2] * C_j[4];
-    const jg_real t61 = omega_j[1] * C_j[2] - omega_j[2] * C_j[1];
-    const jg_real t62 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     jac_phi_q_v_geometry[57] = -(t61 * f_j_in_i_0 + t60 * g_j_in_i_0 + t62 * h_j_in_i_0);
-    const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
     jac_phi_q_v_velocity[11] = g_j_in_i_1;
     jac_phi_q_v_geometry[58] = -(t61 * f_j_in_i_1 + t60 * g_j_in_i_1 + t62 * h_j_in_i_1);
     const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
-    jac_phi_q_v_velocity[16] = g_j_in_i_2;
-    jac_phi_q_v_geometry[59] = -(t61 * f_j_in_i_2 + t60 * g_j_in_i_2 + t62 * h_j_in_i_2);
     const jg_real t65 = omega_j[2] * C_j[3] - omega_j[0] * C_j[5];
     const jg_real t66 = omega_j[2] * C_j[0] - omega_j[0] * C_j[2];
     const jg_real t67 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
-    jac_phi_q_v_geometry[60] = -(t66 * f_j_in_i_0 + t65 * g_j_in_i_0 + t67 * h_j_in_i_0);
-    jac_phi_q_v_geometry[61] = -(t66 * f_j_in_i_1 + t65 * g_j_in_i_1 + t67 * h_j_in_i_1);
-    jac_phi_q_v_geometry[62] = -(t66 * f_j_in_i_2 + t65 * g_j_in_i_2 + t67 * h_j_in_i_2);
     const jg_real t68 = omega_j[0] * C_j[4] - omega_j[1] * C_j[3];
     const jg_real t69 = omega_j[0] * C_j[1] - omega_j[1] * C_j[0];
     const jg_real t70 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
+    jac_phi_q_v_velocity[16] = g_j_in_i_2;
+    jac_phi_q_v_geometry[59] = -(t61 * f_j_in_i_2 + t60 * g_j_in_i_2 + t62 * h_j_in_i_2);
+    jac_phi_q_v_geometry[60] = -(t66 * f_j_in_i_0 + t65 * g_j_in_i_0 + t67 * h_j_in_i_0);
+    jac_phi_q_v_geometry[61] = -(t66 * f_j_in_i_1 + t65 * g_j_in_i_1 + t67 * h_j_in_i_1);
+    jac_phi_q_v_geometry[62] = -(t66 * f_j_in_i_2 + t65 * g_j_in_i_2 + t67 * h_j_in_i_2);
     jac_phi_q_v_geometry[63] = -(t69 * f_j_in_i_0 + t68 * g_j_in_i_0 + t70 * h_j_in_i_0);
     jac_phi_q_v_geometry[64] = -(t69 * f_j_in_i_1 + t68 * g_j_in_i_1 + t70 * h_j_in_i_1);
     jac_phi_q_v_geometry[65] = -(t69 * f_j_in_i_2 + t68 * g_j_in_i_2 + t70 * h_j_in_i_2);
+    const jg_real t71 = -omega_j[0];
     jac_phi_q_v_geometry[66] = v_j[0] * f_j_in_i_0 - s_j_cross_omega_j_in_j_0 * f_j_in_i_0;
     jac_phi_q_v_geometry[67] = v_j[0] * f_j_in_i_1 - s_j_cross_omega_j_in_j_0 * f_j_in_i_1;
     jac_phi_q_v_geometry[68] = v_j[0] * f_j_in_i_2 - s_j_cross_omega_j_in_j_0 * f_j_in_i_2;
-    const jg_real t71 = -omega_j[0];
     jac_phi_q_v_geometry[69] = t71;
     jac_phi_q_v_geometry[81] = t71;
     jac_phi_q_v_geometry[93] = t71;
     jac_phi_q_v_geometry[70] = v_j[1] * f_j_in_i_0 - s_j_cross_omega_j_in_j_1 * f_j_in_i_0;
     jac_phi_q_v_geometry[71] = v_j[1] * f_j_in_i_1 - s_j_cross_omega_j_in_j_1 * f_j_in_i_1;
-    jac_phi_q_v_geometry[72] = v_j[1] * f_j_in_i_2 - s_j_cross_omega_j_in_j_1 * f_j_in_i_2;
     const jg_real t72 = -omega_j[1];
+    const jg_real t73 = -omega_j[2];
+    jac_phi_q_v_geometry[72] = v_j[1] * f_j_in_i_2 - s_j_cross_omega_j_in_j_1 * f_j_in_i_2;
     jac_phi_q_v_geometry[73] = t72;
     jac_phi_q_v_geometry[85] = t72;
     jac_phi_q_v_geometry[97] = t72;
     jac_phi_q_v_geometry[74] = v_j[2] * f_j_in_i_0 - s_j_cross_omega_j_in_j_2 * f_j_in_i_0;
     jac_phi_q_v_geometry[75] = v_j[2] * f_j_in_i_1 - s_j_cross_omega_j_in_j_2 * f_j_in_i_1;
     jac_phi_q_v_geometry[76] = v_j[2] * f_j_in_i_2 - s_j_cross_omega_j_in_j_2 * f_j_in_i_2;
-    const jg_real t73 = -omega_j[2];
     jac_phi_q_v_geometry[77] = t73;
     jac_phi_q_v_geometry[89] = t73;
     jac_phi_q_v_geometry[101] = t73;
@@ -717,22 +717,22 @@ static void jg_universal_parametric_substituted_phi_q_v_jacobian(const jg_real *
     jac_phi_q_v_velocity[20] = C_j[0] * f_j_in_i_2 + C_j[3] * g_j_in_i_2 + C_j[6] * h_j_in_i_2;
     jac_phi_q_v_velocity[21] = C_j[1] * f_j_in_i_0 + C_j[4] * g_j_in_i_0 + C_j[7] * h_j_in_i_0;
     jac_phi_q_v_velocity[22] = C_j[1] * f_j_in_i_1 + C_j[4] * g_j_in_i_1 + C_j[7] * h_j_in_i_1;
+    const jg_real t74 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
+    const jg_real t75 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
+    const jg_real t76 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
     jac_phi_q_v_velocity[23] = C_j[1] * f_j_in_i_2 + C_j[4] * g_j_in_i_2 + C_j[7] * h_j_in_i_2;
     jac_phi_q_v_velocity[24] = C_j[2] * f_j_in_i_0 + C_j[5] * g_j_in_i_0 + C_j[8] * h_j_in_i_0;
     jac_phi_q_v_velocity[25] = C_j[2] * f_j_in_i_1 + C_j[5] * g_j_in_i_1 + C_j[8] * h_j_in_i_1;
     jac_phi_q_v_velocity[26] = C_j[2] * f_j_in_i_2 + C_j[5] * g_j_in_i_2 + C_j[8] * h_j_in_i_2;
-    const jg_real t74 = s_j[2] * C_j[4] - s_j[1] * C_j[5];
-    const jg_real t75 = s_j[2] * C_j[1] - s_j[1] * C_j[2];
-    const jg_real t76 = s_j[2] * C_j[7] - s_j[1] * C_j[8];
     jac_phi_q_v_velocity[27] = -(t75 * f_j_in_i_0 + t74 * g_j_in_i_0 + t76 * h_j_in_i_0);
     jac_phi_q_v_velocity[28] = -(t75 * f_j_in_i_1 + t74 * g_j_in_i_1 + t76 * h_j_in_i_1);
     jac_phi_q_v_velocity[29] = -(t75 * f_j_in_i_2 + t74 * g_j_in_i_2 + t76 * h_j_in_i_2);
     jac_phi_q_v_velocity[30] = -C_j[0];
-    jac_phi_q_v_velocity[31] = -C_j[3];
-    jac_phi_q_v_velocity[32] = -C_j[6];
     const jg_real t77 = s_j[0] * C_j[5] - s_j[2] * C_j[3];
     const jg_real t78 = s_j[0] * C_j[2] - s_j[2] * C_j[0];
     const jg_real t79 = s_j[0] * C_j[8] - s_j[2] * C_j[6];
+    jac_phi_q_v_velocity[31] = -C_j[3];
+    jac_phi_q_v_velocity[32] = -C_j[6];
     jac_phi_q_v_velocity[33] = -(t78 * f_j_in_i_0 + t77 * g_j_in_i_0 + t79 * h_j_in_i_0);
     jac_phi_q_v_velocity[34] = -(t78 * f_j_in_i_1 + t77 * g_j_in_i_1 + t79 * h_j_in_i_1);
     jac_phi_q_v_velocity[35] = -(t78 * f_j_in_i_2 + t77 * g_j_in_i_2 + t79 * h_j_in_i_2);
@@ -766,10 +766,8 @@ static void jg_universal_parametric_substituted_phi_q_t_lambda_jacobian(const jg
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    jac_phi_q_t_lambda_lambda[47] = cosine_1;
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
-    jac_phi_q_t_lambda_lambda[40] = sine_1;
     const jg_real t5 = cosine_0 * sine_1;
     const jg_real t6 = lambda[5] * t5 - (lambda[3] * sine_0 + lambda[4] * H_11);
     const jg_real t7 = sine_0 * cosine_1;
@@ -777,15 +775,14 @@ static void jg_universal_parametric_substituted_phi_q_t_lambda_jacobian(const jg
     const jg_real H_02 = sine_0 * sine_1;
     /* v_0_in_joint_i = lambda_3 f_j + lambda_4 g_j + lambda_5 h_j, axes of joint i */
     const jg_real v_0_in_joint_i_0 = lambda[3] * cosine_0 - lambda[4] * t7 + lambda[5] * H_02;
+    jac_phi_q_t_lambda_lambda[47] = cosine_1;
+    jac_phi_q_t_lambda_lambda[40] = sine_1;
     jac_phi_q_t_lambda_geometry[6] = v_0_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[13] = v_0_in_joint_i_0;
     jac_phi_q_t_lambda_geometry[20] = v_0_in_joint_i_0;
     jac_phi_q_t_lambda_alpha[0] = C_i[0] * t6 + C_i[3] * v_0_in_joint_i_0;
     jac_phi_q_t_lambda_alpha[1] = C_i[1] * t6 + C_i[4] * v_0_in_joint_i_0;
     jac_phi_q_t_lambda_alpha[2] = C_i[2] * t6 + C_i[5] * v_0_in_joint_i_0;
-    jac_phi_q_t_lambda_geometry[3] = lambda[0];
-    jac_phi_q_t_lambda_geometry[4] = lambda[1];
-    jac_phi_q_t_lambda_geometry[0] = lambda[2];
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
@@ -793,65 +790,68 @@ static void jg_universal_parametric_substituted_phi_q_t_lambda_jacobian(const jg
     const jg_real t13 = lambda_0_1_2_in_joint_i_0 * H_11 + lambda_0_1_2_in_joint_i_1 * t7;
     const jg_real t14 = lambda_0_1_2_in_joint_i_0 * t5 + lambda_0_1_2_in_joint_i_1 * H_02;
     const jg_real t15 = C_j[0] * t12 - C_j[3] * t13 + C_j[6] * t14;
-    jac_phi_q_t_lambda_alpha[3] = t15;
     const jg_real t16 = C_j[1] * t12 - C_j[4] * t13 + C_j[7] * t14;
-    jac_phi_q_t_lambda_alpha[4] = t16;
     const jg_real t17 = C_j[2] * t12 - C_j[5] * t13 + C_j[8] * t14;
+    jac_phi_q_t_lambda_geometry[3] = lambda[0];
+    jac_phi_q_t_lambda_geometry[4] = lambda[1];
+    jac_phi_q_t_lambda_geometry[0] = lambda[2];
+    jac_phi_q_t_lambda_alpha[3] = t15;
+    jac_phi_q_t_lambda_alpha[4] = t16;
     jac_phi_q_t_lambda_alpha[5] = t17;
     jac_phi_q_t_lambda_alpha[6] = s_j[1] * t17 - s_j[2] * t16;
     jac_phi_q_t_lambda_alpha[7] = s_j[2] * t15 - s_j[0] * t17;
-    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t16 - s_j[1] * t15;
     const jg_real t18 = lambda[4] * H_02 + lambda[5] * t7;
     const jg_real t19 = lambda[4] * t5 + lambda[5] * H_11;
     const jg_real t20 = lambda[4] * cosine_1 - lambda[5] * sine_1;
-    jac_phi_q_t_lambda_alpha[18] = t20;
-    jac_phi_q_t_lambda_alpha[9] = C_i[0] * t18 - C_i[3] * t19 + C_i[6] * t20;
-    jac_phi_q_t_lambda_alpha[10] = C_i[1] * t18 - C_i[4] * t19 + C_i[7] * t20;
-    jac_phi_q_t_lambda_alpha[11] = C_i[2] * t18 - C_i[5] * t19 + C_i[8] * t20;
     const jg_real lambda_0_1_2_in_joint_i_2 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_2 = lambda_0_1_2_in_joint_i_0 * H_02 - lambda_0_1_2_in_joint_i_1 * t5 +
         lambda_0_1_2_in_joint_i_2 * cosine_1;
+    jac_phi_q_t_lambda_alpha[8] = s_j[0] * t16 - s_j[1] * t15;
+    jac_phi_q_t_lambda_alpha[18] = t20;
+    jac_phi_q_t_lambda_alpha[9] = C_i[0] * t18 - C_i[3] * t19 + C_i[6] * t20;
+    jac_phi_q_t_lambda_alpha[10] = C_i[1] * t18 - C_i[4] * t19 + C_i[7] * t20;
+    jac_phi_q_t_lambda_alpha[11] = C_i[2] * t18 - C_i[5] * t19 + C_i[8] * t20;
     jac_phi_q_t_lambda_geometry[99] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[103] = lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[107] = lambda_0_1_2_in_joint_j_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_1 * H_11 - lambda_0_1_2_in_joint_i_0 * t7 +
         lambda_0_1_2_in_joint_i_2 * sine_1;
+    const jg_real t24 = C_j[3] * lambda_0_1_2_in_joint_j_2 - C_j[6] * lambda_0_1_2_in_joint_j_1;
+    const jg_real t25 = C_j[4] * lambda_0_1_2_in_joint_j_2 - C_j[7] * lambda_0_1_2_in_joint_j_1;
+    const jg_real t26 = C_j[5] * lambda_0_1_2_in_joint_j_2 - C_j[8] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[87] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[91] = lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[95] = lambda_0_1_2_in_joint_j_1;
-    const jg_real t24 = C_j[3] * lambda_0_1_2_in_joint_j_2 - C_j[6] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_alpha[12] = t24;
-    const jg_real t25 = C_j[4] * lambda_0_1_2_in_joint_j_2 - C_j[7] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_alpha[13] = t25;
-    const jg_real t26 = C_j[5] * lambda_0_1_2_in_joint_j_2 - C_j[8] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_alpha[14] = t26;
     jac_phi_q_t_lambda_alpha[15] = s_j[1] * t26 - s_j[2] * t25;
     jac_phi_q_t_lambda_alpha[16] = s_j[2] * t24 - s_j[0] * t26;
-    jac_phi_q_t_lambda_alpha[17] = s_j[0] * t25 - s_j[1] * t24;
-    jac_phi_q_t_lambda_geometry[1] = -lambda[1];
-    jac_phi_q_t_lambda_geometry[2] = -lambda[2];
-    jac_phi_q_t_lambda_geometry[5] = -lambda[0];
     const jg_real t27 = lambda[0] * cosine_0;
     const jg_real t28 = lambda[0] * t7;
     const jg_real t29 = lambda[0] * H_02;
     const jg_real t30 = C_j[0] * t27 - C_j[3] * t28 + C_j[6] * t29;
-    jac_phi_q_t_lambda_geometry[7] = t30;
     const jg_real t31 = C_j[1] * t27 - C_j[4] * t28 + C_j[7] * t29;
-    jac_phi_q_t_lambda_geometry[8] = t31;
     const jg_real t32 = C_j[2] * t27 - C_j[5] * t28 + C_j[8] * t29;
+    jac_phi_q_t_lambda_alpha[17] = s_j[0] * t25 - s_j[1] * t24;
+    jac_phi_q_t_lambda_geometry[1] = -lambda[1];
+    jac_phi_q_t_lambda_geometry[2] = -lambda[2];
+    jac_phi_q_t_lambda_geometry[5] = -lambda[0];
+    jac_phi_q_t_lambda_geometry[7] = t30;
+    jac_phi_q_t_lambda_geometry[8] = t31;
     jac_phi_q_t_lambda_geometry[9] = t32;
     jac_phi_q_t_lambda_geometry[10] = s_j[1] * t32 - s_j[2] * t31;
-    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t30 - s_j[0] * t32;
-    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t31 - s_j[1] * t30;
     const jg_real t33 = lambda[1] * cosine_0;
     const jg_real t34 = lambda[1] * t7;
     const jg_real t35 = lambda[1] * H_02;
     const jg_real t36 = C_j[0] * t33 - C_j[3] * t34 + C_j[6] * t35;
-    jac_phi_q_t_lambda_geometry[14] = t36;
     const jg_real t37 = C_j[1] * t33 - C_j[4] * t34 + C_j[7] * t35;
-    jac_phi_q_t_lambda_geometry[15] = t37;
     const jg_real t38 = C_j[2] * t33 - C_j[5] * t34 + C_j[8] * t35;
+    jac_phi_q_t_lambda_geometry[11] = s_j[2] * t30 - s_j[0] * t32;
+    jac_phi_q_t_lambda_geometry[12] = s_j[0] * t31 - s_j[1] * t30;
+    jac_phi_q_t_lambda_geometry[14] = t36;
+    jac_phi_q_t_lambda_geometry[15] = t37;
     jac_phi_q_t_lambda_geometry[16] = t38;
     jac_phi_q_t_lambda_geometry[17] = s_j[1] * t38 - s_j[2] * t37;
     jac_phi_q_t_lambda_geometry[18] = s_j[2] * t36 - s_j[0] * t38;
@@ -860,15 +860,15 @@ static void jg_universal_parametric_substituted_phi_q_t_lambda_jacobian(const jg
     const jg_real t40 = lambda[2] * t7;
     const jg_real t41 = lambda[2] * H_02;
     const jg_real t42 = C_j[0] * t39 - C_j[3] * t40 + C_j[6] * t41;
-    jac_phi_q_t_lambda_geometry[21] = t42;
     const jg_real t43 = C_j[1] * t39 - C_j[4] * t40 + C_j[7] * t41;
-    jac_phi_q_t_lambda_geometry[22] = t43;
     const jg_real t44 = C_j[2] * t39 - C_j[5] * t40 + C_j[8] * t41;
+    const jg_real t45 = -t6;
+    jac_phi_q_t_lambda_geometry[21] = t42;
+    jac_phi_q_t_lambda_geometry[22] = t43;
     jac_phi_q_t_lambda_geometry[23] = t44;
     jac_phi_q_t_lambda_geometry[24] = s_j[1] * t44 - s_j[2] * t43;
     jac_phi_q_t_lambda_geometry[25] = s_j[2] * t42 - s_j[0] * t44;
     jac_phi_q_t_lambda_geometry[26] = s_j[0] * t43 - s_j[1] * t42;
-    const jg_real t45 = -t6;
     jac_phi_q_t_lambda_geometry[27] = t45;
     jac_phi_q_t_lambda_geometry[34] = t45;
     jac_phi_q_t_lambda_geometry[41] = t45;
@@ -876,182 +876,182 @@ static void jg_universal_parametric_substituted_phi_q_t_lambda_jacobian(const jg
     const jg_real t47 = lambda[0] * H_11;
     const jg_real t48 = lambda[0] * t5;
     const jg_real t49 = C_j[0] * t46 + C_j[3] * t47 - C_j[6] * t48;
-    jac_phi_q_t_lambda_geometry[28] = t49;
     const jg_real t50 = C_j[1] * t46 + C_j[4] * t47 - C_j[7] * t48;
-    jac_phi_q_t_lambda_geometry[29] = t50;
     const jg_real t51 = C_j[2] * t46 + C_j[5] * t47 - C_j[8] * t48;
-    jac_phi_q_t_lambda_geometry[30] = t51;
-    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t51 - s_j[2] * t50;
-    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t49 - s_j[0] * t51;
-    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t50 - s_j[1] * t49;
     const jg_real t52 = lambda[1] * sine_0;
     const jg_real t53 = lambda[1] * H_11;
     const jg_real t54 = lambda[1] * t5;
     const jg_real t55 = C_j[0] * t52 + C_j[3] * t53 - C_j[6] * t54;
-    jac_phi_q_t_lambda_geometry[35] = t55;
     const jg_real t56 = C_j[1] * t52 + C_j[4] * t53 - C_j[7] * t54;
+    jac_phi_q_t_lambda_geometry[28] = t49;
+    jac_phi_q_t_lambda_geometry[29] = t50;
+    jac_phi_q_t_lambda_geometry[30] = t51;
+    jac_phi_q_t_lambda_geometry[31] = s_j[1] * t51 - s_j[2] * t50;
+    jac_phi_q_t_lambda_geometry[32] = s_j[2] * t49 - s_j[0] * t51;
+    jac_phi_q_t_lambda_geometry[33] = s_j[0] * t50 - s_j[1] * t49;
+    jac_phi_q_t_lambda_geometry[35] = t55;
     jac_phi_q_t_lambda_geometry[36] = t56;
     const jg_real t57 = C_j[2] * t52 + C_j[5] * t53 - C_j[8] * t54;
-    jac_phi_q_t_lambda_geometry[37] = t57;
-    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t57 - s_j[2] * t56;
-    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t55 - s_j[0] * t57;
-    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t56 - s_j[1] * t55;
     const jg_real t58 = lambda[2] * sine_0;
     const jg_real t59 = lambda[2] * H_11;
     const jg_real t60 = lambda[2] * t5;
     const jg_real t61 = C_j[0] * t58 + C_j[3] * t59 - C_j[6] * t60;
-    jac_phi_q_t_lambda_geometry[42] = t61;
     const jg_real t62 = C_j[1] * t58 + C_j[4] * t59 - C_j[7] * t60;
-    jac_phi_q_t_lambda_geometry[43] = t62;
     const jg_real t63 = C_j[2] * t58 + C_j[5] * t59 - C_j[8] * t60;
+    jac_phi_q_t_lambda_geometry[37] = t57;
+    jac_phi_q_t_lambda_geometry[38] = s_j[1] * t57 - s_j[2] * t56;
+    jac_phi_q_t_lambda_geometry[39] = s_j[2] * t55 - s_j[0] * t57;
+    jac_phi_q_t_lambda_geometry[40] = s_j[0] * t56 - s_j[1] * t55;
+    jac_phi_q_t_lambda_geometry[42] = t61;
+    jac_phi_q_t_lambda_geometry[43] = t62;
     jac_phi_q_t_lambda_geometry[44] = t63;
     jac_phi_q_t_lambda_geometry[45] = s_j[1] * t63 - s_j[2] * t62;
-    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t61 - s_j[0] * t63;
-    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t62 - s_j[1] * t61;
     const jg_real v_0_in_joint_i_2 = lambda[4] * sine_1 + lambda[5] * cosine_1;
-    jac_phi_q_t_lambda_geometry[48] = v_0_in_joint_i_2;
-    jac_phi_q_t_lambda_geometry[55] = v_0_in_joint_i_2;
-    jac_phi_q_t_lambda_geometry[62] = v_0_in_joint_i_2;
     const jg_real t65 = lambda[0] * sine_1;
     const jg_real t66 = lambda[0] * cosine_1;
     const jg_real t67 = C_j[3] * t65 + C_j[6] * t66;
-    jac_phi_q_t_lambda_geometry[49] = t67;
     const jg_real t68 = C_j[4] * t65 + C_j[7] * t66;
-    jac_phi_q_t_lambda_geometry[50] = t68;
     const jg_real t69 = C_j[5] * t65 + C_j[8] * t66;
+    jac_phi_q_t_lambda_geometry[46] = s_j[2] * t61 - s_j[0] * t63;
+    jac_phi_q_t_lambda_geometry[47] = s_j[0] * t62 - s_j[1] * t61;
+    jac_phi_q_t_lambda_geometry[48] = v_0_in_joint_i_2;
+    jac_phi_q_t_lambda_geometry[55] = v_0_in_joint_i_2;
+    jac_phi_q_t_lambda_geometry[62] = v_0_in_joint_i_2;
+    jac_phi_q_t_lambda_geometry[49] = t67;
+    jac_phi_q_t_lambda_geometry[50] = t68;
     jac_phi_q_t_lambda_geometry[51] = t69;
-    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t69 - s_j[2] * t68;
-    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t67 - s_j[0] * t69;
-    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t68 - s_j[1] * t67;
     const jg_real t70 = lambda[1] * sine_1;
     const jg_real t71 = lambda[1] * cosine_1;
     const jg_real t72 = C_j[3] * t70 + C_j[6] * t71;
-    jac_phi_q_t_lambda_geometry[56] = t72;
     const jg_real t73 = C_j[4] * t70 + C_j[7] * t71;
-    jac_phi_q_t_lambda_geometry[57] = t73;
     const jg_real t74 = C_j[5] * t70 + C_j[8] * t71;
+    jac_phi_q_t_lambda_geometry[52] = s_j[1] * t69 - s_j[2] * t68;
+    jac_phi_q_t_lambda_geometry[53] = s_j[2] * t67 - s_j[0] * t69;
+    jac_phi_q_t_lambda_geometry[54] = s_j[0] * t68 - s_j[1] * t67;
+    jac_phi_q_t_lambda_geometry[56] = t72;
+    jac_phi_q_t_lambda_geometry[57] = t73;
     jac_phi_q_t_lambda_geometry[58] = t74;
     jac_phi_q_t_lambda_geometry[59] = s_j[1] * t74 - s_j[2] * t73;
     jac_phi_q_t_lambda_geometry[60] = s_j[2] * t72 - s_j[0] * t74;
-    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t73 - s_j[1] * t72;
     const jg_real t75 = lambda[2] * sine_1;
     const jg_real t76 = lambda[2] * cosine_1;
     const jg_real t77 = C_j[3] * t75 + C_j[6] * t76;
-    jac_phi_q_t_lambda_geometry[63] = t77;
     const jg_real t78 = C_j[4] * t75 + C_j[7] * t76;
-    jac_phi_q_t_lambda_geometry[64] = t78;
     const jg_real t79 = C_j[5] * t75 + C_j[8] * t76;
+    const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_0 * cosine_0 + lambda_0_1_2_in_joint_i_1 *
+        sine_0;
+    jac_phi_q_t_lambda_geometry[61] = s_j[0] * t73 - s_j[1] * t72;
+    jac_phi_q_t_lambda_geometry[63] = t77;
+    jac_phi_q_t_lambda_geometry[64] = t78;
     jac_phi_q_t_lambda_geometry[65] = t79;
     jac_phi_q_t_lambda_geometry[66] = s_j[1] * t79 - s_j[2] * t78;
     jac_phi_q_t_lambda_geometry[67] = s_j[2] * t77 - s_j[0] * t79;
     jac_phi_q_t_lambda_geometry[68] = s_j[0] * t78 - s_j[1] * t77;
-    const jg_real lambda_0_1_2_in_joint_j_0 = lambda_0_1_2_in_joint_i_0 * cosine_0 + lambda_0_1_2_in_joint_i_1 *
-        sine_0;
     jac_phi_q_t_lambda_geometry[75] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[79] = lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[83] = lambda_0_1_2_in_joint_j_0;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_2 = C_j[2] * lambda_0_1_2_in_joint_j_0 + C_j[5] * lambda_0_1_2_in_joint_j_1 +
         C_j[8] * lambda_0_1_2_in_joint_j_2;
-    jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
-    jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_1 = C_j[1] * lambda_0_1_2_in_joint_j_0 + C_j[4] * lambda_0_1_2_in_joint_j_1 +
         C_j[7] * lambda_0_1_2_in_joint_j_2;
-    jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
     const jg_real lambda_0_1_2_in_j_0 = C_j[0] * lambda_0_1_2_in_joint_j_0 + C_j[3] * lambda_0_1_2_in_joint_j_1 +
         C_j[6] * lambda_0_1_2_in_joint_j_2;
+    const jg_real t84 = -lambda[3];
+    jac_phi_q_t_lambda_geometry[71] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[69] = -lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[70] = lambda_0_1_2_in_j_1;
     jac_phi_q_t_lambda_geometry[74] = lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[72] = -lambda_0_1_2_in_j_0;
     jac_phi_q_t_lambda_geometry[73] = -lambda_0_1_2_in_j_1;
-    const jg_real t84 = -lambda[3];
     jac_phi_q_t_lambda_geometry[76] = t84;
     jac_phi_q_t_lambda_geometry[81] = t84;
     jac_phi_q_t_lambda_geometry[86] = t84;
     const jg_real t85 = s_j[2] * lambda_0_1_2_in_joint_j_0;
-    jac_phi_q_t_lambda_geometry[77] = t85;
     const jg_real t86 = s_j[1] * lambda_0_1_2_in_joint_j_0;
+    const jg_real t87 = s_j[0] * lambda_0_1_2_in_joint_j_0;
+    const jg_real t88 = -lambda[4];
+    jac_phi_q_t_lambda_geometry[77] = t85;
     jac_phi_q_t_lambda_geometry[84] = t86;
     jac_phi_q_t_lambda_geometry[78] = -t86;
     jac_phi_q_t_lambda_geometry[80] = -t85;
-    const jg_real t87 = s_j[0] * lambda_0_1_2_in_joint_j_0;
     jac_phi_q_t_lambda_geometry[82] = t87;
     jac_phi_q_t_lambda_geometry[85] = -t87;
-    const jg_real t88 = -lambda[4];
     jac_phi_q_t_lambda_geometry[88] = t88;
     jac_phi_q_t_lambda_geometry[93] = t88;
     jac_phi_q_t_lambda_geometry[98] = t88;
     const jg_real t89 = s_j[2] * lambda_0_1_2_in_joint_j_1;
-    jac_phi_q_t_lambda_geometry[89] = t89;
     const jg_real t90 = s_j[1] * lambda_0_1_2_in_joint_j_1;
+    const jg_real t91 = s_j[0] * lambda_0_1_2_in_joint_j_1;
+    const jg_real t92 = -lambda[5];
+    jac_phi_q_t_lambda_geometry[89] = t89;
     jac_phi_q_t_lambda_geometry[96] = t90;
     jac_phi_q_t_lambda_geometry[90] = -t90;
     jac_phi_q_t_lambda_geometry[92] = -t89;
-    const jg_real t91 = s_j[0] * lambda_0_1_2_in_joint_j_1;
     jac_phi_q_t_lambda_geometry[94] = t91;
     jac_phi_q_t_lambda_geometry[97] = -t91;
-    const jg_real t92 = -lambda[5];
     jac_phi_q_t_lambda_geometry[100] = t92;
     jac_phi_q_t_lambda_geometry[105] = t92;
     jac_phi_q_t_lambda_geometry[110] = t92;
     const jg_real t93 = s_j[2] * lambda_0_1_2_in_joint_j_2;
-    jac_phi_q_t_lambda_geometry[101] = t93;
     const jg_real t94 = s_j[1] * lambda_0_1_2_in_joint_j_2;
+    const jg_real t95 = s_j[0] * lambda_0_1_2_in_joint_j_2;
+    jac_phi_q_t_lambda_geometry[101] = t93;
     jac_phi_q_t_lambda_geometry[108] = t94;
     jac_phi_q_t_lambda_geometry[102] = -t94;
     jac_phi_q_t_lambda_geometry[104] = -t93;
-    const jg_real t95 = s_j[0] * lambda_0_1_2_in_joint_j_2;
     jac_phi_q_t_lambda_geometry[106] = t95;
     jac_phi_q_t_lambda_geometry[109] = -t95;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[9] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[18] = JG_REAL(-1.0);
+    const jg_real t96 = C_i[0] * cosine_0 + C_i[3] * sine_0;
+    const jg_real t97 = C_i[3] * H_11 - C_i[0] * t7 + C_i[6] * sine_1;
+    const jg_real t98 = C_i[0] * H_02 - C_i[3] * t5 + C_i[6] * cosine_1;
+    const jg_real t99 = C_j[0] * t96 + C_j[3] * t97 + C_j[6] * t98;
+    const jg_real t100 = C_j[1] * t96 + C_j[4] * t97 + C_j[7] * t98;
     jac_phi_q_t_lambda_lambda[10] = s_i[2];
     jac_phi_q_t_lambda_lambda[1] = -s_i[2];
     jac_phi_q_t_lambda_lambda[2] = s_i[1];
-    const jg_real t96 = C_i[0] * cosine_0 + C_i[3] * sine_0;
     jac_phi_q_t_lambda_lambda[27] = t96;
-    const jg_real t97 = C_i[3] * H_11 - C_i[0] * t7 + C_i[6] * sine_1;
     jac_phi_q_t_lambda_lambda[34] = t97;
-    const jg_real t98 = C_i[0] * H_02 - C_i[3] * t5 + C_i[6] * cosine_1;
     jac_phi_q_t_lambda_lambda[41] = t98;
-    const jg_real t99 = C_j[0] * t96 + C_j[3] * t97 + C_j[6] * t98;
     jac_phi_q_t_lambda_lambda[3] = t99;
-    const jg_real t100 = C_j[1] * t96 + C_j[4] * t97 + C_j[7] * t98;
     jac_phi_q_t_lambda_lambda[4] = t100;
     const jg_real t101 = C_j[2] * t96 + C_j[5] * t97 + C_j[8] * t98;
+    const jg_real t102 = C_i[1] * cosine_0 + C_i[4] * sine_0;
+    const jg_real t103 = C_i[4] * H_11 - C_i[1] * t7 + C_i[7] * sine_1;
     jac_phi_q_t_lambda_lambda[5] = t101;
     jac_phi_q_t_lambda_lambda[6] = s_j[1] * t101 - s_j[2] * t100;
     jac_phi_q_t_lambda_lambda[7] = s_j[2] * t99 - s_j[0] * t101;
     jac_phi_q_t_lambda_lambda[8] = s_j[0] * t100 - s_j[1] * t99;
     jac_phi_q_t_lambda_lambda[20] = s_i[0];
     jac_phi_q_t_lambda_lambda[11] = -s_i[0];
-    const jg_real t102 = C_i[1] * cosine_0 + C_i[4] * sine_0;
     jac_phi_q_t_lambda_lambda[28] = t102;
-    const jg_real t103 = C_i[4] * H_11 - C_i[1] * t7 + C_i[7] * sine_1;
     jac_phi_q_t_lambda_lambda[35] = t103;
     const jg_real t104 = C_i[1] * H_02 - C_i[4] * t5 + C_i[7] * cosine_1;
-    jac_phi_q_t_lambda_lambda[42] = t104;
     const jg_real t105 = C_j[0] * t102 + C_j[3] * t103 + C_j[6] * t104;
-    jac_phi_q_t_lambda_lambda[12] = t105;
     const jg_real t106 = C_j[1] * t102 + C_j[4] * t103 + C_j[7] * t104;
-    jac_phi_q_t_lambda_lambda[13] = t106;
     const jg_real t107 = C_j[2] * t102 + C_j[5] * t103 + C_j[8] * t104;
+    jac_phi_q_t_lambda_lambda[42] = t104;
+    jac_phi_q_t_lambda_lambda[12] = t105;
+    jac_phi_q_t_lambda_lambda[13] = t106;
     jac_phi_q_t_lambda_lambda[14] = t107;
     jac_phi_q_t_lambda_lambda[15] = s_j[1] * t107 - s_j[2] * t106;
     jac_phi_q_t_lambda_lambda[16] = s_j[2] * t105 - s_j[0] * t107;
     jac_phi_q_t_lambda_lambda[17] = s_j[0] * t106 - s_j[1] * t105;
     jac_phi_q_t_lambda_lambda[19] = -s_i[1];
     const jg_real t108 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    jac_phi_q_t_lambda_lambda[29] = t108;
     const jg_real t109 = C_i[5] * H_11 - C_i[2] * t7 + C_i[8] * sine_1;
-    jac_phi_q_t_lambda_lambda[36] = t109;
     const jg_real t110 = C_i[2] * H_02 - C_i[5] * t5 + C_i[8] * cosine_1;
-    jac_phi_q_t_lambda_lambda[43] = t110;
     const jg_real t111 = C_j[0] * t108 + C_j[3] * t109 + C_j[6] * t110;
-    jac_phi_q_t_lambda_lambda[21] = t111;
     const jg_real t112 = C_j[1] * t108 + C_j[4] * t109 + C_j[7] * t110;
-    jac_phi_q_t_lambda_lambda[22] = t112;
     const jg_real t113 = C_j[2] * t108 + C_j[5] * t109 + C_j[8] * t110;
+    jac_phi_q_t_lambda_lambda[29] = t108;
+    jac_phi_q_t_lambda_lambda[36] = t109;
+    jac_phi_q_t_lambda_lambda[43] = t110;
+    jac_phi_q_t_lambda_lambda[21] = t111;
+    jac_phi_q_t_lambda_lambda[22] = t112;
     jac_phi_q_t_lambda_lambda[23] = t113;
     jac_phi_q_t_lambda_lambda[24] = s_j[1] * t113 - s_j[2] * t112;
     jac_phi_q_t_lambda_lambda[25] = s_j[2] * t111 - s_j[0] * t113;

@@ -46,44 +46,44 @@ static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_r_i[6] = -A_i[2];
     jac_phi_r_j[7] = A_i[5];
     jac_phi_r_i[7] = -A_i[5];
-    jac_phi_r_j[8] = A_i[8];
-    jac_phi_r_i[8] = -A_i[8];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
     /* e_ij_world = r_j + s_j - r_i, world axes */
     const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    /* f_j_world = f_j, world axes */
+    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
+    /* h_j_world = h_j, world axes */
+    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_r_j[8] = A_i[8];
+    jac_phi_r_i[8] = -A_i[8];
     jac_phi_A_i[0] = e_ij_world_0;
     jac_phi_A_i[12] = e_ij_world_0;
     jac_phi_A_i[24] = e_ij_world_0;
-    /* f_j_world = f_j, world axes */
-    const jg_real f_j_world_0 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     jac_phi_A_i[1] = C_i[6] * f_j_world_0;
-    jac_phi_A_i[2] = C_i[0] * f_j_world_0;
-    /* h_j_world = h_j, world axes */
-    const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    jac_phi_A_i[2] = f_j_world_0 * C_i[0];
     jac_phi_A_i[3] = C_i[6] * h_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
     const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
+    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
-    const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     jac_phi_A_i[5] = C_i[6] * f_j_world_1;
     jac_phi_A_i[6] = C_i[0] * f_j_world_1;
-    const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     jac_phi_A_i[7] = C_i[6] * h_j_world_1;
-    const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[8] = e_ij_world_2;
     jac_phi_A_i[20] = e_ij_world_2;
     jac_phi_A_i[32] = e_ij_world_2;
     const jg_real f_j_world_2 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
+    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[9] = C_i[6] * f_j_world_2;
     jac_phi_A_i[10] = C_i[0] * f_j_world_2;
-    const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     jac_phi_A_i[11] = C_i[6] * h_j_world_2;
     jac_phi_A_i[13] = C_i[7] * f_j_world_0;
-    jac_phi_A_i[14] = C_i[1] * f_j_world_0;
+    jac_phi_A_i[14] = f_j_world_0 * C_i[1];
     jac_phi_A_i[15] = C_i[7] * h_j_world_0;
     jac_phi_A_i[17] = C_i[7] * f_j_world_1;
     jac_phi_A_i[18] = C_i[1] * f_j_world_1;
@@ -92,10 +92,10 @@ static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_A_i[22] = C_i[1] * f_j_world_2;
     jac_phi_A_i[23] = C_i[7] * h_j_world_2;
     jac_phi_A_i[25] = C_i[8] * f_j_world_0;
-    jac_phi_A_i[26] = C_i[2] * f_j_world_0;
+    jac_phi_A_i[26] = f_j_world_0 * C_i[2];
     jac_phi_A_i[27] = C_i[8] * h_j_world_0;
     jac_phi_A_i[29] = C_i[8] * f_j_world_1;
-    jac_phi_A_i[30] = C_i[2] * f_j_world_1;
+    jac_phi_A_i[30] = f_j_world_1 * C_i[2];
     jac_phi_A_i[31] = C_i[8] * h_j_world_1;
     jac_phi_A_i[33] = C_i[8] * f_j_world_2;
     jac_phi_A_i[34] = C_i[2] * f_j_world_2;
@@ -105,25 +105,25 @@ static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_A_j[2] = s_j[0] * A_i[6];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    jac_phi_A_j[3] = C_j[0] * h_i_world_0;
     /* f_i_world = f_i, world axes */
     const jg_real f_i_world_0 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    jac_phi_A_j[3] = C_j[0] * h_i_world_0;
     jac_phi_A_j[4] = C_j[0] * f_i_world_0;
     jac_phi_A_j[5] = h_i_world_0 * C_j[6];
     jac_phi_A_j[6] = s_j[0] * A_i[1];
     jac_phi_A_j[7] = s_j[0] * A_i[4];
     jac_phi_A_j[8] = s_j[0] * A_i[7];
-    const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     jac_phi_A_j[9] = C_j[0] * h_i_world_1;
-    const jg_real f_i_world_1 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
     jac_phi_A_j[10] = C_j[0] * f_i_world_1;
+    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_A_j[11] = h_i_world_1 * C_j[6];
     jac_phi_A_j[12] = s_j[0] * A_i[2];
     jac_phi_A_j[13] = s_j[0] * A_i[5];
     jac_phi_A_j[14] = s_j[0] * A_i[8];
-    const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     jac_phi_A_j[15] = C_j[0] * h_i_world_2;
-    const jg_real f_i_world_2 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
     jac_phi_A_j[16] = C_j[0] * f_i_world_2;
     jac_phi_A_j[17] = h_i_world_2 * C_j[6];
     jac_phi_A_j[18] = s_j[1] * A_i[0];
@@ -168,12 +168,12 @@ static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
     const jg_real t18 = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
+    const jg_real t19 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
+    const jg_real t20 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[3] = t18;
     jac_phi_geometry[6] = t18;
-    const jg_real t19 = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
     jac_phi_geometry[4] = t19;
     jac_phi_geometry[8] = t19;
-    const jg_real t20 = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
     jac_phi_geometry[5] = t20;
     jac_phi_geometry[10] = t20;
     jac_phi_geometry[7] = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
@@ -186,13 +186,13 @@ static void jg_universal_parametric_table4_phi_jacobian(const jg_real *JG_RESTRI
     jac_phi_geometry[16] = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
     jac_phi_geometry[17] = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     jac_phi_geometry[18] = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    const jg_real t21 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
+    const jg_real t22 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     jac_phi_geometry[19] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[20] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real t21 = A_j[0] * h_i_world_0 + A_j[1] * h_i_world_1 + A_j[2] * h_i_world_2;
     jac_phi_geometry[21] = t21;
     jac_phi_geometry[27] = t21;
     jac_phi_geometry[22] = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
-    const jg_real t22 = A_j[3] * h_i_world_0 + A_j[4] * h_i_world_1 + A_j[5] * h_i_world_2;
     jac_phi_geometry[23] = t22;
     jac_phi_geometry[28] = t22;
     jac_phi_geometry[24] = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
@@ -218,40 +218,35 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real *const omega_j = velocity + 9;
     const jg_real *const alphadot = velocity + 12;
     const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
+    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
+    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
+    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
-    const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     jac_phi_q_v_r_j[1] = t1;
     jac_phi_q_v_r_i[1] = -t1;
-    const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
     jac_phi_q_v_r_j[2] = t2;
     jac_phi_q_v_r_i[2] = -t2;
-    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[3] = t3;
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
+    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
+    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
+    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
-    const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
     jac_phi_q_v_r_j[5] = t5;
     jac_phi_q_v_r_i[5] = -t5;
-    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
     jac_phi_q_v_r_j[6] = t6;
     jac_phi_q_v_r_i[6] = -t6;
-    const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
-    jac_phi_q_v_r_j[8] = t8;
-    jac_phi_q_v_r_i[8] = -t8;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    jac_phi_q_v_velocity[23] = A_ji_7;
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    jac_phi_q_v_velocity[26] = A_ji_8;
     const jg_real t11 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    jac_phi_q_v_velocity[20] = A_ji_6;
     const jg_real t13 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
     const jg_real t14 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
     const jg_real t15 = s_j[0] * t11 + s_j[1] * t13 + s_j[2] * t14;
@@ -261,26 +256,26 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
     /* s_j_in_i = s_j, axes of body i */
     const jg_real s_j_in_i_2 = s_j[1] * A_ji_7 + s_j[0] * A_ji_6 + s_j[2] * A_ji_8;
     const jg_real t19 = A_j[3] * v_j[1] + A_j[0] * v_j[0] + A_j[6] * v_j[2];
-    jac_phi_q_v_A_i[0] = omega_i[2] * t15 - (omega_j_in_i_2 * t15 - s_j_in_i_2 * t17) + t19;
     const jg_real t20 = A_j[3] * omega_j[1] + A_j[0] * omega_j[0] + A_j[6] * omega_j[2];
     const jg_real t21 = A_j[3] * s_j[1] + s_j[0] * A_j[0] + A_j[6] * s_j[2];
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t23 = v_0_world_0 + t21;
+    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
+    jac_phi_q_v_r_j[8] = t8;
+    jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_velocity[23] = A_ji_7;
+    jac_phi_q_v_velocity[26] = A_ji_8;
+    jac_phi_q_v_velocity[20] = A_ji_6;
+    jac_phi_q_v_A_i[0] = omega_i[2] * t15 - (omega_j_in_i_2 * t15 - s_j_in_i_2 * t17) + t19;
     jac_phi_q_v_A_i[1] = v_j[0] * t11 + v_j[1] * t13 + v_j[2] * t14 - (t20 * s_j_in_i_2 - omega_j_in_i_2 * t21 +
         omega_i[2] * t23);
-    const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     jac_phi_q_v_velocity[24] = A_ji_2;
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_v_velocity[21] = A_ji_1;
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    jac_phi_q_v_velocity[19] = A_ji_3;
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    jac_phi_q_v_velocity[18] = A_ji_0;
     const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
-    jac_phi_q_v_velocity[22] = A_ji_4;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
-    jac_phi_q_v_velocity[25] = A_ji_5;
     const jg_real omega_j_in_i_1 = omega_j[0] * A_ji_3 + omega_j[1] * A_ji_4 + omega_j[2] * A_ji_5;
     const jg_real t31 = t21 * omega_j_in_i_1;
     const jg_real s_j_in_i_0 = s_j[0] * A_ji_0 + s_j[1] * A_ji_1 + s_j[2] * A_ji_2;
@@ -288,129 +283,132 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t34 = t20 * s_j_in_i_1;
     const jg_real omega_j_in_i_0 = omega_j[0] * A_ji_0 + omega_j[1] * A_ji_1 + omega_j[2] * A_ji_2;
     const jg_real t36 = omega_i[1] * t23;
-    jac_phi_q_v_A_i[2] = t36 - omega_i[0] * t15 - (t31 + s_j_in_i_0 * t17 - (t34 + omega_j_in_i_0 * t15));
-    const jg_real t37 = C_j[0] * t11 + C_j[1] * t13 + C_j[2] * t14;
     /* omega_j_cross_h_i_in_i = omega_j x h_i, axes of body i */
     const jg_real omega_j_cross_h_i_in_i_1 = C_i[6] * omega_j_in_i_2 - C_i[8] * omega_j_in_i_0;
+    const jg_real t38 = C_j[0] * t11 + C_j[1] * t13 + C_j[2] * t14;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = C_j[0] * A_ji_3 + C_j[1] * A_ji_4 + C_j[2] * A_ji_5;
     const jg_real t40 = C_i[8] * t20;
     const jg_real omega_j_cross_h_i_in_i_0 = C_i[8] * omega_j_in_i_1 - C_i[7] * omega_j_in_i_2;
     const jg_real t42 = A_j[0] * C_j[0] + A_j[3] * C_j[1] + A_j[6] * C_j[2];
     const jg_real t43 = C_i[8] * t17;
-    const jg_real f_j_in_i_0 = C_j[0] * A_ji_0 + C_j[1] * A_ji_1 + C_j[2] * A_ji_2;
+    const jg_real f_j_in_i_0 = C_j[0] * A_ji_0 + C_j[1] * A_ji_1 + A_ji_2 * C_j[2];
     const jg_real t45 = C_i[7] * t20;
     const jg_real t46 = t45 - C_i[6] * t17;
     const jg_real f_j_in_i_2 = C_j[0] * A_ji_6 + C_j[1] * A_ji_7 + C_j[2] * A_ji_8;
     /* omega_i_cross_h_i_in_i = omega_i x h_i, axes of body i */
     const jg_real omega_i_cross_h_i_in_i_1 = omega_i[2] * C_i[6] - omega_i[0] * C_i[8];
     const jg_real omega_i_cross_h_i_in_i_0 = omega_i[1] * C_i[8] - omega_i[2] * C_i[7];
-    jac_phi_q_v_A_i[3] = t42 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t37 - (t37 *
-        omega_j_cross_h_i_in_i_1 - t40 * f_j_in_i_1 + (t42 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t43) +
-        f_j_in_i_2 * t46);
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
-    const jg_real f_i_cross_f_j_in_i_1 = C_i[2] * f_j_in_i_0 - C_i[0] * f_j_in_i_2;
+    const jg_real f_i_cross_f_j_in_i_1 = f_j_in_i_0 * C_i[2] - C_i[0] * f_j_in_i_2;
+    jac_phi_q_v_velocity[21] = A_ji_1;
+    jac_phi_q_v_velocity[19] = A_ji_3;
+    jac_phi_q_v_velocity[18] = A_ji_0;
+    jac_phi_q_v_velocity[22] = A_ji_4;
+    jac_phi_q_v_velocity[25] = A_ji_5;
+    jac_phi_q_v_A_i[2] = t36 - omega_i[0] * t15 - (t31 + s_j_in_i_0 * t17 - (t34 + omega_j_in_i_0 * t15));
+    jac_phi_q_v_A_i[3] = omega_i_cross_h_i_in_i_1 * t38 + t42 * omega_i_cross_h_i_in_i_0 - (omega_j_cross_h_i_in_i_0
+        * t42 + t43 * f_j_in_i_0 + (omega_j_cross_h_i_in_i_1 * t38 - t40 * f_j_in_i_1) + t46 * f_j_in_i_2);
     jac_phi_q_v_velocity[11] = f_i_cross_f_j_in_i_1;
-    const jg_real t51 = C_i[2] * t42;
-    const jg_real f_i_cross_f_j_in_i_0 = C_i[1] * f_j_in_i_2 - C_i[2] * f_j_in_i_1;
-    jac_phi_q_v_velocity[6] = f_i_cross_f_j_in_i_0;
-    const jg_real t53 = C_i[2] * t37;
-    const jg_real t54 = C_i[1] * t42;
-    const jg_real t55 = C_i[0] * t37 - t54;
-    jac_phi_q_v_A_i[4] = omega_i[1] * t51 - omega_i[0] * t53 + omega_i[2] * t55 - (t20 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t53 + (t17 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t51) + omega_j_in_i_2 * t55);
+    const jg_real t51 = t42 * C_i[2];
+    const jg_real f_i_cross_f_j_in_i_0 = C_i[1] * f_j_in_i_2 - f_j_in_i_1 * C_i[2];
+    const jg_real t53 = t38 * C_i[2];
+    const jg_real t54 = t42 * C_i[1];
+    const jg_real t55 = t38 * C_i[0] - t54;
     const jg_real t56 = t11 * C_j[6] + t13 * C_j[7] + t14 * C_j[8];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
     const jg_real t58 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    jac_phi_q_v_A_i[5] = omega_i_cross_h_i_in_i_0 * t58 + omega_i_cross_h_i_in_i_1 * t56 - (t43 * h_j_in_i_0 +
-        omega_j_cross_h_i_in_i_0 * t58 + (omega_j_cross_h_i_in_i_1 * t56 - t40 * h_j_in_i_1) + t46 * h_j_in_i_2);
     const jg_real t61 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
     const jg_real t62 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
     const jg_real t63 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
     const jg_real t64 = s_j[0] * t61 + s_j[1] * t62 + s_j[2] * t63;
     const jg_real t65 = omega_j[0] * t61 + omega_j[1] * t62 + omega_j[2] * t63;
     const jg_real t66 = A_j[4] * v_j[1] + A_j[1] * v_j[0] + A_j[7] * v_j[2];
-    jac_phi_q_v_A_i[6] = omega_i[2] * t64 - (omega_j_in_i_2 * t64 - s_j_in_i_2 * t65) + t66;
     const jg_real t67 = A_j[4] * omega_j[1] + A_j[1] * omega_j[0] + A_j[7] * omega_j[2];
     const jg_real t68 = A_j[4] * s_j[1] + s_j[0] * A_j[1] + A_j[7] * s_j[2];
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t70 = v_0_world_1 + t68;
-    jac_phi_q_v_A_i[7] = v_j[0] * t61 + v_j[1] * t62 + v_j[2] * t63 - (t67 * s_j_in_i_2 - omega_j_in_i_2 * t68 +
-        omega_i[2] * t70);
     const jg_real t71 = t68 * omega_j_in_i_1;
     const jg_real t72 = t67 * s_j_in_i_1;
     const jg_real t73 = omega_i[1] * t70;
-    jac_phi_q_v_A_i[8] = t73 - omega_i[0] * t64 - (t71 + s_j_in_i_0 * t65 - (t72 + omega_j_in_i_0 * t64));
     const jg_real t74 = C_j[0] * t61 + C_j[1] * t62 + C_j[2] * t63;
     const jg_real t75 = C_i[8] * t67;
     const jg_real t76 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real t77 = C_i[8] * t65;
     const jg_real t78 = C_i[7] * t67;
     const jg_real t79 = t78 - C_i[6] * t65;
-    jac_phi_q_v_A_i[9] = t76 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t74 - (t74 *
-        omega_j_cross_h_i_in_i_1 - t75 * f_j_in_i_1 + (t76 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t77) +
-        f_j_in_i_2 * t79);
-    const jg_real t80 = C_i[2] * t76;
-    const jg_real t81 = C_i[2] * t74;
-    const jg_real t82 = C_i[1] * t76;
-    const jg_real t83 = C_i[0] * t74 - t82;
+    const jg_real t80 = t76 * C_i[2];
+    const jg_real t81 = t74 * C_i[2];
+    const jg_real t82 = t76 * C_i[1];
+    const jg_real t83 = t74 * C_i[0] - t82;
+    jac_phi_q_v_velocity[6] = f_i_cross_f_j_in_i_0;
+    jac_phi_q_v_A_i[4] = omega_i[1] * t51 - omega_i[0] * t53 + omega_i[2] * t55 - (t20 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t53 + (t17 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t51) + omega_j_in_i_2 * t55);
+    jac_phi_q_v_A_i[5] = omega_i_cross_h_i_in_i_0 * t58 + omega_i_cross_h_i_in_i_1 * t56 - (t43 * h_j_in_i_0 +
+        omega_j_cross_h_i_in_i_0 * t58 + (omega_j_cross_h_i_in_i_1 * t56 - t40 * h_j_in_i_1) + t46 * h_j_in_i_2);
+    jac_phi_q_v_A_i[6] = omega_i[2] * t64 - (omega_j_in_i_2 * t64 - s_j_in_i_2 * t65) + t66;
+    jac_phi_q_v_A_i[7] = v_j[0] * t61 + v_j[1] * t62 + v_j[2] * t63 - (t67 * s_j_in_i_2 - omega_j_in_i_2 * t68 +
+        omega_i[2] * t70);
+    jac_phi_q_v_A_i[8] = t73 - omega_i[0] * t64 - (t71 + s_j_in_i_0 * t65 - (t72 + omega_j_in_i_0 * t64));
+    jac_phi_q_v_A_i[9] = omega_i_cross_h_i_in_i_1 * t74 + t76 * omega_i_cross_h_i_in_i_0 - (omega_j_cross_h_i_in_i_0
+        * t76 + t77 * f_j_in_i_0 + (omega_j_cross_h_i_in_i_1 * t74 - t75 * f_j_in_i_1) + t79 * f_j_in_i_2);
     jac_phi_q_v_A_i[10] = omega_i[1] * t80 - omega_i[0] * t81 + omega_i[2] * t83 - (t67 * f_i_cross_f_j_in_i_0 -
         omega_j_in_i_0 * t81 + (t65 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t80) + omega_j_in_i_2 * t83);
     const jg_real t84 = t61 * C_j[6] + t62 * C_j[7] + t63 * C_j[8];
     const jg_real t85 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    jac_phi_q_v_A_i[11] = omega_i_cross_h_i_in_i_0 * t85 + omega_i_cross_h_i_in_i_1 * t84 - (t77 * h_j_in_i_0 +
-        omega_j_cross_h_i_in_i_0 * t85 + (omega_j_cross_h_i_in_i_1 * t84 - t75 * h_j_in_i_1) + t79 * h_j_in_i_2);
     const jg_real t86 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
     const jg_real t87 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
     const jg_real t88 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
     const jg_real t89 = s_j[0] * t86 + s_j[1] * t87 + s_j[2] * t88;
     const jg_real t90 = omega_j[0] * t86 + omega_j[1] * t87 + omega_j[2] * t88;
     const jg_real t91 = A_j[5] * v_j[1] + A_j[2] * v_j[0] + A_j[8] * v_j[2];
-    jac_phi_q_v_A_i[12] = omega_i[2] * t89 - (omega_j_in_i_2 * t89 - s_j_in_i_2 * t90) + t91;
     const jg_real t92 = A_j[5] * omega_j[1] + A_j[2] * omega_j[0] + A_j[8] * omega_j[2];
     const jg_real t93 = A_j[5] * s_j[1] + s_j[0] * A_j[2] + A_j[8] * s_j[2];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t95 = v_0_world_2 + t93;
-    jac_phi_q_v_A_i[13] = v_j[0] * t86 + v_j[1] * t87 + v_j[2] * t88 - (t92 * s_j_in_i_2 - omega_j_in_i_2 * t93 +
-        omega_i[2] * t95);
     const jg_real t96 = t93 * omega_j_in_i_1;
     const jg_real t97 = t92 * s_j_in_i_1;
     const jg_real t98 = omega_i[1] * t95;
-    jac_phi_q_v_A_i[14] = t98 - omega_i[0] * t89 - (t96 + s_j_in_i_0 * t90 - (t97 + omega_j_in_i_0 * t89));
     const jg_real t99 = C_j[0] * t86 + C_j[1] * t87 + C_j[2] * t88;
     const jg_real t100 = C_i[8] * t92;
     const jg_real t101 = A_j[2] * C_j[0] + A_j[5] * C_j[1] + A_j[8] * C_j[2];
     const jg_real t102 = C_i[8] * t90;
     const jg_real t103 = C_i[7] * t92;
     const jg_real t104 = t103 - C_i[6] * t90;
-    jac_phi_q_v_A_i[15] = t101 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t99 - (t99 *
-        omega_j_cross_h_i_in_i_1 - t100 * f_j_in_i_1 + (t101 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t102) +
-        f_j_in_i_2 * t104);
-    const jg_real t105 = C_i[2] * t101;
-    const jg_real t106 = C_i[2] * t99;
-    const jg_real t107 = C_i[1] * t101;
-    const jg_real t108 = C_i[0] * t99 - t107;
-    jac_phi_q_v_A_i[16] = omega_i[1] * t105 - omega_i[0] * t106 + omega_i[2] * t108 - (t92 * f_i_cross_f_j_in_i_0 -
-        omega_j_in_i_0 * t106 + (t90 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t105) + omega_j_in_i_2 * t108);
+    const jg_real t105 = t101 * C_i[2];
+    const jg_real t106 = t99 * C_i[2];
+    const jg_real t107 = t101 * C_i[1];
+    const jg_real t108 = t99 * C_i[0] - t107;
     const jg_real t109 = t86 * C_j[6] + t87 * C_j[7] + t88 * C_j[8];
     const jg_real t110 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    jac_phi_q_v_A_i[11] = omega_i_cross_h_i_in_i_0 * t85 + omega_i_cross_h_i_in_i_1 * t84 - (t77 * h_j_in_i_0 +
+        omega_j_cross_h_i_in_i_0 * t85 + (omega_j_cross_h_i_in_i_1 * t84 - t75 * h_j_in_i_1) + t79 * h_j_in_i_2);
+    jac_phi_q_v_A_i[12] = omega_i[2] * t89 - (omega_j_in_i_2 * t89 - s_j_in_i_2 * t90) + t91;
+    jac_phi_q_v_A_i[13] = v_j[0] * t86 + v_j[1] * t87 + v_j[2] * t88 - (t92 * s_j_in_i_2 - omega_j_in_i_2 * t93 +
+        omega_i[2] * t95);
+    jac_phi_q_v_A_i[14] = t98 - omega_i[0] * t89 - (t96 + s_j_in_i_0 * t90 - (t97 + omega_j_in_i_0 * t89));
+    jac_phi_q_v_A_i[15] = omega_i_cross_h_i_in_i_1 * t99 + t101 * omega_i_cross_h_i_in_i_0 -
+        (omega_j_cross_h_i_in_i_0 * t101 + t102 * f_j_in_i_0 + (omega_j_cross_h_i_in_i_1 * t99 - t100 * f_j_in_i_1)
+        + t104 * f_j_in_i_2);
+    jac_phi_q_v_A_i[16] = omega_i[1] * t105 - omega_i[0] * t106 + omega_i[2] * t108 - (t92 * f_i_cross_f_j_in_i_0 -
+        omega_j_in_i_0 * t106 + (t90 * f_i_cross_f_j_in_i_1 + omega_j_in_i_1 * t105) + omega_j_in_i_2 * t108);
     jac_phi_q_v_A_i[17] = omega_i_cross_h_i_in_i_0 * t110 + omega_i_cross_h_i_in_i_1 * t109 - (t102 * h_j_in_i_0 +
         omega_j_cross_h_i_in_i_0 * t110 + (omega_j_cross_h_i_in_i_1 * t109 - t100 * h_j_in_i_1) + t104 *
         h_j_in_i_2);
     jac_phi_q_v_A_i[18] = v_0_world_0 * omega_i[2];
-    jac_phi_q_v_A_i[19] = -(v_0_world_0 * omega_i[0]);
-    jac_phi_q_v_A_i[20] = v_0_world_1 * omega_i[2];
-    jac_phi_q_v_A_i[21] = -(v_0_world_1 * omega_i[0]);
-    jac_phi_q_v_A_i[22] = v_0_world_2 * omega_i[2];
-    jac_phi_q_v_A_i[23] = -(v_0_world_2 * omega_i[0]);
     const jg_real t111 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
     const jg_real t112 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
     const jg_real t113 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
     const jg_real t114 = s_j[0] * t111 + s_j[1] * t112 + s_j[2] * t113;
     const jg_real t115 = omega_j[0] * t111 + omega_j[1] * t112 + omega_j[2] * t113;
+    jac_phi_q_v_A_i[19] = -(v_0_world_0 * omega_i[0]);
+    jac_phi_q_v_A_i[20] = v_0_world_1 * omega_i[2];
+    jac_phi_q_v_A_i[21] = -(v_0_world_1 * omega_i[0]);
+    jac_phi_q_v_A_i[22] = v_0_world_2 * omega_i[2];
+    jac_phi_q_v_A_i[23] = -(v_0_world_2 * omega_i[0]);
     jac_phi_q_v_A_i[24] = omega_i[2] * t114 - t36 - (omega_j_in_i_2 * t114 + t34 - (t31 + s_j_in_i_2 * t115));
     jac_phi_q_v_A_i[25] = v_j[0] * t111 + v_j[1] * t112 + v_j[2] * t113 + (omega_i[0] * t23 - (t21 * omega_j_in_i_0
         - t20 * s_j_in_i_0));
@@ -421,67 +419,67 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real omega_j_cross_h_i_in_i_2 = C_i[7] * omega_j_in_i_0 - C_i[6] * omega_j_in_i_1;
     const jg_real t120 = C_i[6] * t115;
     const jg_real omega_i_cross_h_i_in_i_2 = omega_i[0] * C_i[7] - omega_i[1] * C_i[6];
-    jac_phi_q_v_A_i[27] = omega_i_cross_h_i_in_i_1 * t116 + t42 * omega_i_cross_h_i_in_i_2 - (t42 *
-        omega_j_cross_h_i_in_i_2 - t120 * f_j_in_i_2 + (t116 * omega_j_cross_h_i_in_i_1 + t117 * f_j_in_i_1 +
-        f_j_in_i_0 * t118));
-    const jg_real t122 = C_i[0] * t42;
-    const jg_real t123 = t54 - C_i[2] * t116;
-    const jg_real f_i_cross_f_j_in_i_2 = C_i[0] * f_j_in_i_1 - C_i[1] * f_j_in_i_0;
-    jac_phi_q_v_velocity[16] = f_i_cross_f_j_in_i_2;
-    const jg_real t125 = C_i[0] * t116;
-    jac_phi_q_v_A_i[28] = omega_i[0] * t123 - omega_i[1] * t122 + omega_i[2] * t125 - (t20 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t125 + (t115 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t122 + omega_j_in_i_0 * t123));
+    const jg_real t122 = t42 * C_i[0];
+    const jg_real t123 = t54 - t116 * C_i[2];
+    const jg_real f_i_cross_f_j_in_i_2 = f_j_in_i_1 * C_i[0] - f_j_in_i_0 * C_i[1];
+    const jg_real t125 = t116 * C_i[0];
     const jg_real t126 = t111 * C_j[6] + t112 * C_j[7] + t113 * C_j[8];
-    jac_phi_q_v_A_i[29] = omega_i_cross_h_i_in_i_1 * t126 + omega_i_cross_h_i_in_i_2 * t58 -
-        (omega_j_cross_h_i_in_i_2 * t58 - t120 * h_j_in_i_2 + (t117 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t126 +
-        t118 * h_j_in_i_0));
     const jg_real t127 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
     const jg_real t128 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
     const jg_real t129 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
     const jg_real t130 = s_j[0] * t127 + s_j[1] * t128 + s_j[2] * t129;
     const jg_real t131 = omega_j[0] * t127 + omega_j[1] * t128 + omega_j[2] * t129;
-    jac_phi_q_v_A_i[30] = omega_i[2] * t130 - t73 - (omega_j_in_i_2 * t130 + t72 - (t71 + s_j_in_i_2 * t131));
-    jac_phi_q_v_A_i[31] = v_j[0] * t127 + v_j[1] * t128 + v_j[2] * t129 + (omega_i[0] * t70 - (t68 * omega_j_in_i_0
-        - t67 * s_j_in_i_0));
-    jac_phi_q_v_A_i[32] = t66 - (s_j_in_i_0 * t131 - omega_j_in_i_0 * t130 + omega_i[0] * t130);
     const jg_real t132 = C_j[0] * t127 + C_j[1] * t128 + C_j[2] * t129;
     const jg_real t133 = C_i[6] * t67;
     const jg_real t134 = C_i[8] * t131 - t78;
     const jg_real t135 = C_i[6] * t131;
-    jac_phi_q_v_A_i[33] = omega_i_cross_h_i_in_i_1 * t132 + t76 * omega_i_cross_h_i_in_i_2 - (t76 *
-        omega_j_cross_h_i_in_i_2 - t135 * f_j_in_i_2 + (t132 * omega_j_cross_h_i_in_i_1 + t133 * f_j_in_i_1 +
-        f_j_in_i_0 * t134));
-    const jg_real t136 = C_i[0] * t76;
-    const jg_real t137 = t82 - C_i[2] * t132;
-    const jg_real t138 = C_i[0] * t132;
-    jac_phi_q_v_A_i[34] = omega_i[0] * t137 - omega_i[1] * t136 + omega_i[2] * t138 - (t67 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t138 + (t131 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t136 + omega_j_in_i_0 * t137));
+    jac_phi_q_v_A_i[27] = omega_i_cross_h_i_in_i_1 * t116 + t42 * omega_i_cross_h_i_in_i_2 -
+        (omega_j_cross_h_i_in_i_1 * t116 + t117 * f_j_in_i_1 + t118 * f_j_in_i_0 + (t42 * omega_j_cross_h_i_in_i_2 -
+        t120 * f_j_in_i_2));
+    jac_phi_q_v_velocity[16] = f_i_cross_f_j_in_i_2;
+    jac_phi_q_v_A_i[28] = omega_i[0] * t123 - omega_i[1] * t122 + omega_i[2] * t125 - (t20 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t125 + (t115 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t122 + omega_j_in_i_0 * t123));
+    jac_phi_q_v_A_i[29] = omega_i_cross_h_i_in_i_1 * t126 + omega_i_cross_h_i_in_i_2 * t58 -
+        (omega_j_cross_h_i_in_i_2 * t58 - t120 * h_j_in_i_2 + (t117 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t126 +
+        t118 * h_j_in_i_0));
+    jac_phi_q_v_A_i[30] = omega_i[2] * t130 - t73 - (omega_j_in_i_2 * t130 + t72 - (t71 + s_j_in_i_2 * t131));
+    jac_phi_q_v_A_i[31] = v_j[0] * t127 + v_j[1] * t128 + v_j[2] * t129 + (omega_i[0] * t70 - (t68 * omega_j_in_i_0
+        - t67 * s_j_in_i_0));
+    jac_phi_q_v_A_i[32] = t66 - (s_j_in_i_0 * t131 - omega_j_in_i_0 * t130 + omega_i[0] * t130);
+    jac_phi_q_v_A_i[33] = omega_i_cross_h_i_in_i_1 * t132 + t76 * omega_i_cross_h_i_in_i_2 -
+        (omega_j_cross_h_i_in_i_1 * t132 + t133 * f_j_in_i_1 + t134 * f_j_in_i_0 + (t76 * omega_j_cross_h_i_in_i_2 -
+        t135 * f_j_in_i_2));
+    const jg_real t136 = t76 * C_i[0];
+    const jg_real t137 = t82 - t132 * C_i[2];
+    const jg_real t138 = t132 * C_i[0];
     const jg_real t139 = t127 * C_j[6] + t128 * C_j[7] + t129 * C_j[8];
-    jac_phi_q_v_A_i[35] = omega_i_cross_h_i_in_i_1 * t139 + omega_i_cross_h_i_in_i_2 * t85 -
-        (omega_j_cross_h_i_in_i_2 * t85 - t135 * h_j_in_i_2 + (t133 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t139 +
-        t134 * h_j_in_i_0));
     const jg_real t140 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
     const jg_real t141 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
     const jg_real t142 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
     const jg_real t143 = s_j[0] * t140 + s_j[1] * t141 + s_j[2] * t142;
     const jg_real t144 = omega_j[0] * t140 + omega_j[1] * t141 + omega_j[2] * t142;
-    jac_phi_q_v_A_i[36] = omega_i[2] * t143 - t98 - (omega_j_in_i_2 * t143 + t97 - (t96 + s_j_in_i_2 * t144));
-    jac_phi_q_v_A_i[37] = v_j[0] * t140 + v_j[1] * t141 + v_j[2] * t142 + (omega_i[0] * t95 - (t93 * omega_j_in_i_0
-        - t92 * s_j_in_i_0));
-    jac_phi_q_v_A_i[38] = t91 - (s_j_in_i_0 * t144 - omega_j_in_i_0 * t143 + omega_i[0] * t143);
     const jg_real t145 = C_j[0] * t140 + C_j[1] * t141 + C_j[2] * t142;
     const jg_real t146 = C_i[6] * t92;
     const jg_real t147 = C_i[8] * t144 - t103;
     const jg_real t148 = C_i[6] * t144;
-    jac_phi_q_v_A_i[39] = omega_i_cross_h_i_in_i_1 * t145 + t101 * omega_i_cross_h_i_in_i_2 - (t101 *
-        omega_j_cross_h_i_in_i_2 - t148 * f_j_in_i_2 + (t145 * omega_j_cross_h_i_in_i_1 + t146 * f_j_in_i_1 +
-        f_j_in_i_0 * t147));
-    const jg_real t149 = C_i[0] * t101;
-    const jg_real t150 = t107 - C_i[2] * t145;
-    const jg_real t151 = C_i[0] * t145;
+    const jg_real t149 = t101 * C_i[0];
+    const jg_real t150 = t107 - t145 * C_i[2];
+    const jg_real t151 = t145 * C_i[0];
+    const jg_real t152 = t140 * C_j[6] + t141 * C_j[7] + t142 * C_j[8];
+    jac_phi_q_v_A_i[34] = omega_i[0] * t137 - omega_i[1] * t136 + omega_i[2] * t138 - (t67 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t138 + (t131 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t136 + omega_j_in_i_0 * t137));
+    jac_phi_q_v_A_i[35] = omega_i_cross_h_i_in_i_1 * t139 + omega_i_cross_h_i_in_i_2 * t85 -
+        (omega_j_cross_h_i_in_i_2 * t85 - t135 * h_j_in_i_2 + (t133 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t139 +
+        t134 * h_j_in_i_0));
+    jac_phi_q_v_A_i[36] = omega_i[2] * t143 - t98 - (omega_j_in_i_2 * t143 + t97 - (t96 + s_j_in_i_2 * t144));
+    jac_phi_q_v_A_i[37] = v_j[0] * t140 + v_j[1] * t141 + v_j[2] * t142 + (omega_i[0] * t95 - (t93 * omega_j_in_i_0
+        - t92 * s_j_in_i_0));
+    jac_phi_q_v_A_i[38] = t91 - (s_j_in_i_0 * t144 - omega_j_in_i_0 * t143 + omega_i[0] * t143);
+    jac_phi_q_v_A_i[39] = omega_i_cross_h_i_in_i_1 * t145 + t101 * omega_i_cross_h_i_in_i_2 -
+        (omega_j_cross_h_i_in_i_1 * t145 + t146 * f_j_in_i_1 + t147 * f_j_in_i_0 + (t101 * omega_j_cross_h_i_in_i_2
+        - t148 * f_j_in_i_2));
     jac_phi_q_v_A_i[40] = omega_i[0] * t150 - omega_i[1] * t149 + omega_i[2] * t151 - (t92 * f_i_cross_f_j_in_i_2 +
         omega_j_in_i_2 * t151 + (t144 * f_i_cross_f_j_in_i_1 - omega_j_in_i_1 * t149 + omega_j_in_i_0 * t150));
-    const jg_real t152 = t140 * C_j[6] + t141 * C_j[7] + t142 * C_j[8];
     jac_phi_q_v_A_i[41] = omega_i_cross_h_i_in_i_1 * t152 + omega_i_cross_h_i_in_i_2 * t110 -
         (omega_j_cross_h_i_in_i_2 * t110 - t148 * h_j_in_i_2 + (t146 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t152
         + t147 * h_j_in_i_0));
@@ -491,270 +489,273 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t156 = s_j[1] * t154 + s_j[2] * t155;
     const jg_real t157 = A_i[6] * s_j[0];
     const jg_real t158 = omega_j[1] * t154 + omega_j[2] * t155;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t153 * s_j_in_i_1 - omega_j_in_i_2 * t156 - (t157 * omega_j_in_i_1 -
-        s_j_in_i_2 * t158) + (omega_i[1] * t157 + omega_i[2] * t156));
     const jg_real t159 = A_i[0] * omega_j[0];
     const jg_real t160 = A_i[0] * s_j[0];
-    jac_phi_q_v_A_j[1] = omega_i[0] * t157 - omega_i[2] * t160 - (t157 * omega_j_in_i_0 + t159 * s_j_in_i_2 - (t160
-        * omega_j_in_i_2 + t153 * s_j_in_i_0)) - (v_j[1] * t154 + v_j[2] * t155);
-    jac_phi_q_v_A_j[2] = omega_i[1] * t160 + omega_i[0] * t156 - (t160 * omega_j_in_i_1 - s_j_in_i_0 * t158 - (t159
-        * s_j_in_i_1 - omega_j_in_i_0 * t156)) + A_i[6] * v_j[0];
     const jg_real t161 = C_i[6] * t153 - C_i[8] * t159;
     const jg_real t162 = C_j[1] * t154 + C_j[2] * t155;
     const jg_real t163 = A_i[0] * C_j[0];
     const jg_real t164 = C_i[7] * t153 + C_i[8] * t158;
     const jg_real t165 = A_i[6] * C_j[0];
-    const jg_real t166 = C_i[7] * t159 + C_i[6] * t158;
-    jac_phi_q_v_A_j[3] = t163 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t162 + t165 *
-        omega_i_cross_h_i_in_i_2 - (t165 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t166 + (f_j_in_i_1 * t161 - t162
-        * omega_j_cross_h_i_in_i_1 + (t163 * omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t164)));
-    const jg_real t167 = C_i[2] * t163 - C_i[0] * t165;
-    const jg_real t168 = C_i[2] * t162 + C_i[1] * t165;
-    const jg_real t169 = C_i[1] * t163 + C_i[0] * t162;
-    jac_phi_q_v_A_j[4] = omega_i[0] * t168 + omega_i[1] * t167 - omega_i[2] * t169 - (t153 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t169 + (t159 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t168 + (omega_j_in_i_1 * t167 - t158
-        * f_i_cross_f_j_in_i_1)));
+    const jg_real t166 = C_i[6] * t158 + C_i[7] * t159;
+    const jg_real t167 = t163 * C_i[2] - t165 * C_i[0];
+    const jg_real t168 = t162 * C_i[2] + t165 * C_i[1];
+    const jg_real t169 = t163 * C_i[1] + t162 * C_i[0];
     const jg_real t170 = t154 * C_j[7] + t155 * C_j[8];
     const jg_real t171 = A_i[0] * C_j[6];
     const jg_real t172 = A_i[6] * C_j[6];
-    jac_phi_q_v_A_j[5] = omega_i_cross_h_i_in_i_0 * t171 - omega_i_cross_h_i_in_i_1 * t170 +
-        omega_i_cross_h_i_in_i_2 * t172 - (t166 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t172 + (t171 *
-        omega_j_cross_h_i_in_i_0 - t164 * h_j_in_i_0 + (t161 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 * t170)));
     const jg_real t173 = A_i[7] * omega_j[0];
     const jg_real t174 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
     const jg_real t175 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
     const jg_real t176 = s_j[1] * t174 + s_j[2] * t175;
     const jg_real t177 = A_i[7] * s_j[0];
     const jg_real t178 = omega_j[1] * t174 + omega_j[2] * t175;
-    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t173 * s_j_in_i_1 - omega_j_in_i_2 * t176 - (t177 * omega_j_in_i_1 -
-        s_j_in_i_2 * t178) + (omega_i[1] * t177 + omega_i[2] * t176));
     const jg_real t179 = A_i[1] * omega_j[0];
     const jg_real t180 = A_i[1] * s_j[0];
+    jac_phi_q_v_A_j[0] = A_i[0] * v_j[0] - (t153 * s_j_in_i_1 - omega_j_in_i_2 * t156 - (t157 * omega_j_in_i_1 -
+        s_j_in_i_2 * t158) + (omega_i[1] * t157 + omega_i[2] * t156));
+    jac_phi_q_v_A_j[1] = omega_i[0] * t157 - omega_i[2] * t160 - (t157 * omega_j_in_i_0 + t159 * s_j_in_i_2 - (t160
+        * omega_j_in_i_2 + t153 * s_j_in_i_0)) - (v_j[1] * t154 + v_j[2] * t155);
+    jac_phi_q_v_A_j[2] = omega_i[0] * t156 + omega_i[1] * t160 - (t160 * omega_j_in_i_1 - s_j_in_i_0 * t158 - (t159
+        * s_j_in_i_1 - omega_j_in_i_0 * t156)) + A_i[6] * v_j[0];
+    jac_phi_q_v_A_j[3] = t163 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t162 + t165 *
+        omega_i_cross_h_i_in_i_2 - (t163 * omega_j_cross_h_i_in_i_0 - t164 * f_j_in_i_0 + (t161 * f_j_in_i_1 -
+        omega_j_cross_h_i_in_i_1 * t162) + (t165 * omega_j_cross_h_i_in_i_2 + t166 * f_j_in_i_2));
+    jac_phi_q_v_A_j[4] = omega_i[0] * t168 + omega_i[1] * t167 - omega_i[2] * t169 - (t153 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t169 + (t159 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t168 + (omega_j_in_i_1 * t167 - t158
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[5] = omega_i_cross_h_i_in_i_0 * t171 - omega_i_cross_h_i_in_i_1 * t170 +
+        omega_i_cross_h_i_in_i_2 * t172 - (t166 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t172 +
+        (omega_j_cross_h_i_in_i_0 * t171 - t164 * h_j_in_i_0 + (t161 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 *
+        t170)));
+    jac_phi_q_v_A_j[6] = A_i[1] * v_j[0] - (t173 * s_j_in_i_1 - omega_j_in_i_2 * t176 - (t177 * omega_j_in_i_1 -
+        s_j_in_i_2 * t178) + (omega_i[1] * t177 + omega_i[2] * t176));
     jac_phi_q_v_A_j[7] = omega_i[0] * t177 - omega_i[2] * t180 - (t177 * omega_j_in_i_0 + t179 * s_j_in_i_2 - (t180
         * omega_j_in_i_2 + t173 * s_j_in_i_0)) - (v_j[1] * t174 + v_j[2] * t175);
-    jac_phi_q_v_A_j[8] = omega_i[1] * t180 + omega_i[0] * t176 - (t180 * omega_j_in_i_1 - s_j_in_i_0 * t178 - (t179
-        * s_j_in_i_1 - omega_j_in_i_0 * t176)) + A_i[7] * v_j[0];
     const jg_real t181 = C_i[6] * t173 - C_i[8] * t179;
     const jg_real t182 = C_j[1] * t174 + C_j[2] * t175;
     const jg_real t183 = A_i[1] * C_j[0];
     const jg_real t184 = C_i[7] * t173 + C_i[8] * t178;
     const jg_real t185 = A_i[7] * C_j[0];
-    const jg_real t186 = C_i[7] * t179 + C_i[6] * t178;
-    jac_phi_q_v_A_j[9] = t183 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t182 + t185 *
-        omega_i_cross_h_i_in_i_2 - (t185 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t186 + (f_j_in_i_1 * t181 - t182
-        * omega_j_cross_h_i_in_i_1 + (t183 * omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t184)));
-    const jg_real t187 = C_i[2] * t183 - C_i[0] * t185;
-    const jg_real t188 = C_i[2] * t182 + C_i[1] * t185;
-    const jg_real t189 = C_i[1] * t183 + C_i[0] * t182;
-    jac_phi_q_v_A_j[10] = omega_i[0] * t188 + omega_i[1] * t187 - omega_i[2] * t189 - (t173 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t189 + (t179 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t188 + (omega_j_in_i_1 * t187 - t178
-        * f_i_cross_f_j_in_i_1)));
+    const jg_real t186 = C_i[6] * t178 + C_i[7] * t179;
+    const jg_real t187 = t183 * C_i[2] - t185 * C_i[0];
+    const jg_real t188 = t182 * C_i[2] + t185 * C_i[1];
+    const jg_real t189 = t183 * C_i[1] + t182 * C_i[0];
     const jg_real t190 = t174 * C_j[7] + t175 * C_j[8];
     const jg_real t191 = A_i[1] * C_j[6];
     const jg_real t192 = A_i[7] * C_j[6];
-    jac_phi_q_v_A_j[11] = omega_i_cross_h_i_in_i_0 * t191 - omega_i_cross_h_i_in_i_1 * t190 +
-        omega_i_cross_h_i_in_i_2 * t192 - (t186 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t192 + (t191 *
-        omega_j_cross_h_i_in_i_0 - t184 * h_j_in_i_0 + (t181 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 * t190)));
     const jg_real t193 = A_i[8] * omega_j[0];
     const jg_real t194 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
     const jg_real t195 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
     const jg_real t196 = s_j[1] * t194 + s_j[2] * t195;
     const jg_real t197 = A_i[8] * s_j[0];
     const jg_real t198 = omega_j[1] * t194 + omega_j[2] * t195;
-    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t193 * s_j_in_i_1 - omega_j_in_i_2 * t196 - (t197 * omega_j_in_i_1 -
-        s_j_in_i_2 * t198) + (omega_i[1] * t197 + omega_i[2] * t196));
     const jg_real t199 = A_i[2] * omega_j[0];
     const jg_real t200 = A_i[2] * s_j[0];
-    jac_phi_q_v_A_j[13] = omega_i[0] * t197 - omega_i[2] * t200 - (t197 * omega_j_in_i_0 + t199 * s_j_in_i_2 - (t200
-        * omega_j_in_i_2 + t193 * s_j_in_i_0)) - (v_j[1] * t194 + v_j[2] * t195);
-    jac_phi_q_v_A_j[14] = omega_i[1] * t200 + omega_i[0] * t196 - (t200 * omega_j_in_i_1 - s_j_in_i_0 * t198 - (t199
-        * s_j_in_i_1 - omega_j_in_i_0 * t196)) + A_i[8] * v_j[0];
     const jg_real t201 = C_i[6] * t193 - C_i[8] * t199;
     const jg_real t202 = C_j[1] * t194 + C_j[2] * t195;
     const jg_real t203 = A_i[2] * C_j[0];
     const jg_real t204 = C_i[7] * t193 + C_i[8] * t198;
     const jg_real t205 = A_i[8] * C_j[0];
-    const jg_real t206 = C_i[7] * t199 + C_i[6] * t198;
-    jac_phi_q_v_A_j[15] = t203 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t202 + t205 *
-        omega_i_cross_h_i_in_i_2 - (t205 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t206 + (f_j_in_i_1 * t201 - t202
-        * omega_j_cross_h_i_in_i_1 + (t203 * omega_j_cross_h_i_in_i_0 - f_j_in_i_0 * t204)));
-    const jg_real t207 = C_i[2] * t203 - C_i[0] * t205;
-    const jg_real t208 = C_i[2] * t202 + C_i[1] * t205;
-    const jg_real t209 = C_i[1] * t203 + C_i[0] * t202;
-    jac_phi_q_v_A_j[16] = omega_i[0] * t208 + omega_i[1] * t207 - omega_i[2] * t209 - (t193 * f_i_cross_f_j_in_i_2 -
-        omega_j_in_i_2 * t209 + (t199 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t208 + (omega_j_in_i_1 * t207 - t198
+    const jg_real t206 = C_i[6] * t198 + C_i[7] * t199;
+    jac_phi_q_v_A_j[8] = omega_i[0] * t176 + omega_i[1] * t180 - (t180 * omega_j_in_i_1 - s_j_in_i_0 * t178 - (t179
+        * s_j_in_i_1 - omega_j_in_i_0 * t176)) + A_i[7] * v_j[0];
+    jac_phi_q_v_A_j[9] = t183 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t182 + t185 *
+        omega_i_cross_h_i_in_i_2 - (t183 * omega_j_cross_h_i_in_i_0 - t184 * f_j_in_i_0 + (t181 * f_j_in_i_1 -
+        omega_j_cross_h_i_in_i_1 * t182) + (t185 * omega_j_cross_h_i_in_i_2 + t186 * f_j_in_i_2));
+    jac_phi_q_v_A_j[10] = omega_i[0] * t188 + omega_i[1] * t187 - omega_i[2] * t189 - (t173 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t189 + (t179 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t188 + (omega_j_in_i_1 * t187 - t178
         * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[11] = omega_i_cross_h_i_in_i_0 * t191 - omega_i_cross_h_i_in_i_1 * t190 +
+        omega_i_cross_h_i_in_i_2 * t192 - (t186 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t192 +
+        (omega_j_cross_h_i_in_i_0 * t191 - t184 * h_j_in_i_0 + (t181 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 *
+        t190)));
+    jac_phi_q_v_A_j[12] = A_i[2] * v_j[0] - (t193 * s_j_in_i_1 - omega_j_in_i_2 * t196 - (t197 * omega_j_in_i_1 -
+        s_j_in_i_2 * t198) + (omega_i[1] * t197 + omega_i[2] * t196));
+    jac_phi_q_v_A_j[13] = omega_i[0] * t197 - omega_i[2] * t200 - (t197 * omega_j_in_i_0 + t199 * s_j_in_i_2 - (t200
+        * omega_j_in_i_2 + t193 * s_j_in_i_0)) - (v_j[1] * t194 + v_j[2] * t195);
+    jac_phi_q_v_A_j[14] = omega_i[0] * t196 + omega_i[1] * t200 - (t200 * omega_j_in_i_1 - s_j_in_i_0 * t198 - (t199
+        * s_j_in_i_1 - omega_j_in_i_0 * t196)) + A_i[8] * v_j[0];
+    jac_phi_q_v_A_j[15] = t203 * omega_i_cross_h_i_in_i_0 - omega_i_cross_h_i_in_i_1 * t202 + t205 *
+        omega_i_cross_h_i_in_i_2 - (t203 * omega_j_cross_h_i_in_i_0 - t204 * f_j_in_i_0 + (t201 * f_j_in_i_1 -
+        omega_j_cross_h_i_in_i_1 * t202) + (t205 * omega_j_cross_h_i_in_i_2 + t206 * f_j_in_i_2));
+    const jg_real t207 = t203 * C_i[2] - t205 * C_i[0];
+    const jg_real t208 = t202 * C_i[2] + t205 * C_i[1];
+    const jg_real t209 = t203 * C_i[1] + t202 * C_i[0];
     const jg_real t210 = t194 * C_j[7] + t195 * C_j[8];
     const jg_real t211 = A_i[2] * C_j[6];
     const jg_real t212 = A_i[8] * C_j[6];
-    jac_phi_q_v_A_j[17] = omega_i_cross_h_i_in_i_0 * t211 - omega_i_cross_h_i_in_i_1 * t210 +
-        omega_i_cross_h_i_in_i_2 * t212 - (t206 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t212 + (t211 *
-        omega_j_cross_h_i_in_i_0 - t204 * h_j_in_i_0 + (t201 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 * t210)));
     const jg_real t213 = A_i[6] * omega_j[1];
     const jg_real t214 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
     const jg_real t215 = s_j[0] * t154 - s_j[2] * t214;
     const jg_real t216 = A_i[6] * s_j[1];
     const jg_real t217 = omega_j[0] * t154 - omega_j[2] * t214;
-    jac_phi_q_v_A_j[18] = omega_i[2] * t215 - omega_i[1] * t216 - (omega_j_in_i_2 * t215 + t213 * s_j_in_i_1 - (t216
-        * omega_j_in_i_1 + s_j_in_i_2 * t217)) + A_i[0] * v_j[1];
     const jg_real t218 = A_i[0] * omega_j[1];
     const jg_real t219 = A_i[0] * s_j[1];
-    jac_phi_q_v_A_j[19] = v_j[0] * t154 - v_j[2] * t214 + (omega_i[0] * t216 - omega_i[2] * t219 - (t216 *
-        omega_j_in_i_0 + t218 * s_j_in_i_2 - (t219 * omega_j_in_i_2 + t213 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[20] = omega_i[1] * t219 - omega_i[0] * t215 - (t219 * omega_j_in_i_1 + s_j_in_i_0 * t217 -
-        (omega_j_in_i_0 * t215 + t218 * s_j_in_i_1)) + A_i[6] * v_j[1];
     const jg_real t220 = C_j[0] * t154 - C_j[2] * t214;
     const jg_real t221 = C_i[6] * t213 - C_i[8] * t218;
     const jg_real t222 = A_i[0] * C_j[1];
     const jg_real t223 = C_i[8] * t217 - C_i[7] * t213;
     const jg_real t224 = A_i[6] * C_j[1];
     const jg_real t225 = C_i[7] * t218 - C_i[6] * t217;
-    jac_phi_q_v_A_j[21] = t222 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t220 + t224 *
-        omega_i_cross_h_i_in_i_2 - (t224 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t225 + (t220 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t221 + (t222 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t223)));
-    const jg_real t226 = C_i[2] * t222 - C_i[0] * t224;
-    const jg_real t227 = C_i[1] * t224 - C_i[2] * t220;
-    const jg_real t228 = C_i[0] * t220 - C_i[1] * t222;
-    jac_phi_q_v_A_j[22] = omega_i[0] * t227 + omega_i[1] * t226 + omega_i[2] * t228 - (t213 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t228 + (t218 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t227 + (t217 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t226)));
+    const jg_real t226 = t222 * C_i[2] - t224 * C_i[0];
+    const jg_real t227 = t224 * C_i[1] - t220 * C_i[2];
+    const jg_real t228 = t220 * C_i[0] - t222 * C_i[1];
     const jg_real t229 = t154 * C_j[6] - t214 * C_j[8];
     const jg_real t230 = A_i[0] * C_j[7];
     const jg_real t231 = A_i[6] * C_j[7];
+    jac_phi_q_v_A_j[16] = omega_i[0] * t208 + omega_i[1] * t207 - omega_i[2] * t209 - (t193 * f_i_cross_f_j_in_i_2 -
+        omega_j_in_i_2 * t209 + (t199 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t208 + (omega_j_in_i_1 * t207 - t198
+        * f_i_cross_f_j_in_i_1)));
+    jac_phi_q_v_A_j[17] = omega_i_cross_h_i_in_i_0 * t211 - omega_i_cross_h_i_in_i_1 * t210 +
+        omega_i_cross_h_i_in_i_2 * t212 - (t206 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t212 +
+        (omega_j_cross_h_i_in_i_0 * t211 - t204 * h_j_in_i_0 + (t201 * h_j_in_i_1 - omega_j_cross_h_i_in_i_1 *
+        t210)));
+    jac_phi_q_v_A_j[18] = omega_i[2] * t215 - omega_i[1] * t216 - (omega_j_in_i_2 * t215 + t213 * s_j_in_i_1 - (t216
+        * omega_j_in_i_1 + s_j_in_i_2 * t217)) + A_i[0] * v_j[1];
+    jac_phi_q_v_A_j[19] = v_j[0] * t154 - v_j[2] * t214 + (omega_i[0] * t216 - omega_i[2] * t219 - (t216 *
+        omega_j_in_i_0 + t218 * s_j_in_i_2 - (t219 * omega_j_in_i_2 + t213 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[20] = omega_i[1] * t219 - omega_i[0] * t215 - (t219 * omega_j_in_i_1 + s_j_in_i_0 * t217 -
+        (omega_j_in_i_0 * t215 + t218 * s_j_in_i_1)) + A_i[6] * v_j[1];
+    jac_phi_q_v_A_j[21] = omega_i_cross_h_i_in_i_1 * t220 + t222 * omega_i_cross_h_i_in_i_0 + t224 *
+        omega_i_cross_h_i_in_i_2 - (t222 * omega_j_cross_h_i_in_i_0 + t223 * f_j_in_i_0 + (omega_j_cross_h_i_in_i_1
+        * t220 + t221 * f_j_in_i_1) + (t224 * omega_j_cross_h_i_in_i_2 + t225 * f_j_in_i_2));
+    jac_phi_q_v_A_j[22] = omega_i[0] * t227 + omega_i[1] * t226 + omega_i[2] * t228 - (t213 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t228 + (t218 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t227 + (t217 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t226)));
     jac_phi_q_v_A_j[23] = omega_i_cross_h_i_in_i_0 * t230 + omega_i_cross_h_i_in_i_1 * t229 +
         omega_i_cross_h_i_in_i_2 * t231 - (t225 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t231 + (t223 * h_j_in_i_0
-        + t230 * omega_j_cross_h_i_in_i_0 + (t221 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t229)));
+        + omega_j_cross_h_i_in_i_0 * t230 + (t221 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t229)));
     const jg_real t232 = A_i[7] * omega_j[1];
     const jg_real t233 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
     const jg_real t234 = s_j[0] * t174 - s_j[2] * t233;
     const jg_real t235 = A_i[7] * s_j[1];
     const jg_real t236 = omega_j[0] * t174 - omega_j[2] * t233;
-    jac_phi_q_v_A_j[24] = omega_i[2] * t234 - omega_i[1] * t235 - (omega_j_in_i_2 * t234 + t232 * s_j_in_i_1 - (t235
-        * omega_j_in_i_1 + s_j_in_i_2 * t236)) + A_i[1] * v_j[1];
     const jg_real t237 = A_i[1] * omega_j[1];
     const jg_real t238 = A_i[1] * s_j[1];
-    jac_phi_q_v_A_j[25] = v_j[0] * t174 - v_j[2] * t233 + (omega_i[0] * t235 - omega_i[2] * t238 - (t235 *
-        omega_j_in_i_0 + t237 * s_j_in_i_2 - (t238 * omega_j_in_i_2 + t232 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[26] = omega_i[1] * t238 - omega_i[0] * t234 - (t238 * omega_j_in_i_1 + s_j_in_i_0 * t236 -
-        (omega_j_in_i_0 * t234 + t237 * s_j_in_i_1)) + A_i[7] * v_j[1];
     const jg_real t239 = C_j[0] * t174 - C_j[2] * t233;
     const jg_real t240 = C_i[6] * t232 - C_i[8] * t237;
     const jg_real t241 = A_i[1] * C_j[1];
     const jg_real t242 = C_i[8] * t236 - C_i[7] * t232;
     const jg_real t243 = A_i[7] * C_j[1];
     const jg_real t244 = C_i[7] * t237 - C_i[6] * t236;
-    jac_phi_q_v_A_j[27] = t241 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t239 + t243 *
-        omega_i_cross_h_i_in_i_2 - (t243 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t244 + (t239 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t240 + (t241 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t242)));
-    const jg_real t245 = C_i[2] * t241 - C_i[0] * t243;
-    const jg_real t246 = C_i[1] * t243 - C_i[2] * t239;
-    const jg_real t247 = C_i[0] * t239 - C_i[1] * t241;
-    jac_phi_q_v_A_j[28] = omega_i[0] * t246 + omega_i[1] * t245 + omega_i[2] * t247 - (t232 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t247 + (t237 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t246 + (t236 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t245)));
+    const jg_real t245 = t241 * C_i[2] - t243 * C_i[0];
+    const jg_real t246 = t243 * C_i[1] - t239 * C_i[2];
+    const jg_real t247 = t239 * C_i[0] - t241 * C_i[1];
     const jg_real t248 = t174 * C_j[6] - t233 * C_j[8];
     const jg_real t249 = A_i[1] * C_j[7];
     const jg_real t250 = A_i[7] * C_j[7];
-    jac_phi_q_v_A_j[29] = omega_i_cross_h_i_in_i_0 * t249 + omega_i_cross_h_i_in_i_1 * t248 +
-        omega_i_cross_h_i_in_i_2 * t250 - (t244 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t250 + (t242 * h_j_in_i_0
-        + t249 * omega_j_cross_h_i_in_i_0 + (t240 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t248)));
     const jg_real t251 = A_i[8] * omega_j[1];
     const jg_real t252 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
     const jg_real t253 = s_j[0] * t194 - s_j[2] * t252;
     const jg_real t254 = A_i[8] * s_j[1];
     const jg_real t255 = omega_j[0] * t194 - omega_j[2] * t252;
-    jac_phi_q_v_A_j[30] = omega_i[2] * t253 - omega_i[1] * t254 - (omega_j_in_i_2 * t253 + t251 * s_j_in_i_1 - (t254
-        * omega_j_in_i_1 + s_j_in_i_2 * t255)) + A_i[2] * v_j[1];
     const jg_real t256 = A_i[2] * omega_j[1];
     const jg_real t257 = A_i[2] * s_j[1];
+    jac_phi_q_v_A_j[24] = omega_i[2] * t234 - omega_i[1] * t235 - (omega_j_in_i_2 * t234 + t232 * s_j_in_i_1 - (t235
+        * omega_j_in_i_1 + s_j_in_i_2 * t236)) + A_i[1] * v_j[1];
+    jac_phi_q_v_A_j[25] = v_j[0] * t174 - v_j[2] * t233 + (omega_i[0] * t235 - omega_i[2] * t238 - (t235 *
+        omega_j_in_i_0 + t237 * s_j_in_i_2 - (t238 * omega_j_in_i_2 + t232 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[26] = omega_i[1] * t238 - omega_i[0] * t234 - (t238 * omega_j_in_i_1 + s_j_in_i_0 * t236 -
+        (omega_j_in_i_0 * t234 + t237 * s_j_in_i_1)) + A_i[7] * v_j[1];
+    jac_phi_q_v_A_j[27] = omega_i_cross_h_i_in_i_1 * t239 + t241 * omega_i_cross_h_i_in_i_0 + t243 *
+        omega_i_cross_h_i_in_i_2 - (t241 * omega_j_cross_h_i_in_i_0 + t242 * f_j_in_i_0 + (omega_j_cross_h_i_in_i_1
+        * t239 + t240 * f_j_in_i_1) + (t243 * omega_j_cross_h_i_in_i_2 + t244 * f_j_in_i_2));
+    jac_phi_q_v_A_j[28] = omega_i[0] * t246 + omega_i[1] * t245 + omega_i[2] * t247 - (t232 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t247 + (t237 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t246 + (t236 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t245)));
+    jac_phi_q_v_A_j[29] = omega_i_cross_h_i_in_i_0 * t249 + omega_i_cross_h_i_in_i_1 * t248 +
+        omega_i_cross_h_i_in_i_2 * t250 - (t244 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t250 + (t242 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t249 + (t240 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t248)));
+    jac_phi_q_v_A_j[30] = omega_i[2] * t253 - omega_i[1] * t254 - (omega_j_in_i_2 * t253 + t251 * s_j_in_i_1 - (t254
+        * omega_j_in_i_1 + s_j_in_i_2 * t255)) + A_i[2] * v_j[1];
     jac_phi_q_v_A_j[31] = v_j[0] * t194 - v_j[2] * t252 + (omega_i[0] * t254 - omega_i[2] * t257 - (t254 *
         omega_j_in_i_0 + t256 * s_j_in_i_2 - (t257 * omega_j_in_i_2 + t251 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[32] = omega_i[1] * t257 - omega_i[0] * t253 - (t257 * omega_j_in_i_1 + s_j_in_i_0 * t255 -
-        (omega_j_in_i_0 * t253 + t256 * s_j_in_i_1)) + A_i[8] * v_j[1];
     const jg_real t258 = C_j[0] * t194 - C_j[2] * t252;
     const jg_real t259 = C_i[6] * t251 - C_i[8] * t256;
     const jg_real t260 = A_i[2] * C_j[1];
     const jg_real t261 = C_i[8] * t255 - C_i[7] * t251;
     const jg_real t262 = A_i[8] * C_j[1];
     const jg_real t263 = C_i[7] * t256 - C_i[6] * t255;
-    jac_phi_q_v_A_j[33] = t260 * omega_i_cross_h_i_in_i_0 + omega_i_cross_h_i_in_i_1 * t258 + t262 *
-        omega_i_cross_h_i_in_i_2 - (t262 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t263 + (t258 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t259 + (t260 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t261)));
-    const jg_real t264 = C_i[2] * t260 - C_i[0] * t262;
-    const jg_real t265 = C_i[1] * t262 - C_i[2] * t258;
-    const jg_real t266 = C_i[0] * t258 - C_i[1] * t260;
-    jac_phi_q_v_A_j[34] = omega_i[0] * t265 + omega_i[1] * t264 + omega_i[2] * t266 - (t251 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t266 + (t256 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t265 + (t255 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t264)));
+    const jg_real t264 = t260 * C_i[2] - t262 * C_i[0];
+    const jg_real t265 = t262 * C_i[1] - t258 * C_i[2];
+    const jg_real t266 = t258 * C_i[0] - t260 * C_i[1];
     const jg_real t267 = t194 * C_j[6] - t252 * C_j[8];
     const jg_real t268 = A_i[2] * C_j[7];
     const jg_real t269 = A_i[8] * C_j[7];
-    jac_phi_q_v_A_j[35] = omega_i_cross_h_i_in_i_0 * t268 + omega_i_cross_h_i_in_i_1 * t267 +
-        omega_i_cross_h_i_in_i_2 * t269 - (t263 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t269 + (t261 * h_j_in_i_0
-        + t268 * omega_j_cross_h_i_in_i_0 + (t259 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t267)));
     const jg_real t270 = A_i[6] * omega_j[2];
     const jg_real t271 = s_j[0] * t155 + s_j[1] * t214;
     const jg_real t272 = A_i[6] * s_j[2];
     const jg_real t273 = omega_j[0] * t155 + omega_j[1] * t214;
-    jac_phi_q_v_A_j[36] = omega_i[2] * t271 - omega_i[1] * t272 - (omega_j_in_i_2 * t271 + t270 * s_j_in_i_1 - (t272
-        * omega_j_in_i_1 + s_j_in_i_2 * t273)) + A_i[0] * v_j[2];
     const jg_real t274 = A_i[0] * omega_j[2];
     const jg_real t275 = A_i[0] * s_j[2];
-    jac_phi_q_v_A_j[37] = v_j[0] * t155 + v_j[1] * t214 + (omega_i[0] * t272 - omega_i[2] * t275 - (t272 *
-        omega_j_in_i_0 + t274 * s_j_in_i_2 - (t275 * omega_j_in_i_2 + t270 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[38] = omega_i[1] * t275 - omega_i[0] * t271 - (t275 * omega_j_in_i_1 + s_j_in_i_0 * t273 -
-        (omega_j_in_i_0 * t271 + t274 * s_j_in_i_1)) + A_i[6] * v_j[2];
     const jg_real t276 = C_j[0] * t155 + C_j[1] * t214;
     const jg_real t277 = C_i[6] * t270 - C_i[8] * t274;
     const jg_real t278 = A_i[0] * C_j[2];
     const jg_real t279 = C_i[8] * t273 - C_i[7] * t270;
     const jg_real t280 = A_i[6] * C_j[2];
     const jg_real t281 = C_i[7] * t274 - C_i[6] * t273;
-    jac_phi_q_v_A_j[39] = t278 * omega_i_cross_h_i_in_i_0 + t276 * omega_i_cross_h_i_in_i_1 + t280 *
-        omega_i_cross_h_i_in_i_2 - (t280 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t281 + (t276 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t277 + (t278 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t279)));
-    const jg_real t282 = C_i[2] * t278 - C_i[0] * t280;
-    const jg_real t283 = C_i[1] * t280 - C_i[2] * t276;
-    const jg_real t284 = C_i[0] * t276 - C_i[1] * t278;
-    jac_phi_q_v_A_j[40] = omega_i[0] * t283 + omega_i[1] * t282 + omega_i[2] * t284 - (t270 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t284 + (t274 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t283 + (t273 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t282)));
+    jac_phi_q_v_A_j[32] = omega_i[1] * t257 - omega_i[0] * t253 - (t257 * omega_j_in_i_1 + s_j_in_i_0 * t255 -
+        (omega_j_in_i_0 * t253 + t256 * s_j_in_i_1)) + A_i[8] * v_j[1];
+    jac_phi_q_v_A_j[33] = omega_i_cross_h_i_in_i_1 * t258 + t260 * omega_i_cross_h_i_in_i_0 + t262 *
+        omega_i_cross_h_i_in_i_2 - (t260 * omega_j_cross_h_i_in_i_0 + t261 * f_j_in_i_0 + (omega_j_cross_h_i_in_i_1
+        * t258 + t259 * f_j_in_i_1) + (t262 * omega_j_cross_h_i_in_i_2 + t263 * f_j_in_i_2));
+    jac_phi_q_v_A_j[34] = omega_i[0] * t265 + omega_i[1] * t264 + omega_i[2] * t266 - (t251 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t266 + (t256 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t265 + (t255 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t264)));
+    jac_phi_q_v_A_j[35] = omega_i_cross_h_i_in_i_0 * t268 + omega_i_cross_h_i_in_i_1 * t267 +
+        omega_i_cross_h_i_in_i_2 * t269 - (t263 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t269 + (t261 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t268 + (t259 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t267)));
+    jac_phi_q_v_A_j[36] = omega_i[2] * t271 - omega_i[1] * t272 - (omega_j_in_i_2 * t271 + t270 * s_j_in_i_1 - (t272
+        * omega_j_in_i_1 + s_j_in_i_2 * t273)) + A_i[0] * v_j[2];
+    jac_phi_q_v_A_j[37] = v_j[0] * t155 + v_j[1] * t214 + (omega_i[0] * t272 - omega_i[2] * t275 - (t272 *
+        omega_j_in_i_0 + t274 * s_j_in_i_2 - (t275 * omega_j_in_i_2 + t270 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[38] = omega_i[1] * t275 - omega_i[0] * t271 - (t275 * omega_j_in_i_1 + t273 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t271 + t274 * s_j_in_i_1)) + A_i[6] * v_j[2];
+    jac_phi_q_v_A_j[39] = t276 * omega_i_cross_h_i_in_i_1 + t278 * omega_i_cross_h_i_in_i_0 + t280 *
+        omega_i_cross_h_i_in_i_2 - (t278 * omega_j_cross_h_i_in_i_0 + t279 * f_j_in_i_0 + (t276 *
+        omega_j_cross_h_i_in_i_1 + t277 * f_j_in_i_1) + (t280 * omega_j_cross_h_i_in_i_2 + t281 * f_j_in_i_2));
+    const jg_real t282 = t278 * C_i[2] - t280 * C_i[0];
+    const jg_real t283 = t280 * C_i[1] - t276 * C_i[2];
+    const jg_real t284 = t276 * C_i[0] - t278 * C_i[1];
     const jg_real t285 = t155 * C_j[6] + t214 * C_j[7];
     const jg_real t286 = A_i[0] * C_j[8];
     const jg_real t287 = A_i[6] * C_j[8];
-    jac_phi_q_v_A_j[41] = omega_i_cross_h_i_in_i_0 * t286 + omega_i_cross_h_i_in_i_1 * t285 +
-        omega_i_cross_h_i_in_i_2 * t287 - (t281 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t287 + (t279 * h_j_in_i_0
-        + omega_j_cross_h_i_in_i_0 * t286 + (t277 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t285)));
     const jg_real t288 = A_i[7] * omega_j[2];
     const jg_real t289 = s_j[0] * t175 + s_j[1] * t233;
     const jg_real t290 = A_i[7] * s_j[2];
     const jg_real t291 = omega_j[0] * t175 + omega_j[1] * t233;
-    jac_phi_q_v_A_j[42] = omega_i[2] * t289 - omega_i[1] * t290 - (omega_j_in_i_2 * t289 + t288 * s_j_in_i_1 - (t290
-        * omega_j_in_i_1 + s_j_in_i_2 * t291)) + A_i[1] * v_j[2];
     const jg_real t292 = A_i[1] * omega_j[2];
     const jg_real t293 = A_i[1] * s_j[2];
-    jac_phi_q_v_A_j[43] = v_j[0] * t175 + v_j[1] * t233 + (omega_i[0] * t290 - omega_i[2] * t293 - (t290 *
-        omega_j_in_i_0 + t292 * s_j_in_i_2 - (t293 * omega_j_in_i_2 + t288 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[44] = omega_i[1] * t293 - omega_i[0] * t289 - (t293 * omega_j_in_i_1 + s_j_in_i_0 * t291 -
-        (omega_j_in_i_0 * t289 + t292 * s_j_in_i_1)) + A_i[7] * v_j[2];
     const jg_real t294 = C_j[0] * t175 + C_j[1] * t233;
     const jg_real t295 = C_i[6] * t288 - C_i[8] * t292;
     const jg_real t296 = A_i[1] * C_j[2];
     const jg_real t297 = C_i[8] * t291 - C_i[7] * t288;
     const jg_real t298 = A_i[7] * C_j[2];
     const jg_real t299 = C_i[7] * t292 - C_i[6] * t291;
-    jac_phi_q_v_A_j[45] = t296 * omega_i_cross_h_i_in_i_0 + t294 * omega_i_cross_h_i_in_i_1 + t298 *
-        omega_i_cross_h_i_in_i_2 - (t298 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t299 + (t294 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t295 + (t296 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t297)));
-    const jg_real t300 = C_i[2] * t296 - C_i[0] * t298;
-    const jg_real t301 = C_i[1] * t298 - C_i[2] * t294;
-    const jg_real t302 = C_i[0] * t294 - C_i[1] * t296;
-    jac_phi_q_v_A_j[46] = omega_i[0] * t301 + omega_i[1] * t300 + omega_i[2] * t302 - (t288 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t302 + (t292 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t301 + (t291 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t300)));
+    const jg_real t300 = t296 * C_i[2] - t298 * C_i[0];
+    const jg_real t301 = t298 * C_i[1] - t294 * C_i[2];
+    const jg_real t302 = t294 * C_i[0] - t296 * C_i[1];
     const jg_real t303 = t175 * C_j[6] + t233 * C_j[7];
     const jg_real t304 = A_i[1] * C_j[8];
     const jg_real t305 = A_i[7] * C_j[8];
+    jac_phi_q_v_A_j[40] = omega_i[0] * t283 + omega_i[1] * t282 + omega_i[2] * t284 - (t270 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t284 + (t274 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t283 + (t273 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t282)));
+    jac_phi_q_v_A_j[41] = omega_i_cross_h_i_in_i_0 * t286 + omega_i_cross_h_i_in_i_1 * t285 +
+        omega_i_cross_h_i_in_i_2 * t287 - (t281 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t287 + (t279 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t286 + (t277 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t285)));
+    jac_phi_q_v_A_j[42] = omega_i[2] * t289 - omega_i[1] * t290 - (omega_j_in_i_2 * t289 + t288 * s_j_in_i_1 - (t290
+        * omega_j_in_i_1 + s_j_in_i_2 * t291)) + A_i[1] * v_j[2];
+    jac_phi_q_v_A_j[43] = v_j[0] * t175 + v_j[1] * t233 + (omega_i[0] * t290 - omega_i[2] * t293 - (t290 *
+        omega_j_in_i_0 + t292 * s_j_in_i_2 - (t293 * omega_j_in_i_2 + t288 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[44] = omega_i[1] * t293 - omega_i[0] * t289 - (t293 * omega_j_in_i_1 + t291 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t289 + t292 * s_j_in_i_1)) + A_i[7] * v_j[2];
+    jac_phi_q_v_A_j[45] = t294 * omega_i_cross_h_i_in_i_1 + t296 * omega_i_cross_h_i_in_i_0 + t298 *
+        omega_i_cross_h_i_in_i_2 - (t296 * omega_j_cross_h_i_in_i_0 + t297 * f_j_in_i_0 + (t294 *
+        omega_j_cross_h_i_in_i_1 + t295 * f_j_in_i_1) + (t298 * omega_j_cross_h_i_in_i_2 + t299 * f_j_in_i_2));
+    jac_phi_q_v_A_j[46] = omega_i[0] * t301 + omega_i[1] * t300 + omega_i[2] * t302 - (t288 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t302 + (t292 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t301 + (t291 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t300)));
     jac_phi_q_v_A_j[47] = omega_i_cross_h_i_in_i_0 * t304 + omega_i_cross_h_i_in_i_1 * t303 +
         omega_i_cross_h_i_in_i_2 * t305 - (t299 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t305 + (t297 * h_j_in_i_0
         + omega_j_cross_h_i_in_i_0 * t304 + (t295 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t303)));
@@ -762,53 +763,53 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
     const jg_real t307 = s_j[0] * t195 + s_j[1] * t252;
     const jg_real t308 = A_i[8] * s_j[2];
     const jg_real t309 = omega_j[0] * t195 + omega_j[1] * t252;
-    jac_phi_q_v_A_j[48] = omega_i[2] * t307 - omega_i[1] * t308 - (omega_j_in_i_2 * t307 + t306 * s_j_in_i_1 - (t308
-        * omega_j_in_i_1 + s_j_in_i_2 * t309)) + A_i[2] * v_j[2];
     const jg_real t310 = A_i[2] * omega_j[2];
     const jg_real t311 = A_i[2] * s_j[2];
-    jac_phi_q_v_A_j[49] = v_j[0] * t195 + v_j[1] * t252 + (omega_i[0] * t308 - omega_i[2] * t311 - (t308 *
-        omega_j_in_i_0 + t310 * s_j_in_i_2 - (t311 * omega_j_in_i_2 + t306 * s_j_in_i_0)));
-    jac_phi_q_v_A_j[50] = omega_i[1] * t311 - omega_i[0] * t307 - (t311 * omega_j_in_i_1 + s_j_in_i_0 * t309 -
-        (omega_j_in_i_0 * t307 + t310 * s_j_in_i_1)) + A_i[8] * v_j[2];
     const jg_real t312 = C_j[0] * t195 + C_j[1] * t252;
     const jg_real t313 = C_i[6] * t306 - C_i[8] * t310;
     const jg_real t314 = A_i[2] * C_j[2];
     const jg_real t315 = C_i[8] * t309 - C_i[7] * t306;
     const jg_real t316 = A_i[8] * C_j[2];
     const jg_real t317 = C_i[7] * t310 - C_i[6] * t309;
-    jac_phi_q_v_A_j[51] = t314 * omega_i_cross_h_i_in_i_0 + t312 * omega_i_cross_h_i_in_i_1 + t316 *
-        omega_i_cross_h_i_in_i_2 - (t316 * omega_j_cross_h_i_in_i_2 + f_j_in_i_2 * t317 + (t312 *
-        omega_j_cross_h_i_in_i_1 + f_j_in_i_1 * t313 + (t314 * omega_j_cross_h_i_in_i_0 + f_j_in_i_0 * t315)));
-    const jg_real t318 = C_i[2] * t314 - C_i[0] * t316;
-    const jg_real t319 = C_i[1] * t316 - C_i[2] * t312;
-    const jg_real t320 = C_i[0] * t312 - C_i[1] * t314;
-    jac_phi_q_v_A_j[52] = omega_i[0] * t319 + omega_i[1] * t318 + omega_i[2] * t320 - (t306 * f_i_cross_f_j_in_i_2 +
-        omega_j_in_i_2 * t320 + (t310 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t319 + (t309 * f_i_cross_f_j_in_i_1
-        + omega_j_in_i_1 * t318)));
+    const jg_real t318 = t314 * C_i[2] - t316 * C_i[0];
+    const jg_real t319 = t316 * C_i[1] - t312 * C_i[2];
+    const jg_real t320 = t312 * C_i[0] - t314 * C_i[1];
     const jg_real t321 = t195 * C_j[6] + t252 * C_j[7];
     const jg_real t322 = A_i[2] * C_j[8];
     const jg_real t323 = A_i[8] * C_j[8];
-    jac_phi_q_v_A_j[53] = omega_i_cross_h_i_in_i_0 * t322 + omega_i_cross_h_i_in_i_1 * t321 +
-        omega_i_cross_h_i_in_i_2 * t323 - (t317 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t323 + (t315 * h_j_in_i_0
-        + omega_j_cross_h_i_in_i_0 * t322 + (t313 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t321)));
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jac_phi_q_v_alpha[0] = cosine_0 * alphadot[0];
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jac_phi_q_v_A_j[48] = omega_i[2] * t307 - omega_i[1] * t308 - (omega_j_in_i_2 * t307 + t306 * s_j_in_i_1 - (t308
+        * omega_j_in_i_1 + s_j_in_i_2 * t309)) + A_i[2] * v_j[2];
+    jac_phi_q_v_A_j[49] = v_j[0] * t195 + v_j[1] * t252 + (omega_i[0] * t308 - omega_i[2] * t311 - (t308 *
+        omega_j_in_i_0 + t310 * s_j_in_i_2 - (t311 * omega_j_in_i_2 + t306 * s_j_in_i_0)));
+    jac_phi_q_v_A_j[50] = omega_i[1] * t311 - omega_i[0] * t307 - (t311 * omega_j_in_i_1 + t309 * s_j_in_i_0 -
+        (omega_j_in_i_0 * t307 + t310 * s_j_in_i_1)) + A_i[8] * v_j[2];
+    jac_phi_q_v_A_j[51] = t312 * omega_i_cross_h_i_in_i_1 + t314 * omega_i_cross_h_i_in_i_0 + t316 *
+        omega_i_cross_h_i_in_i_2 - (t314 * omega_j_cross_h_i_in_i_0 + t315 * f_j_in_i_0 + (t312 *
+        omega_j_cross_h_i_in_i_1 + t313 * f_j_in_i_1) + (t316 * omega_j_cross_h_i_in_i_2 + t317 * f_j_in_i_2));
+    jac_phi_q_v_A_j[52] = omega_i[0] * t319 + omega_i[1] * t318 + omega_i[2] * t320 - (t306 * f_i_cross_f_j_in_i_2 +
+        omega_j_in_i_2 * t320 + (t310 * f_i_cross_f_j_in_i_0 + omega_j_in_i_0 * t319 + (t309 * f_i_cross_f_j_in_i_1
+        + omega_j_in_i_1 * t318)));
+    jac_phi_q_v_A_j[53] = omega_i_cross_h_i_in_i_0 * t322 + omega_i_cross_h_i_in_i_1 * t321 +
+        omega_i_cross_h_i_in_i_2 * t323 - (t317 * h_j_in_i_2 + omega_j_cross_h_i_in_i_2 * t323 + (t315 * h_j_in_i_0
+        + omega_j_cross_h_i_in_i_0 * t322 + (t313 * h_j_in_i_1 + omega_j_cross_h_i_in_i_1 * t321)));
+    jac_phi_q_v_alpha[0] = cosine_0 * alphadot[0];
     jac_phi_q_v_alpha[1] = cosine_1 * alphadot[1];
     const jg_real t328 = omega_i[2] * f_j_in_i_1 - omega_i[1] * f_j_in_i_2 - (omega_j_in_i_2 * f_j_in_i_1 -
         omega_j_in_i_1 * f_j_in_i_2);
-    jac_phi_q_v_geometry[0] = t328;
-    jac_phi_q_v_geometry[3] = t328;
     const jg_real t329 = omega_i[0] * f_j_in_i_2 - omega_i[2] * f_j_in_i_0 - (omega_j_in_i_0 * f_j_in_i_2 -
         omega_j_in_i_2 * f_j_in_i_0);
+    const jg_real t330 = omega_i[1] * f_j_in_i_0 - omega_i[0] * f_j_in_i_1 - (omega_j_in_i_1 * f_j_in_i_0 -
+        omega_j_in_i_0 * f_j_in_i_1);
+    jac_phi_q_v_geometry[0] = t328;
+    jac_phi_q_v_geometry[3] = t328;
     jac_phi_q_v_geometry[1] = t329;
     jac_phi_q_v_geometry[5] = t329;
-    const jg_real t330 = omega_i[1] * f_j_in_i_0 - omega_i[0] * f_j_in_i_1 - (f_j_in_i_0 * omega_j_in_i_1 -
-        omega_j_in_i_0 * f_j_in_i_1);
     jac_phi_q_v_geometry[2] = t330;
     jac_phi_q_v_geometry[7] = t330;
     jac_phi_q_v_geometry[4] = omega_i[2] * h_j_in_i_1 - omega_i[1] * h_j_in_i_2 - (omega_j_in_i_2 * h_j_in_i_1 -
@@ -831,90 +832,90 @@ static void jg_universal_parametric_table4_phi_q_v_jacobian(const jg_real *JG_RE
         omega_j_in_i_0);
     jac_phi_q_v_geometry[15] = omega_i[2] * A_ji_5 - omega_i[1] * A_ji_8 - (A_ji_5 * omega_j_in_i_2 - A_ji_8 *
         omega_j_in_i_1);
-    jac_phi_q_v_geometry[16] = omega_i[0] * A_ji_8 - omega_i[2] * A_ji_2 - (A_ji_8 * omega_j_in_i_0 - A_ji_2 *
-        omega_j_in_i_2);
-    jac_phi_q_v_geometry[17] = omega_i[1] * A_ji_2 - omega_i[0] * A_ji_5 - (A_ji_2 * omega_j_in_i_1 - A_ji_5 *
-        omega_j_in_i_0);
-    const jg_real t331 = A_ji_0 * omega_i_cross_h_i_in_i_0 + A_ji_3 * omega_i_cross_h_i_in_i_1 + A_ji_6 *
-        omega_i_cross_h_i_in_i_2 - (A_ji_3 * omega_j_cross_h_i_in_i_1 + A_ji_0 * omega_j_cross_h_i_in_i_0 + A_ji_6 *
+    const jg_real t331 = A_ji_3 * omega_i_cross_h_i_in_i_1 + A_ji_0 * omega_i_cross_h_i_in_i_0 + A_ji_6 *
+        omega_i_cross_h_i_in_i_2 - (A_ji_0 * omega_j_cross_h_i_in_i_0 + A_ji_3 * omega_j_cross_h_i_in_i_1 + A_ji_6 *
         omega_j_cross_h_i_in_i_2);
+    const jg_real t332 = A_ji_3 * C_i[0] - A_ji_0 * C_i[1];
+    const jg_real t333 = A_ji_6 * C_i[1] - A_ji_3 * C_i[2];
+    const jg_real t334 = A_ji_0 * C_i[2] - A_ji_6 * C_i[0];
+    const jg_real t335 = A_ji_4 * omega_i_cross_h_i_in_i_1 + A_ji_1 * omega_i_cross_h_i_in_i_0 + A_ji_7 *
+        omega_i_cross_h_i_in_i_2 - (A_ji_1 * omega_j_cross_h_i_in_i_0 + A_ji_4 * omega_j_cross_h_i_in_i_1 + A_ji_7 *
+        omega_j_cross_h_i_in_i_2);
+    const jg_real t336 = A_ji_4 * C_i[0] - A_ji_1 * C_i[1];
+    const jg_real t337 = A_ji_7 * C_i[1] - A_ji_4 * C_i[2];
+    const jg_real t338 = A_ji_1 * C_i[2] - A_ji_7 * C_i[0];
+    jac_phi_q_v_geometry[16] = omega_i[0] * A_ji_8 - A_ji_2 * omega_i[2] - (A_ji_8 * omega_j_in_i_0 - A_ji_2 *
+        omega_j_in_i_2);
+    jac_phi_q_v_geometry[17] = A_ji_2 * omega_i[1] - omega_i[0] * A_ji_5 - (A_ji_2 * omega_j_in_i_1 - A_ji_5 *
+        omega_j_in_i_0);
     jac_phi_q_v_geometry[18] = t331;
     jac_phi_q_v_geometry[24] = t331;
-    const jg_real t332 = C_i[0] * A_ji_3 - C_i[1] * A_ji_0;
-    const jg_real t333 = C_i[1] * A_ji_6 - C_i[2] * A_ji_3;
-    const jg_real t334 = C_i[2] * A_ji_0 - C_i[0] * A_ji_6;
     jac_phi_q_v_geometry[19] = omega_i[0] * t333 + omega_i[1] * t334 + omega_i[2] * t332 - (omega_j_in_i_0 * t333 +
         omega_j_in_i_1 * t334 + omega_j_in_i_2 * t332);
-    const jg_real t335 = A_ji_1 * omega_i_cross_h_i_in_i_0 + A_ji_4 * omega_i_cross_h_i_in_i_1 + A_ji_7 *
-        omega_i_cross_h_i_in_i_2 - (A_ji_4 * omega_j_cross_h_i_in_i_1 + A_ji_1 * omega_j_cross_h_i_in_i_0 + A_ji_7 *
-        omega_j_cross_h_i_in_i_2);
     jac_phi_q_v_geometry[20] = t335;
     jac_phi_q_v_geometry[25] = t335;
-    const jg_real t336 = C_i[0] * A_ji_4 - C_i[1] * A_ji_1;
-    const jg_real t337 = C_i[1] * A_ji_7 - C_i[2] * A_ji_4;
-    const jg_real t338 = C_i[2] * A_ji_1 - C_i[0] * A_ji_7;
     jac_phi_q_v_geometry[21] = omega_i[0] * t337 + omega_i[1] * t338 + omega_i[2] * t336 - (omega_j_in_i_0 * t337 +
         omega_j_in_i_1 * t338 + omega_j_in_i_2 * t336);
-    const jg_real t339 = A_ji_2 * omega_i_cross_h_i_in_i_0 + A_ji_5 * omega_i_cross_h_i_in_i_1 + A_ji_8 *
-        omega_i_cross_h_i_in_i_2 - (A_ji_5 * omega_j_cross_h_i_in_i_1 + A_ji_2 * omega_j_cross_h_i_in_i_0 + A_ji_8 *
+    const jg_real t339 = A_ji_5 * omega_i_cross_h_i_in_i_1 + A_ji_2 * omega_i_cross_h_i_in_i_0 + A_ji_8 *
+        omega_i_cross_h_i_in_i_2 - (A_ji_2 * omega_j_cross_h_i_in_i_0 + A_ji_5 * omega_j_cross_h_i_in_i_1 + A_ji_8 *
         omega_j_cross_h_i_in_i_2);
+    const jg_real t340 = A_ji_5 * C_i[0] - A_ji_2 * C_i[1];
+    const jg_real t341 = A_ji_8 * C_i[1] - A_ji_5 * C_i[2];
+    const jg_real t342 = A_ji_2 * C_i[2] - A_ji_8 * C_i[0];
+    /* v_0_in_i = r_j - r_i, axes of body i */
+    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
+    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
+    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     jac_phi_q_v_geometry[22] = t339;
     jac_phi_q_v_geometry[26] = t339;
-    const jg_real t340 = C_i[0] * A_ji_5 - A_ji_2 * C_i[1];
-    const jg_real t341 = C_i[1] * A_ji_8 - C_i[2] * A_ji_5;
-    const jg_real t342 = A_ji_2 * C_i[2] - C_i[0] * A_ji_8;
     jac_phi_q_v_geometry[23] = omega_i[0] * t341 + omega_i[1] * t342 + omega_i[2] * t340 - (omega_j_in_i_0 * t341 +
         omega_j_in_i_1 * t342 + omega_j_in_i_2 * t340);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_2 = v_0_in_i_2 + s_j_in_i_2;
     jac_phi_q_v_velocity[3] = e_ij_in_i_2;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    const jg_real e_ij_in_i_1 = v_0_in_i_1 + s_j_in_i_1;
     jac_phi_q_v_velocity[13] = e_ij_in_i_1;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
     jac_phi_q_v_velocity[4] = -e_ij_in_i_1;
     jac_phi_q_v_velocity[5] = C_i[7] * f_j_in_i_2 - C_i[8] * f_j_in_i_1;
     jac_phi_q_v_velocity[7] = C_i[7] * h_j_in_i_2 - C_i[8] * h_j_in_i_1;
     jac_phi_q_v_velocity[8] = -e_ij_in_i_2;
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
-    const jg_real e_ij_in_i_0 = v_0_in_i_0 + s_j_in_i_0;
     jac_phi_q_v_velocity[9] = e_ij_in_i_0;
     jac_phi_q_v_velocity[10] = C_i[8] * f_j_in_i_0 - C_i[6] * f_j_in_i_2;
     jac_phi_q_v_velocity[12] = C_i[8] * h_j_in_i_0 - C_i[6] * h_j_in_i_2;
     jac_phi_q_v_velocity[14] = -e_ij_in_i_0;
+    const jg_real t349 = C_i[6] * A_ji_6 - C_i[8] * A_ji_0;
+    const jg_real t350 = C_i[8] * A_ji_3 - C_i[7] * A_ji_6;
+    const jg_real t351 = C_i[7] * A_ji_0 - C_i[6] * A_ji_3;
     jac_phi_q_v_velocity[15] = C_i[6] * f_j_in_i_1 - C_i[7] * f_j_in_i_0;
     jac_phi_q_v_velocity[17] = C_i[6] * h_j_in_i_1 - C_i[7] * h_j_in_i_0;
     jac_phi_q_v_velocity[27] = A_ji_3 * s_j_in_i_2 - A_ji_6 * s_j_in_i_1;
     jac_phi_q_v_velocity[28] = A_ji_6 * s_j_in_i_0 - A_ji_0 * s_j_in_i_2;
     jac_phi_q_v_velocity[29] = A_ji_0 * s_j_in_i_1 - A_ji_3 * s_j_in_i_0;
-    const jg_real t349 = C_i[6] * A_ji_6 - C_i[8] * A_ji_0;
-    const jg_real t350 = C_i[8] * A_ji_3 - C_i[7] * A_ji_6;
-    const jg_real t351 = C_i[7] * A_ji_0 - C_i[6] * A_ji_3;
-    jac_phi_q_v_velocity[30] = -(f_j_in_i_1 * t349 + f_j_in_i_0 * t350 + f_j_in_i_2 * t351);
+    jac_phi_q_v_velocity[30] = -(t350 * f_j_in_i_0 + t349 * f_j_in_i_1 + t351 * f_j_in_i_2);
     jac_phi_q_v_velocity[31] = -(A_ji_0 * f_i_cross_f_j_in_i_0 + A_ji_3 * f_i_cross_f_j_in_i_1 + A_ji_6 *
         f_i_cross_f_j_in_i_2);
     jac_phi_q_v_velocity[32] = -(t350 * h_j_in_i_0 + t349 * h_j_in_i_1 + t351 * h_j_in_i_2);
-    jac_phi_q_v_velocity[33] = A_ji_4 * s_j_in_i_2 - A_ji_7 * s_j_in_i_1;
-    jac_phi_q_v_velocity[34] = A_ji_7 * s_j_in_i_0 - A_ji_1 * s_j_in_i_2;
-    jac_phi_q_v_velocity[35] = A_ji_1 * s_j_in_i_1 - A_ji_4 * s_j_in_i_0;
     const jg_real t352 = C_i[6] * A_ji_7 - C_i[8] * A_ji_1;
     const jg_real t353 = C_i[8] * A_ji_4 - C_i[7] * A_ji_7;
     const jg_real t354 = C_i[7] * A_ji_1 - C_i[6] * A_ji_4;
-    jac_phi_q_v_velocity[36] = -(f_j_in_i_1 * t352 + f_j_in_i_0 * t353 + f_j_in_i_2 * t354);
+    jac_phi_q_v_velocity[33] = A_ji_4 * s_j_in_i_2 - A_ji_7 * s_j_in_i_1;
+    jac_phi_q_v_velocity[34] = A_ji_7 * s_j_in_i_0 - A_ji_1 * s_j_in_i_2;
+    jac_phi_q_v_velocity[35] = A_ji_1 * s_j_in_i_1 - A_ji_4 * s_j_in_i_0;
+    jac_phi_q_v_velocity[36] = -(t353 * f_j_in_i_0 + t352 * f_j_in_i_1 + t354 * f_j_in_i_2);
     jac_phi_q_v_velocity[37] = -(A_ji_1 * f_i_cross_f_j_in_i_0 + A_ji_4 * f_i_cross_f_j_in_i_1 + A_ji_7 *
         f_i_cross_f_j_in_i_2);
     jac_phi_q_v_velocity[38] = -(t353 * h_j_in_i_0 + t352 * h_j_in_i_1 + t354 * h_j_in_i_2);
     jac_phi_q_v_velocity[39] = A_ji_5 * s_j_in_i_2 - A_ji_8 * s_j_in_i_1;
     jac_phi_q_v_velocity[40] = A_ji_8 * s_j_in_i_0 - A_ji_2 * s_j_in_i_2;
-    jac_phi_q_v_velocity[41] = A_ji_2 * s_j_in_i_1 - A_ji_5 * s_j_in_i_0;
-    const jg_real t355 = C_i[6] * A_ji_8 - C_i[8] * A_ji_2;
+    const jg_real t355 = C_i[6] * A_ji_8 - A_ji_2 * C_i[8];
     const jg_real t356 = C_i[8] * A_ji_5 - C_i[7] * A_ji_8;
-    const jg_real t357 = C_i[7] * A_ji_2 - C_i[6] * A_ji_5;
-    jac_phi_q_v_velocity[42] = -(f_j_in_i_1 * t355 + f_j_in_i_0 * t356 + f_j_in_i_2 * t357);
+    const jg_real t357 = A_ji_2 * C_i[7] - C_i[6] * A_ji_5;
+    jac_phi_q_v_velocity[41] = A_ji_2 * s_j_in_i_1 - A_ji_5 * s_j_in_i_0;
+    jac_phi_q_v_velocity[42] = -(t356 * f_j_in_i_0 + t355 * f_j_in_i_1 + t357 * f_j_in_i_2);
     jac_phi_q_v_velocity[43] = -(A_ji_2 * f_i_cross_f_j_in_i_0 + A_ji_5 * f_i_cross_f_j_in_i_1 + A_ji_8 *
         f_i_cross_f_j_in_i_2);
     jac_phi_q_v_velocity[44] = -(t356 * h_j_in_i_0 + t355 * h_j_in_i_1 + t357 * h_j_in_i_2);
@@ -934,38 +935,31 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real t0 = lambda[2] * A_i[3] - lambda[1] * A_i[6];
-    jac_phi_q_t_lambda_r_i[0] = t0;
     const jg_real t1 = lambda[0] * A_i[6] - lambda[2] * A_i[0];
-    jac_phi_q_t_lambda_r_i[1] = t1;
     const jg_real t2 = lambda[1] * A_i[0] - lambda[0] * A_i[3];
-    jac_phi_q_t_lambda_r_i[2] = t2;
     const jg_real t3 = lambda[2] * A_i[4] - lambda[1] * A_i[7];
-    jac_phi_q_t_lambda_r_i[3] = t3;
     const jg_real t4 = lambda[0] * A_i[7] - lambda[2] * A_i[1];
-    jac_phi_q_t_lambda_r_i[4] = t4;
     const jg_real t5 = lambda[1] * A_i[1] - lambda[0] * A_i[4];
-    jac_phi_q_t_lambda_r_i[5] = t5;
     const jg_real t6 = lambda[2] * A_i[5] - lambda[1] * A_i[8];
-    jac_phi_q_t_lambda_r_i[6] = t6;
     const jg_real t7 = lambda[0] * A_i[8] - lambda[2] * A_i[2];
+    jac_phi_q_t_lambda_r_i[0] = t0;
+    jac_phi_q_t_lambda_r_i[1] = t1;
+    jac_phi_q_t_lambda_r_i[2] = t2;
+    jac_phi_q_t_lambda_r_i[3] = t3;
+    jac_phi_q_t_lambda_r_i[4] = t4;
+    jac_phi_q_t_lambda_r_i[5] = t5;
+    jac_phi_q_t_lambda_r_i[6] = t6;
     jac_phi_q_t_lambda_r_i[7] = t7;
     const jg_real t8 = lambda[1] * A_i[2] - lambda[0] * A_i[5];
-    jac_phi_q_t_lambda_r_i[8] = t8;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_3 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
     const jg_real A_ij_4 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
-    jac_phi_q_t_lambda_lambda[15] = A_ij_4;
     const jg_real A_ij_5 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    jac_phi_q_t_lambda_lambda[25] = A_ij_5;
     /* A_joint_i_j = turns j axes to joint i axes */
     const jg_real A_joint_i_j_4 = C_i[3] * A_ij_3 + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
     const jg_real A_ij_6 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    jac_phi_q_t_lambda_lambda[6] = A_ij_6;
     const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    jac_phi_q_t_lambda_lambda[16] = A_ij_7;
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    jac_phi_q_t_lambda_lambda[26] = A_ij_8;
     const jg_real A_joint_i_j_8 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + C_i[8] * A_ij_8;
     const jg_real A_joint_i_j_5 = C_i[6] * A_ij_3 + C_i[7] * A_ij_4 + C_i[8] * A_ij_5;
     const jg_real A_joint_i_j_7 = C_i[3] * A_ij_6 + C_i[4] * A_ij_7 + C_i[5] * A_ij_8;
@@ -975,22 +969,23 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real A_joint_i_j_2 = A_joint_i_j_3 * A_joint_i_j_7 - A_joint_i_j_4 * A_joint_i_j_6;
     /* v_2_in_j = lambda_4 f_i + lambda_3 h_i, axes of body j */
     const jg_real v_2_in_j_0 = lambda[4] * A_joint_i_j_0 + lambda[3] * A_joint_i_j_2;
+    jac_phi_q_t_lambda_r_i[8] = t8;
+    jac_phi_q_t_lambda_lambda[5] = A_ij_3;
+    jac_phi_q_t_lambda_lambda[15] = A_ij_4;
+    jac_phi_q_t_lambda_lambda[25] = A_ij_5;
+    jac_phi_q_t_lambda_lambda[6] = A_ij_6;
+    jac_phi_q_t_lambda_lambda[16] = A_ij_7;
+    jac_phi_q_t_lambda_lambda[26] = A_ij_8;
     jac_phi_q_t_lambda_geometry[80] = v_2_in_j_0;
     const jg_real v_2_in_j_1 = lambda[3] * A_joint_i_j_5 + lambda[4] * A_joint_i_j_3;
-    jac_phi_q_t_lambda_geometry[70] = v_2_in_j_1;
     /* v_3_in_j = lambda_4 f_j x f_i + lambda_3 f_j x h_i, axes of body j */
     const jg_real v_3_in_j_2 = C_j[0] * v_2_in_j_1 - C_j[1] * v_2_in_j_0;
     const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
     const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_3 * A_ij_8;
-    jac_phi_q_t_lambda_lambda[14] = A_ij_1;
     const jg_real A_ij_2 = A_ij_3 * A_ij_7 - A_ij_4 * A_ij_6;
-    jac_phi_q_t_lambda_lambda[24] = A_ij_2;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ij_0 + lambda[1] * A_ij_1 + lambda[2] * A_ij_2;
-    jac_phi_q_t_lambda_geometry[65] = lambda_0_1_2_in_j_0;
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ij_3 + lambda[1] * A_ij_4 + lambda[2] * A_ij_5;
-    jac_phi_q_t_lambda_geometry[55] = lambda_0_1_2_in_j_1;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
     const jg_real s_j_cross_lambda_0_1_2_in_j_2 = s_j[0] * lambda_0_1_2_in_j_1 - s_j[1] * lambda_0_1_2_in_j_0;
     /* v_4_in_j = lambda_5 h_j, axes of body j */
@@ -1015,43 +1010,48 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t47 = A_j[6] * A_ij_4 - A_j[3] * A_ij_7;
     const jg_real t48 = lambda[1] * t46 + lambda[2] * t47;
     const jg_real t49 = lambda[0] * A_j[3];
-    jac_phi_q_t_lambda_A_i[4] = t49;
     const jg_real t50 = v_4_in_j_0 * t39 - v_4_in_j_1 * t43 + (s_j[0] * t49 + s_j[1] * t48 + (C_j[0] * t45 - C_j[1]
         * t44));
+    jac_phi_q_t_lambda_geometry[70] = v_2_in_j_1;
+    jac_phi_q_t_lambda_lambda[4] = A_ij_0;
+    jac_phi_q_t_lambda_lambda[14] = A_ij_1;
+    jac_phi_q_t_lambda_lambda[24] = A_ij_2;
+    jac_phi_q_t_lambda_geometry[65] = lambda_0_1_2_in_j_0;
+    jac_phi_q_t_lambda_geometry[55] = lambda_0_1_2_in_j_1;
+    jac_phi_q_t_lambda_A_i[4] = t49;
     jac_phi_q_t_lambda_A_i[8] = t50;
-    const jg_real v_2_in_j_2 = lambda[4] * A_joint_i_j_6 + lambda[3] * A_joint_i_j_8;
-    jac_phi_q_t_lambda_geometry[74] = v_2_in_j_2;
+    const jg_real v_2_in_j_2 = lambda[3] * A_joint_i_j_8 + lambda[4] * A_joint_i_j_6;
     const jg_real v_3_in_j_1 = C_j[2] * v_2_in_j_0 - C_j[0] * v_2_in_j_2;
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ij_6 + lambda[1] * A_ij_7 + lambda[2] * A_ij_8;
-    jac_phi_q_t_lambda_geometry[59] = lambda_0_1_2_in_j_2;
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = s_j[2] * lambda_0_1_2_in_j_0 - s_j[0] * lambda_0_1_2_in_j_2;
     const jg_real v_4_in_j_2 = lambda[5] * C_j[8];
     const jg_real v_5_in_j_1 = v_4_in_j_2 * A_joint_i_j_2 - v_4_in_j_0 * A_joint_i_j_8;
     const jg_real v_6_in_j_1 = s_j_cross_lambda_0_1_2_in_j_1 + v_3_in_j_1 + v_5_in_j_1;
     const jg_real t58 = A_j[3] * v_6_in_j_1;
-    const jg_real t59 = lambda[4] * t42 + lambda[3] * t38;
+    const jg_real t59 = lambda[3] * t38 + lambda[4] * t42;
     const jg_real t60 = lambda[0] * A_j[6];
-    jac_phi_q_t_lambda_A_i[5] = t60;
-    const jg_real t61 = v_4_in_j_2 * t43 - v_4_in_j_0 * t38 + (C_j[2] * t44 - C_j[0] * t59 - (s_j[0] * t60 + s_j[2]
-        * t48));
-    jac_phi_q_t_lambda_A_i[7] = t61;
-    const jg_real t62 = v_4_in_j_1 * t38 - v_4_in_j_2 * t39 + (s_j[1] * t60 - s_j[2] * t49 + (C_j[1] * t59 - C_j[2]
-        * t45));
-    jac_phi_q_t_lambda_A_i[6] = t62;
-    jac_phi_q_t_lambda_A_i[0] = -(t36 + A_ij_6 * t50 + (t58 + A_ij_3 * t61 + A_ij_0 * t62));
+    const jg_real t61 = v_4_in_j_2 * t43 - v_4_in_j_0 * t38 + (C_j[2] * t44 - C_j[0] * t59 - (s_j[2] * t48 + s_j[0]
+        * t60));
+    const jg_real t62 = v_4_in_j_1 * t38 - v_4_in_j_2 * t39 + (C_j[1] * t59 - C_j[2] * t45 + (s_j[1] * t60 - s_j[2]
+        * t49));
     const jg_real v_3_in_j_0 = C_j[1] * v_2_in_j_2 - C_j[2] * v_2_in_j_1;
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = s_j[1] * lambda_0_1_2_in_j_2 - s_j[2] * lambda_0_1_2_in_j_1;
     const jg_real v_5_in_j_0 = v_4_in_j_1 * A_joint_i_j_8 - v_4_in_j_2 * A_joint_i_j_5;
-    const jg_real v_6_in_j_0 = s_j_cross_lambda_0_1_2_in_j_0 + v_3_in_j_0 + v_5_in_j_0;
+    const jg_real v_6_in_j_0 = v_3_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 + v_5_in_j_0;
     const jg_real t67 = t46 * v_6_in_j_0;
     /* v_0_world = r_j - r_i, world axes */
     const jg_real v_0_world_0 = r_j[0] - r_i[0];
     const jg_real t69 = lambda[2] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[1] = t69 - (A_ij_1 * t62 - t67 + A_ij_4 * t61 + A_ij_7 * t50);
     const jg_real t70 = t47 * v_6_in_j_0;
     const jg_real t71 = lambda[1] * v_0_world_0;
+    jac_phi_q_t_lambda_geometry[74] = v_2_in_j_2;
+    jac_phi_q_t_lambda_geometry[59] = lambda_0_1_2_in_j_2;
+    jac_phi_q_t_lambda_A_i[5] = t60;
+    jac_phi_q_t_lambda_A_i[7] = t61;
+    jac_phi_q_t_lambda_A_i[6] = t62;
+    jac_phi_q_t_lambda_A_i[0] = -(t36 + A_ij_6 * t50 + (t58 + A_ij_3 * t61 + A_ij_0 * t62));
+    jac_phi_q_t_lambda_A_i[1] = t69 - (A_ij_1 * t62 - t67 + A_ij_4 * t61 + A_ij_7 * t50);
     jac_phi_q_t_lambda_A_i[2] = -(A_ij_2 * t62 - t70 + A_ij_5 * t61 + A_ij_8 * t50 + t71);
-    jac_phi_q_t_lambda_A_i[3] = -t48;
     const jg_real t72 = A_j[7] * v_6_in_j_2;
     const jg_real t73 = A_j[4] * C_i[3];
     const jg_real t74 = A_j[7] * C_i[6];
@@ -1067,29 +1067,28 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t83 = A_j[7] * A_ij_4 - A_j[4] * A_ij_7;
     const jg_real t84 = lambda[1] * t82 + lambda[2] * t83;
     const jg_real t85 = lambda[0] * A_j[4];
-    jac_phi_q_t_lambda_A_i[13] = t85;
     const jg_real t86 = v_4_in_j_0 * t75 - v_4_in_j_1 * t79 + (s_j[0] * t85 + s_j[1] * t84 + (C_j[0] * t81 - C_j[1]
         * t80));
-    jac_phi_q_t_lambda_A_i[17] = t86;
     const jg_real t87 = A_j[4] * v_6_in_j_1;
-    const jg_real t88 = lambda[4] * t78 + lambda[3] * t74;
+    const jg_real t88 = lambda[3] * t74 + lambda[4] * t78;
     const jg_real t89 = lambda[0] * A_j[7];
-    jac_phi_q_t_lambda_A_i[14] = t89;
-    const jg_real t90 = v_4_in_j_2 * t79 - v_4_in_j_0 * t74 + (C_j[2] * t80 - C_j[0] * t88 - (s_j[0] * t89 + s_j[2]
-        * t84));
-    jac_phi_q_t_lambda_A_i[16] = t90;
-    const jg_real t91 = v_4_in_j_1 * t74 - v_4_in_j_2 * t75 + (s_j[1] * t89 - s_j[2] * t85 + (C_j[1] * t88 - C_j[2]
-        * t81));
-    jac_phi_q_t_lambda_A_i[15] = t91;
-    jac_phi_q_t_lambda_A_i[9] = -(t72 + A_ij_6 * t86 + (t87 + A_ij_3 * t90 + A_ij_0 * t91));
+    const jg_real t90 = v_4_in_j_2 * t79 - v_4_in_j_0 * t74 + (C_j[2] * t80 - C_j[0] * t88 - (s_j[2] * t84 + s_j[0]
+        * t89));
+    const jg_real t91 = v_4_in_j_1 * t74 - v_4_in_j_2 * t75 + (C_j[1] * t88 - C_j[2] * t81 + (s_j[1] * t89 - s_j[2]
+        * t85));
     const jg_real t92 = t82 * v_6_in_j_0;
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real t94 = lambda[2] * v_0_world_1;
+    jac_phi_q_t_lambda_A_i[3] = -t48;
+    jac_phi_q_t_lambda_A_i[13] = t85;
+    jac_phi_q_t_lambda_A_i[17] = t86;
+    jac_phi_q_t_lambda_A_i[14] = t89;
+    jac_phi_q_t_lambda_A_i[16] = t90;
+    jac_phi_q_t_lambda_A_i[15] = t91;
+    jac_phi_q_t_lambda_A_i[9] = -(t72 + A_ij_6 * t86 + (t87 + A_ij_3 * t90 + A_ij_0 * t91));
     jac_phi_q_t_lambda_A_i[10] = t94 - (A_ij_1 * t91 - t92 + A_ij_4 * t90 + A_ij_7 * t86);
     const jg_real t95 = t83 * v_6_in_j_0;
     const jg_real t96 = lambda[1] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[11] = -(A_ij_2 * t91 - t95 + A_ij_5 * t90 + A_ij_8 * t86 + t96);
-    jac_phi_q_t_lambda_A_i[12] = -t84;
     const jg_real t97 = A_j[8] * v_6_in_j_2;
     const jg_real t98 = A_j[5] * C_i[3];
     const jg_real t99 = A_j[8] * C_i[6];
@@ -1105,42 +1104,38 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t108 = A_j[8] * A_ij_4 - A_j[5] * A_ij_7;
     const jg_real t109 = lambda[1] * t107 + lambda[2] * t108;
     const jg_real t110 = lambda[0] * A_j[5];
-    jac_phi_q_t_lambda_A_i[22] = t110;
     const jg_real t111 = v_4_in_j_0 * t100 - v_4_in_j_1 * t104 + (s_j[0] * t110 + s_j[1] * t109 + (C_j[0] * t106 -
         C_j[1] * t105));
-    jac_phi_q_t_lambda_A_i[26] = t111;
     const jg_real t112 = A_j[5] * v_6_in_j_1;
-    const jg_real t113 = lambda[4] * t103 + lambda[3] * t99;
+    const jg_real t113 = lambda[3] * t99 + lambda[4] * t103;
     const jg_real t114 = lambda[0] * A_j[8];
+    const jg_real t115 = v_4_in_j_2 * t104 - v_4_in_j_0 * t99 + (C_j[2] * t105 - C_j[0] * t113 - (s_j[2] * t109 +
+        s_j[0] * t114));
+    const jg_real t116 = v_4_in_j_1 * t99 - v_4_in_j_2 * t100 + (C_j[1] * t113 - C_j[2] * t106 + (s_j[1] * t114 -
+        s_j[2] * t110));
+    jac_phi_q_t_lambda_A_i[11] = -(A_ij_2 * t91 - t95 + A_ij_5 * t90 + A_ij_8 * t86 + t96);
+    jac_phi_q_t_lambda_A_i[12] = -t84;
+    jac_phi_q_t_lambda_A_i[22] = t110;
+    jac_phi_q_t_lambda_A_i[26] = t111;
     jac_phi_q_t_lambda_A_i[23] = t114;
-    const jg_real t115 = v_4_in_j_2 * t104 - v_4_in_j_0 * t99 + (C_j[2] * t105 - C_j[0] * t113 - (s_j[0] * t114 +
-        s_j[2] * t109));
     jac_phi_q_t_lambda_A_i[25] = t115;
-    const jg_real t116 = v_4_in_j_1 * t99 - v_4_in_j_2 * t100 + (s_j[1] * t114 - s_j[2] * t110 + (C_j[1] * t113 -
-        C_j[2] * t106));
     jac_phi_q_t_lambda_A_i[24] = t116;
     jac_phi_q_t_lambda_A_i[18] = -(t97 + A_ij_6 * t111 + (t112 + A_ij_3 * t115 + A_ij_0 * t116));
     const jg_real t117 = t107 * v_6_in_j_0;
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
     const jg_real t119 = lambda[2] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[19] = t119 - (A_ij_1 * t116 - t117 + A_ij_4 * t115 + A_ij_7 * t111);
     const jg_real t120 = t108 * v_6_in_j_0;
     const jg_real t121 = lambda[1] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[20] = -(A_ij_2 * t116 - t120 + A_ij_5 * t115 + A_ij_8 * t111 + t121);
-    jac_phi_q_t_lambda_A_i[21] = -t109;
     const jg_real t122 = A_j[6] * C_i[7];
     const jg_real t123 = A_j[3] * C_i[7];
     const jg_real t124 = A_j[6] * C_i[1];
-    const jg_real t125 = lambda[4] * t124 + lambda[3] * t122;
+    const jg_real t125 = lambda[3] * t122 + lambda[4] * t124;
     const jg_real t126 = A_j[3] * C_i[1];
     const jg_real t127 = lambda[3] * t123 + lambda[4] * t126;
     const jg_real t128 = lambda[1] * A_j[6];
-    jac_phi_q_t_lambda_A_i[32] = t128;
     const jg_real t129 = lambda[1] * A_j[3];
-    jac_phi_q_t_lambda_A_i[31] = t129;
-    const jg_real t130 = v_4_in_j_1 * t122 - v_4_in_j_2 * t123 + (s_j[1] * t128 - s_j[2] * t129 + (C_j[1] * t125 -
-        C_j[2] * t127));
-    jac_phi_q_t_lambda_A_i[33] = t130;
+    const jg_real t130 = v_4_in_j_1 * t122 - v_4_in_j_2 * t123 + (C_j[1] * t125 - C_j[2] * t127 + (s_j[1] * t128 -
+        s_j[2] * t129));
     const jg_real t131 = A_j[3] * C_i[4];
     const jg_real t132 = C_i[4] * A_j[6];
     const jg_real t133 = t126 * A_joint_i_j_7 + t132 * A_joint_i_j_3 - (t131 * A_joint_i_j_6 + t124 *
@@ -1149,31 +1144,30 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
         A_joint_i_j_5)) + lambda[3] * t133;
     const jg_real t135 = A_j[3] * A_ij_6 - A_j[6] * A_ij_3;
     const jg_real t136 = lambda[0] * t46 - lambda[2] * t135;
-    jac_phi_q_t_lambda_A_i[30] = t136;
     const jg_real t137 = v_4_in_j_2 * t133 - v_4_in_j_0 * t122 + (s_j[2] * t136 - s_j[0] * t128 + (C_j[2] * t134 -
         C_j[0] * t125));
+    jac_phi_q_t_lambda_A_i[19] = t119 - (A_ij_1 * t116 - t117 + A_ij_4 * t115 + A_ij_7 * t111);
+    jac_phi_q_t_lambda_A_i[20] = -(A_ij_2 * t116 - t120 + A_ij_5 * t115 + A_ij_8 * t111 + t121);
+    jac_phi_q_t_lambda_A_i[21] = -t109;
+    jac_phi_q_t_lambda_A_i[32] = t128;
+    jac_phi_q_t_lambda_A_i[31] = t129;
+    jac_phi_q_t_lambda_A_i[33] = t130;
+    jac_phi_q_t_lambda_A_i[30] = t136;
     jac_phi_q_t_lambda_A_i[34] = t137;
     const jg_real t138 = v_4_in_j_0 * t123 - v_4_in_j_1 * t133 + (s_j[0] * t129 - s_j[1] * t136 + (C_j[0] * t127 -
         C_j[1] * t134));
-    jac_phi_q_t_lambda_A_i[35] = t138;
-    jac_phi_q_t_lambda_A_i[27] = -(t67 + A_ij_0 * t130 + A_ij_3 * t137 + A_ij_6 * t138 + t69);
-    jac_phi_q_t_lambda_A_i[28] = -(t36 + A_ij_7 * t138 + (t58 + A_ij_4 * t137 + A_ij_1 * t130));
     const jg_real t139 = t135 * v_6_in_j_0;
     const jg_real t140 = lambda[0] * v_0_world_0;
-    jac_phi_q_t_lambda_A_i[29] = t140 - (A_ij_2 * t130 - t139 + A_ij_5 * t137 + A_ij_8 * t138);
     const jg_real t141 = A_j[7] * C_i[7];
     const jg_real t142 = A_j[4] * C_i[7];
     const jg_real t143 = A_j[7] * C_i[1];
-    const jg_real t144 = lambda[4] * t143 + lambda[3] * t141;
+    const jg_real t144 = lambda[3] * t141 + lambda[4] * t143;
     const jg_real t145 = A_j[4] * C_i[1];
     const jg_real t146 = lambda[3] * t142 + lambda[4] * t145;
     const jg_real t147 = lambda[1] * A_j[7];
-    jac_phi_q_t_lambda_A_i[41] = t147;
     const jg_real t148 = lambda[1] * A_j[4];
-    jac_phi_q_t_lambda_A_i[40] = t148;
-    const jg_real t149 = v_4_in_j_1 * t141 - v_4_in_j_2 * t142 + (s_j[1] * t147 - s_j[2] * t148 + (C_j[1] * t144 -
-        C_j[2] * t146));
-    jac_phi_q_t_lambda_A_i[42] = t149;
+    const jg_real t149 = v_4_in_j_1 * t141 - v_4_in_j_2 * t142 + (C_j[1] * t144 - C_j[2] * t146 + (s_j[1] * t147 -
+        s_j[2] * t148));
     const jg_real t150 = A_j[4] * C_i[4];
     const jg_real t151 = C_i[4] * A_j[7];
     const jg_real t152 = t145 * A_joint_i_j_7 + t151 * A_joint_i_j_3 - (t150 * A_joint_i_j_6 + t143 *
@@ -1182,30 +1176,37 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
         A_joint_i_j_5)) + lambda[3] * t152;
     const jg_real t154 = A_j[4] * A_ij_6 - A_j[7] * A_ij_3;
     const jg_real t155 = lambda[0] * t82 - lambda[2] * t154;
+    jac_phi_q_t_lambda_A_i[35] = t138;
+    jac_phi_q_t_lambda_A_i[27] = -(t67 + A_ij_0 * t130 + A_ij_3 * t137 + A_ij_6 * t138 + t69);
+    jac_phi_q_t_lambda_A_i[28] = -(t36 + A_ij_7 * t138 + (t58 + A_ij_4 * t137 + A_ij_1 * t130));
+    jac_phi_q_t_lambda_A_i[29] = t140 - (A_ij_2 * t130 - t139 + A_ij_5 * t137 + A_ij_8 * t138);
+    jac_phi_q_t_lambda_A_i[41] = t147;
+    jac_phi_q_t_lambda_A_i[40] = t148;
+    jac_phi_q_t_lambda_A_i[42] = t149;
     jac_phi_q_t_lambda_A_i[39] = t155;
     const jg_real t156 = v_4_in_j_2 * t152 - v_4_in_j_0 * t141 + (s_j[2] * t155 - s_j[0] * t147 + (C_j[2] * t153 -
         C_j[0] * t144));
-    jac_phi_q_t_lambda_A_i[43] = t156;
     const jg_real t157 = v_4_in_j_0 * t142 - v_4_in_j_1 * t152 + (s_j[0] * t148 - s_j[1] * t155 + (C_j[0] * t146 -
         C_j[1] * t153));
-    jac_phi_q_t_lambda_A_i[44] = t157;
-    jac_phi_q_t_lambda_A_i[36] = -(t92 + A_ij_0 * t149 + A_ij_3 * t156 + A_ij_6 * t157 + t94);
-    jac_phi_q_t_lambda_A_i[37] = -(t72 + A_ij_7 * t157 + (t87 + A_ij_4 * t156 + A_ij_1 * t149));
     const jg_real t158 = t154 * v_6_in_j_0;
     const jg_real t159 = lambda[0] * v_0_world_1;
-    jac_phi_q_t_lambda_A_i[38] = t159 - (A_ij_2 * t149 - t158 + A_ij_5 * t156 + A_ij_8 * t157);
     const jg_real t160 = A_j[8] * C_i[7];
     const jg_real t161 = A_j[5] * C_i[7];
     const jg_real t162 = A_j[8] * C_i[1];
-    const jg_real t163 = lambda[4] * t162 + lambda[3] * t160;
+    const jg_real t163 = lambda[3] * t160 + lambda[4] * t162;
     const jg_real t164 = A_j[5] * C_i[1];
     const jg_real t165 = lambda[3] * t161 + lambda[4] * t164;
     const jg_real t166 = lambda[1] * A_j[8];
-    jac_phi_q_t_lambda_A_i[50] = t166;
     const jg_real t167 = lambda[1] * A_j[5];
+    const jg_real t168 = v_4_in_j_1 * t160 - v_4_in_j_2 * t161 + (C_j[1] * t163 - C_j[2] * t165 + (s_j[1] * t166 -
+        s_j[2] * t167));
+    jac_phi_q_t_lambda_A_i[43] = t156;
+    jac_phi_q_t_lambda_A_i[44] = t157;
+    jac_phi_q_t_lambda_A_i[36] = -(t92 + A_ij_0 * t149 + A_ij_3 * t156 + A_ij_6 * t157 + t94);
+    jac_phi_q_t_lambda_A_i[37] = -(t72 + A_ij_7 * t157 + (t87 + A_ij_4 * t156 + A_ij_1 * t149));
+    jac_phi_q_t_lambda_A_i[38] = t159 - (A_ij_2 * t149 - t158 + A_ij_5 * t156 + A_ij_8 * t157);
+    jac_phi_q_t_lambda_A_i[50] = t166;
     jac_phi_q_t_lambda_A_i[49] = t167;
-    const jg_real t168 = v_4_in_j_1 * t160 - v_4_in_j_2 * t161 + (s_j[1] * t166 - s_j[2] * t167 + (C_j[1] * t163 -
-        C_j[2] * t165));
     jac_phi_q_t_lambda_A_i[51] = t168;
     const jg_real t169 = A_j[5] * C_i[4];
     const jg_real t170 = C_i[4] * A_j[8];
@@ -1215,31 +1216,30 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
         A_joint_i_j_5)) + lambda[3] * t171;
     const jg_real t173 = A_j[5] * A_ij_6 - A_j[8] * A_ij_3;
     const jg_real t174 = lambda[0] * t107 - lambda[2] * t173;
-    jac_phi_q_t_lambda_A_i[48] = t174;
     const jg_real t175 = v_4_in_j_2 * t171 - v_4_in_j_0 * t160 + (s_j[2] * t174 - s_j[0] * t166 + (C_j[2] * t172 -
         C_j[0] * t163));
-    jac_phi_q_t_lambda_A_i[52] = t175;
     const jg_real t176 = v_4_in_j_0 * t161 - v_4_in_j_1 * t171 + (s_j[0] * t167 - s_j[1] * t174 + (C_j[0] * t165 -
         C_j[1] * t172));
-    jac_phi_q_t_lambda_A_i[53] = t176;
-    jac_phi_q_t_lambda_A_i[45] = -(t117 + A_ij_0 * t168 + A_ij_3 * t175 + A_ij_6 * t176 + t119);
-    jac_phi_q_t_lambda_A_i[46] = -(t97 + A_ij_7 * t176 + (t112 + A_ij_4 * t175 + A_ij_1 * t168));
     const jg_real t177 = t173 * v_6_in_j_0;
     const jg_real t178 = lambda[0] * v_0_world_2;
-    jac_phi_q_t_lambda_A_i[47] = t178 - (A_ij_2 * t168 - t177 + A_ij_5 * t175 + A_ij_8 * t176);
     const jg_real t179 = A_j[6] * C_i[8];
     const jg_real t180 = A_j[3] * C_i[8];
     const jg_real t181 = A_j[6] * C_i[2];
-    const jg_real t182 = lambda[4] * t181 + lambda[3] * t179;
+    const jg_real t182 = lambda[3] * t179 + lambda[4] * t181;
     const jg_real t183 = A_j[3] * C_i[2];
     const jg_real t184 = lambda[3] * t180 + lambda[4] * t183;
     const jg_real t185 = lambda[2] * A_j[6];
-    jac_phi_q_t_lambda_A_i[59] = t185;
     const jg_real t186 = lambda[2] * A_j[3];
+    jac_phi_q_t_lambda_A_i[48] = t174;
+    jac_phi_q_t_lambda_A_i[52] = t175;
+    jac_phi_q_t_lambda_A_i[53] = t176;
+    jac_phi_q_t_lambda_A_i[45] = -(t117 + A_ij_0 * t168 + A_ij_3 * t175 + A_ij_6 * t176 + t119);
+    jac_phi_q_t_lambda_A_i[46] = -(t97 + A_ij_7 * t176 + (t112 + A_ij_4 * t175 + A_ij_1 * t168));
+    jac_phi_q_t_lambda_A_i[47] = t178 - (A_ij_2 * t168 - t177 + A_ij_5 * t175 + A_ij_8 * t176);
+    jac_phi_q_t_lambda_A_i[59] = t185;
     jac_phi_q_t_lambda_A_i[58] = t186;
-    const jg_real t187 = v_4_in_j_1 * t179 - v_4_in_j_2 * t180 + (s_j[1] * t185 - s_j[2] * t186 + (C_j[1] * t182 -
-        C_j[2] * t184));
-    jac_phi_q_t_lambda_A_i[60] = t187;
+    const jg_real t187 = v_4_in_j_1 * t179 - v_4_in_j_2 * t180 + (C_j[1] * t182 - C_j[2] * t184 + (s_j[1] * t185 -
+        s_j[2] * t186));
     const jg_real t188 = A_j[3] * C_i[5];
     const jg_real t189 = C_i[5] * A_j[6];
     const jg_real t190 = t183 * A_joint_i_j_7 + t189 * A_joint_i_j_3 - (t188 * A_joint_i_j_6 + t181 *
@@ -1247,29 +1247,28 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t191 = lambda[4] * (t188 * A_joint_i_j_8 + t179 * A_joint_i_j_4 - (t180 * A_joint_i_j_7 + t189 *
         A_joint_i_j_5)) + lambda[3] * t190;
     const jg_real t192 = lambda[0] * t47 + lambda[1] * t135;
-    jac_phi_q_t_lambda_A_i[57] = t192;
     const jg_real t193 = v_4_in_j_2 * t190 - v_4_in_j_0 * t179 + (s_j[2] * t192 - s_j[0] * t185 + (C_j[2] * t191 -
         C_j[0] * t182));
-    jac_phi_q_t_lambda_A_i[61] = t193;
     const jg_real t194 = v_4_in_j_0 * t180 - v_4_in_j_1 * t190 + (s_j[0] * t186 - s_j[1] * t192 + (C_j[0] * t184 -
         C_j[1] * t191));
+    const jg_real t195 = A_j[7] * C_i[8];
+    const jg_real t196 = A_j[4] * C_i[8];
+    const jg_real t197 = A_j[7] * C_i[2];
+    const jg_real t198 = lambda[3] * t195 + lambda[4] * t197;
+    const jg_real t199 = A_j[4] * C_i[2];
+    const jg_real t200 = lambda[3] * t196 + lambda[4] * t199;
+    const jg_real t201 = lambda[2] * A_j[7];
+    jac_phi_q_t_lambda_A_i[60] = t187;
+    jac_phi_q_t_lambda_A_i[57] = t192;
+    jac_phi_q_t_lambda_A_i[61] = t193;
     jac_phi_q_t_lambda_A_i[62] = t194;
     jac_phi_q_t_lambda_A_i[54] = t71 - (t70 + A_ij_0 * t187 + A_ij_3 * t193 + A_ij_6 * t194);
     jac_phi_q_t_lambda_A_i[55] = -(t139 + A_ij_1 * t187 + A_ij_4 * t193 + A_ij_7 * t194 + t140);
     jac_phi_q_t_lambda_A_i[56] = -(t36 + A_ij_8 * t194 + (t58 + A_ij_5 * t193 + A_ij_2 * t187));
-    const jg_real t195 = A_j[7] * C_i[8];
-    const jg_real t196 = A_j[4] * C_i[8];
-    const jg_real t197 = A_j[7] * C_i[2];
-    const jg_real t198 = lambda[4] * t197 + lambda[3] * t195;
-    const jg_real t199 = A_j[4] * C_i[2];
-    const jg_real t200 = lambda[3] * t196 + lambda[4] * t199;
-    const jg_real t201 = lambda[2] * A_j[7];
     jac_phi_q_t_lambda_A_i[68] = t201;
     const jg_real t202 = lambda[2] * A_j[4];
-    jac_phi_q_t_lambda_A_i[67] = t202;
-    const jg_real t203 = v_4_in_j_1 * t195 - v_4_in_j_2 * t196 + (s_j[1] * t201 - s_j[2] * t202 + (C_j[1] * t198 -
-        C_j[2] * t200));
-    jac_phi_q_t_lambda_A_i[69] = t203;
+    const jg_real t203 = v_4_in_j_1 * t195 - v_4_in_j_2 * t196 + (C_j[1] * t198 - C_j[2] * t200 + (s_j[1] * t201 -
+        s_j[2] * t202));
     const jg_real t204 = A_j[4] * C_i[5];
     const jg_real t205 = C_i[5] * A_j[7];
     const jg_real t206 = t199 * A_joint_i_j_7 + t205 * A_joint_i_j_3 - (t204 * A_joint_i_j_6 + t197 *
@@ -1277,12 +1276,14 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t207 = lambda[4] * (t204 * A_joint_i_j_8 + t195 * A_joint_i_j_4 - (t196 * A_joint_i_j_7 + t205 *
         A_joint_i_j_5)) + lambda[3] * t206;
     const jg_real t208 = lambda[0] * t83 + lambda[1] * t154;
-    jac_phi_q_t_lambda_A_i[66] = t208;
     const jg_real t209 = v_4_in_j_2 * t206 - v_4_in_j_0 * t195 + (s_j[2] * t208 - s_j[0] * t201 + (C_j[2] * t207 -
         C_j[0] * t198));
-    jac_phi_q_t_lambda_A_i[70] = t209;
     const jg_real t210 = v_4_in_j_0 * t196 - v_4_in_j_1 * t206 + (s_j[0] * t202 - s_j[1] * t208 + (C_j[0] * t200 -
         C_j[1] * t207));
+    jac_phi_q_t_lambda_A_i[67] = t202;
+    jac_phi_q_t_lambda_A_i[69] = t203;
+    jac_phi_q_t_lambda_A_i[66] = t208;
+    jac_phi_q_t_lambda_A_i[70] = t209;
     jac_phi_q_t_lambda_A_i[71] = t210;
     jac_phi_q_t_lambda_A_i[63] = t96 - (t95 + A_ij_0 * t203 + A_ij_3 * t209 + A_ij_6 * t210);
     jac_phi_q_t_lambda_A_i[64] = -(t158 + A_ij_1 * t203 + A_ij_4 * t209 + A_ij_7 * t210 + t159);
@@ -1290,16 +1291,13 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t211 = A_j[8] * C_i[8];
     const jg_real t212 = A_j[5] * C_i[8];
     const jg_real t213 = A_j[8] * C_i[2];
-    const jg_real t214 = lambda[4] * t213 + lambda[3] * t211;
+    const jg_real t214 = lambda[3] * t211 + lambda[4] * t213;
     const jg_real t215 = A_j[5] * C_i[2];
     const jg_real t216 = lambda[3] * t212 + lambda[4] * t215;
     const jg_real t217 = lambda[2] * A_j[8];
-    jac_phi_q_t_lambda_A_i[77] = t217;
     const jg_real t218 = lambda[2] * A_j[5];
-    jac_phi_q_t_lambda_A_i[76] = t218;
-    const jg_real t219 = v_4_in_j_1 * t211 - v_4_in_j_2 * t212 + (s_j[1] * t217 - s_j[2] * t218 + (C_j[1] * t214 -
-        C_j[2] * t216));
-    jac_phi_q_t_lambda_A_i[78] = t219;
+    const jg_real t219 = v_4_in_j_1 * t211 - v_4_in_j_2 * t212 + (C_j[1] * t214 - C_j[2] * t216 + (s_j[1] * t217 -
+        s_j[2] * t218));
     const jg_real t220 = A_j[5] * C_i[5];
     const jg_real t221 = C_i[5] * A_j[8];
     const jg_real t222 = t215 * A_joint_i_j_7 + t221 * A_joint_i_j_3 - (t220 * A_joint_i_j_6 + t213 *
@@ -1307,12 +1305,15 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t223 = lambda[4] * (t220 * A_joint_i_j_8 + t211 * A_joint_i_j_4 - (t212 * A_joint_i_j_7 + t221 *
         A_joint_i_j_5)) + lambda[3] * t222;
     const jg_real t224 = lambda[0] * t108 + lambda[1] * t173;
-    jac_phi_q_t_lambda_A_i[75] = t224;
     const jg_real t225 = v_4_in_j_2 * t222 - v_4_in_j_0 * t211 + (s_j[2] * t224 - s_j[0] * t217 + (C_j[2] * t223 -
         C_j[0] * t214));
-    jac_phi_q_t_lambda_A_i[79] = t225;
     const jg_real t226 = v_4_in_j_0 * t212 - v_4_in_j_1 * t222 + (s_j[0] * t218 - s_j[1] * t224 + (C_j[0] * t216 -
         C_j[1] * t223));
+    jac_phi_q_t_lambda_A_i[77] = t217;
+    jac_phi_q_t_lambda_A_i[76] = t218;
+    jac_phi_q_t_lambda_A_i[78] = t219;
+    jac_phi_q_t_lambda_A_i[75] = t224;
+    jac_phi_q_t_lambda_A_i[79] = t225;
     jac_phi_q_t_lambda_A_i[80] = t226;
     jac_phi_q_t_lambda_A_i[72] = t121 - (t120 + A_ij_0 * t219 + A_ij_3 * t225 + A_ij_6 * t226);
     jac_phi_q_t_lambda_A_i[73] = -(t177 + A_ij_1 * t219 + A_ij_4 * t225 + A_ij_7 * t226 + t178);
@@ -1324,8 +1325,6 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_r_j[4] = -t4;
     jac_phi_q_t_lambda_r_j[5] = -t5;
     jac_phi_q_t_lambda_r_j[6] = -t6;
-    jac_phi_q_t_lambda_r_j[7] = -t7;
-    jac_phi_q_t_lambda_r_j[8] = -t8;
     const jg_real t227 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
     const jg_real t228 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     const jg_real t229 = A_i[0] * C_i[0] + A_i[3] * C_i[1] + A_i[6] * C_i[2];
@@ -1335,26 +1334,23 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t233 = A_i[6] * A_ij_6 - A_i[0] * A_ij_8;
     const jg_real t234 = A_i[0] * A_ij_7 - A_i[3] * A_ij_6;
     const jg_real t235 = lambda[0] * t232 + lambda[1] * t233 + lambda[2] * t234;
-    jac_phi_q_t_lambda_A_j[3] = t235;
     const jg_real t236 = s_j[2] * t235 + C_j[2] * t231 + v_4_in_j_2 * t230;
-    jac_phi_q_t_lambda_A_j[6] = t236;
     const jg_real t237 = lambda[3] * t228 + lambda[4] * t229;
     const jg_real t238 = lambda[0] * A_i[0] + lambda[1] * A_i[3] + lambda[2] * A_i[6];
-    jac_phi_q_t_lambda_A_j[4] = t238;
-    jac_phi_q_t_lambda_A_j[28] = t238;
-    const jg_real t239 = s_j[2] * t238 + C_j[2] * t237 + v_4_in_j_2 * t228;
+    const jg_real t239 = C_j[2] * t237 + s_j[2] * t238 + v_4_in_j_2 * t228;
     const jg_real t240 = C_j[0] * t237;
     const jg_real t241 = s_j[0] * t238;
     const jg_real t242 = v_4_in_j_0 * t228;
     const jg_real t243 = t242 - v_4_in_j_1 * t230 + (t241 - s_j[1] * t235 + (t240 - C_j[1] * t231));
+    jac_phi_q_t_lambda_r_j[7] = -t7;
+    jac_phi_q_t_lambda_r_j[8] = -t8;
+    jac_phi_q_t_lambda_A_j[3] = t235;
+    jac_phi_q_t_lambda_A_j[6] = t236;
+    jac_phi_q_t_lambda_A_j[4] = t238;
+    jac_phi_q_t_lambda_A_j[28] = t238;
     jac_phi_q_t_lambda_A_j[7] = t243;
     jac_phi_q_t_lambda_A_j[0] = -(t232 * v_6_in_j_0 - A_ij_0 * t239 + (A_i[0] * v_6_in_j_1 + A_ij_3 * t236) + A_ij_6
         * t243);
-    jac_phi_q_t_lambda_A_j[1] = -(t233 * v_6_in_j_0 - A_ij_1 * t239 + (A_i[3] * v_6_in_j_1 + A_ij_4 * t236) + A_ij_7
-        * t243);
-    jac_phi_q_t_lambda_A_j[2] = -(t234 * v_6_in_j_0 - A_ij_2 * t239 + (A_i[6] * v_6_in_j_1 + A_ij_5 * t236) + A_ij_8
-        * t243);
-    jac_phi_q_t_lambda_A_j[5] = -t239;
     const jg_real t244 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
     const jg_real t245 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real t246 = A_i[1] * C_i[0] + A_i[4] * C_i[1] + A_i[7] * C_i[2];
@@ -1364,26 +1360,24 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t250 = A_i[7] * A_ij_6 - A_i[1] * A_ij_8;
     const jg_real t251 = A_i[1] * A_ij_7 - A_i[4] * A_ij_6;
     const jg_real t252 = lambda[0] * t249 + lambda[1] * t250 + lambda[2] * t251;
-    jac_phi_q_t_lambda_A_j[11] = t252;
     const jg_real t253 = s_j[2] * t252 + C_j[2] * t248 + v_4_in_j_2 * t247;
-    jac_phi_q_t_lambda_A_j[14] = t253;
     const jg_real t254 = lambda[3] * t245 + lambda[4] * t246;
     const jg_real t255 = lambda[0] * A_i[1] + lambda[1] * A_i[4] + lambda[2] * A_i[7];
-    jac_phi_q_t_lambda_A_j[12] = t255;
-    jac_phi_q_t_lambda_A_j[36] = t255;
-    const jg_real t256 = s_j[2] * t255 + C_j[2] * t254 + v_4_in_j_2 * t245;
+    const jg_real t256 = C_j[2] * t254 + s_j[2] * t255 + v_4_in_j_2 * t245;
     const jg_real t257 = C_j[0] * t254;
     const jg_real t258 = s_j[0] * t255;
     const jg_real t259 = v_4_in_j_0 * t245;
     const jg_real t260 = t259 - v_4_in_j_1 * t247 + (t258 - s_j[1] * t252 + (t257 - C_j[1] * t248));
+    jac_phi_q_t_lambda_A_j[1] = -(t233 * v_6_in_j_0 - A_ij_1 * t239 + (A_i[3] * v_6_in_j_1 + A_ij_4 * t236) + A_ij_7
+        * t243);
+    jac_phi_q_t_lambda_A_j[2] = -(t234 * v_6_in_j_0 - A_ij_2 * t239 + (A_i[6] * v_6_in_j_1 + A_ij_5 * t236) + A_ij_8
+        * t243);
+    jac_phi_q_t_lambda_A_j[5] = -t239;
+    jac_phi_q_t_lambda_A_j[11] = t252;
+    jac_phi_q_t_lambda_A_j[14] = t253;
+    jac_phi_q_t_lambda_A_j[12] = t255;
+    jac_phi_q_t_lambda_A_j[36] = t255;
     jac_phi_q_t_lambda_A_j[15] = t260;
-    jac_phi_q_t_lambda_A_j[8] = -(t249 * v_6_in_j_0 - A_ij_0 * t256 + (A_i[1] * v_6_in_j_1 + A_ij_3 * t253) + A_ij_6
-        * t260);
-    jac_phi_q_t_lambda_A_j[9] = -(t250 * v_6_in_j_0 - A_ij_1 * t256 + (A_i[4] * v_6_in_j_1 + A_ij_4 * t253) + A_ij_7
-        * t260);
-    jac_phi_q_t_lambda_A_j[10] = -(t251 * v_6_in_j_0 - A_ij_2 * t256 + (A_i[7] * v_6_in_j_1 + A_ij_5 * t253) +
-        A_ij_8 * t260);
-    jac_phi_q_t_lambda_A_j[13] = -t256;
     const jg_real t261 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
     const jg_real t262 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
     const jg_real t263 = A_i[2] * C_i[0] + A_i[5] * C_i[1] + A_i[8] * C_i[2];
@@ -1393,18 +1387,34 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t267 = A_i[8] * A_ij_6 - A_i[2] * A_ij_8;
     const jg_real t268 = A_i[2] * A_ij_7 - A_i[5] * A_ij_6;
     const jg_real t269 = lambda[0] * t266 + lambda[1] * t267 + lambda[2] * t268;
-    jac_phi_q_t_lambda_A_j[19] = t269;
     const jg_real t270 = s_j[2] * t269 + C_j[2] * t265 + v_4_in_j_2 * t264;
-    jac_phi_q_t_lambda_A_j[22] = t270;
     const jg_real t271 = lambda[3] * t262 + lambda[4] * t263;
     const jg_real t272 = lambda[0] * A_i[2] + lambda[1] * A_i[5] + lambda[2] * A_i[8];
+    jac_phi_q_t_lambda_A_j[8] = -(t249 * v_6_in_j_0 - A_ij_0 * t256 + (A_i[1] * v_6_in_j_1 + A_ij_3 * t253) + A_ij_6
+        * t260);
+    jac_phi_q_t_lambda_A_j[9] = -(t250 * v_6_in_j_0 - A_ij_1 * t256 + (A_i[4] * v_6_in_j_1 + A_ij_4 * t253) + A_ij_7
+        * t260);
+    jac_phi_q_t_lambda_A_j[10] = -(t251 * v_6_in_j_0 - A_ij_2 * t256 + (A_i[7] * v_6_in_j_1 + A_ij_5 * t253) +
+        A_ij_8 * t260);
+    jac_phi_q_t_lambda_A_j[13] = -t256;
+    jac_phi_q_t_lambda_A_j[19] = t269;
+    jac_phi_q_t_lambda_A_j[22] = t270;
     jac_phi_q_t_lambda_A_j[20] = t272;
     jac_phi_q_t_lambda_A_j[44] = t272;
-    const jg_real t273 = s_j[2] * t272 + C_j[2] * t271 + v_4_in_j_2 * t262;
+    const jg_real t273 = C_j[2] * t271 + s_j[2] * t272 + v_4_in_j_2 * t262;
     const jg_real t274 = C_j[0] * t271;
     const jg_real t275 = s_j[0] * t272;
     const jg_real t276 = v_4_in_j_0 * t262;
     const jg_real t277 = t276 - v_4_in_j_1 * t264 + (t275 - s_j[1] * t269 + (t274 - C_j[1] * t265));
+    const jg_real t278 = t227 * A_joint_i_j_3 - A_joint_i_j_4 * t229;
+    const jg_real t279 = lambda[4] * (A_joint_i_j_4 * t228 - t227 * A_joint_i_j_5) + lambda[3] * t278;
+    const jg_real t280 = A_i[6] * A_ij_4 - A_i[3] * A_ij_5;
+    const jg_real t281 = A_i[0] * A_ij_5 - A_i[6] * A_ij_3;
+    const jg_real t282 = A_i[3] * A_ij_3 - A_i[0] * A_ij_4;
+    const jg_real t283 = lambda[0] * t280 + lambda[1] * t281 + lambda[2] * t282;
+    const jg_real t284 = s_j[1] * t283 + C_j[1] * t279 + v_4_in_j_1 * t278;
+    const jg_real t285 = C_j[1] * t237 + s_j[1] * t238 + v_4_in_j_1 * t228;
+    const jg_real t286 = v_4_in_j_2 * t278 - t242 + (s_j[2] * t283 - t241 + (C_j[2] * t279 - t240));
     jac_phi_q_t_lambda_A_j[23] = t277;
     jac_phi_q_t_lambda_A_j[16] = -(t266 * v_6_in_j_0 - A_ij_0 * t273 + (A_i[2] * v_6_in_j_1 + A_ij_3 * t270) +
         A_ij_6 * t277);
@@ -1413,18 +1423,18 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_A_j[18] = -(t268 * v_6_in_j_0 - A_ij_2 * t273 + (A_i[8] * v_6_in_j_1 + A_ij_5 * t270) +
         A_ij_8 * t277);
     jac_phi_q_t_lambda_A_j[21] = -t273;
-    const jg_real t278 = t227 * A_joint_i_j_3 - A_joint_i_j_4 * t229;
-    const jg_real t279 = lambda[4] * (A_joint_i_j_4 * t228 - t227 * A_joint_i_j_5) + lambda[3] * t278;
-    const jg_real t280 = A_i[6] * A_ij_4 - A_i[3] * A_ij_5;
-    const jg_real t281 = A_i[0] * A_ij_5 - A_i[6] * A_ij_3;
-    const jg_real t282 = A_i[3] * A_ij_3 - A_i[0] * A_ij_4;
-    const jg_real t283 = lambda[0] * t280 + lambda[1] * t281 + lambda[2] * t282;
     jac_phi_q_t_lambda_A_j[27] = t283;
-    const jg_real t284 = s_j[1] * t283 + C_j[1] * t279 + v_4_in_j_1 * t278;
-    const jg_real t285 = s_j[1] * t238 + C_j[1] * t237 + v_4_in_j_1 * t228;
     jac_phi_q_t_lambda_A_j[29] = t285;
-    const jg_real t286 = v_4_in_j_2 * t278 - t242 + (s_j[2] * t283 - t241 + (C_j[2] * t279 - t240));
     jac_phi_q_t_lambda_A_j[30] = t286;
+    const jg_real t287 = t244 * A_joint_i_j_3 - A_joint_i_j_4 * t246;
+    const jg_real t288 = lambda[4] * (A_joint_i_j_4 * t245 - t244 * A_joint_i_j_5) + lambda[3] * t287;
+    const jg_real t289 = A_i[7] * A_ij_4 - A_i[4] * A_ij_5;
+    const jg_real t290 = A_i[1] * A_ij_5 - A_i[7] * A_ij_3;
+    const jg_real t291 = A_i[4] * A_ij_3 - A_i[1] * A_ij_4;
+    const jg_real t292 = lambda[0] * t289 + lambda[1] * t290 + lambda[2] * t291;
+    const jg_real t293 = s_j[1] * t292 + C_j[1] * t288 + v_4_in_j_1 * t287;
+    const jg_real t294 = C_j[1] * t254 + s_j[1] * t255 + v_4_in_j_1 * t245;
+    const jg_real t295 = v_4_in_j_2 * t287 - t259 + (s_j[2] * t292 - t258 + (C_j[2] * t288 - t257));
     jac_phi_q_t_lambda_A_j[24] = -(A_i[0] * v_6_in_j_2 - A_ij_6 * t284 + (t280 * v_6_in_j_0 + A_ij_0 * t285 + A_ij_3
         * t286));
     jac_phi_q_t_lambda_A_j[25] = -(A_i[3] * v_6_in_j_2 - A_ij_7 * t284 + (t281 * v_6_in_j_0 + A_ij_1 * t285 + A_ij_4
@@ -1432,73 +1442,64 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_A_j[26] = -(A_i[6] * v_6_in_j_2 - A_ij_8 * t284 + (t282 * v_6_in_j_0 + A_ij_2 * t285 + A_ij_5
         * t286));
     jac_phi_q_t_lambda_A_j[31] = -t284;
-    const jg_real t287 = t244 * A_joint_i_j_3 - A_joint_i_j_4 * t246;
-    const jg_real t288 = lambda[4] * (A_joint_i_j_4 * t245 - t244 * A_joint_i_j_5) + lambda[3] * t287;
-    const jg_real t289 = A_i[7] * A_ij_4 - A_i[4] * A_ij_5;
-    const jg_real t290 = A_i[1] * A_ij_5 - A_i[7] * A_ij_3;
-    const jg_real t291 = A_i[4] * A_ij_3 - A_i[1] * A_ij_4;
-    const jg_real t292 = lambda[0] * t289 + lambda[1] * t290 + lambda[2] * t291;
     jac_phi_q_t_lambda_A_j[35] = t292;
-    const jg_real t293 = s_j[1] * t292 + C_j[1] * t288 + v_4_in_j_1 * t287;
-    const jg_real t294 = s_j[1] * t255 + C_j[1] * t254 + v_4_in_j_1 * t245;
     jac_phi_q_t_lambda_A_j[37] = t294;
-    const jg_real t295 = v_4_in_j_2 * t287 - t259 + (s_j[2] * t292 - t258 + (C_j[2] * t288 - t257));
     jac_phi_q_t_lambda_A_j[38] = t295;
     jac_phi_q_t_lambda_A_j[32] = -(A_i[1] * v_6_in_j_2 - A_ij_6 * t293 + (t289 * v_6_in_j_0 + A_ij_0 * t294 + A_ij_3
         * t295));
-    jac_phi_q_t_lambda_A_j[33] = -(A_i[4] * v_6_in_j_2 - A_ij_7 * t293 + (t290 * v_6_in_j_0 + A_ij_1 * t294 + A_ij_4
-        * t295));
-    jac_phi_q_t_lambda_A_j[34] = -(A_i[7] * v_6_in_j_2 - A_ij_8 * t293 + (t291 * v_6_in_j_0 + A_ij_2 * t294 + A_ij_5
-        * t295));
-    jac_phi_q_t_lambda_A_j[39] = -t293;
     const jg_real t296 = t261 * A_joint_i_j_3 - A_joint_i_j_4 * t263;
     const jg_real t297 = lambda[4] * (A_joint_i_j_4 * t262 - t261 * A_joint_i_j_5) + lambda[3] * t296;
     const jg_real t298 = A_i[8] * A_ij_4 - A_i[5] * A_ij_5;
     const jg_real t299 = A_i[2] * A_ij_5 - A_i[8] * A_ij_3;
     const jg_real t300 = A_i[5] * A_ij_3 - A_i[2] * A_ij_4;
     const jg_real t301 = lambda[0] * t298 + lambda[1] * t299 + lambda[2] * t300;
-    jac_phi_q_t_lambda_A_j[43] = t301;
     const jg_real t302 = s_j[1] * t301 + C_j[1] * t297 + v_4_in_j_1 * t296;
-    const jg_real t303 = s_j[1] * t272 + C_j[1] * t271 + v_4_in_j_1 * t262;
-    jac_phi_q_t_lambda_A_j[45] = t303;
+    const jg_real t303 = C_j[1] * t271 + s_j[1] * t272 + v_4_in_j_1 * t262;
     const jg_real t304 = v_4_in_j_2 * t296 - t276 + (s_j[2] * t301 - t275 + (C_j[2] * t297 - t274));
+    jac_phi_q_t_lambda_A_j[33] = -(A_i[4] * v_6_in_j_2 - A_ij_7 * t293 + (t290 * v_6_in_j_0 + A_ij_1 * t294 + A_ij_4
+        * t295));
+    jac_phi_q_t_lambda_A_j[34] = -(A_i[7] * v_6_in_j_2 - A_ij_8 * t293 + (t291 * v_6_in_j_0 + A_ij_2 * t294 + A_ij_5
+        * t295));
+    jac_phi_q_t_lambda_A_j[39] = -t293;
+    jac_phi_q_t_lambda_A_j[43] = t301;
+    jac_phi_q_t_lambda_A_j[45] = t303;
     jac_phi_q_t_lambda_A_j[46] = t304;
     jac_phi_q_t_lambda_A_j[40] = -(A_i[2] * v_6_in_j_2 - A_ij_6 * t302 + (t298 * v_6_in_j_0 + A_ij_0 * t303 + A_ij_3
         * t304));
     jac_phi_q_t_lambda_A_j[41] = -(A_i[5] * v_6_in_j_2 - A_ij_7 * t302 + (t299 * v_6_in_j_0 + A_ij_1 * t303 + A_ij_4
         * t304));
-    jac_phi_q_t_lambda_A_j[42] = -(A_i[8] * v_6_in_j_2 - A_ij_8 * t302 + (t300 * v_6_in_j_0 + A_ij_2 * t303 + A_ij_5
-        * t304));
-    jac_phi_q_t_lambda_A_j[47] = -t302;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jac_phi_q_t_lambda_alpha[0] = lambda[4] * cosine_0;
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    jac_phi_q_t_lambda_alpha[1] = lambda[5] * cosine_1;
     const jg_real t309 = A_ij_6 * A_joint_i_j_4 - A_ij_3 * A_joint_i_j_7;
     const jg_real t310 = lambda[3] * t309;
     const jg_real t311 = lambda[4] * A_ij_3;
     const jg_real t312 = C_j[0] * t311 + C_j[1] * t310 + v_4_in_j_1 * t309;
-    jac_phi_q_t_lambda_geometry[5] = t312;
     const jg_real t313 = lambda[4] * A_ij_6;
     const jg_real t314 = C_j[0] * t313 + C_j[2] * t310 + v_4_in_j_2 * t309;
     const jg_real t315 = C_j[1] * t313 - C_j[2] * t311;
+    jac_phi_q_t_lambda_A_j[42] = -(A_i[8] * v_6_in_j_2 - A_ij_8 * t302 + (t300 * v_6_in_j_0 + A_ij_2 * t303 + A_ij_5
+        * t304));
+    jac_phi_q_t_lambda_A_j[47] = -t302;
+    jac_phi_q_t_lambda_alpha[0] = lambda[4] * cosine_0;
+    jac_phi_q_t_lambda_alpha[1] = lambda[5] * cosine_1;
+    jac_phi_q_t_lambda_geometry[5] = t312;
     jac_phi_q_t_lambda_geometry[3] = t315;
     jac_phi_q_t_lambda_geometry[0] = -(A_ij_0 * t315 - A_ij_3 * t314 + A_ij_6 * t312);
     jac_phi_q_t_lambda_geometry[1] = -(A_ij_1 * t315 - A_ij_4 * t314 + A_ij_7 * t312);
-    jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t315 - A_ij_5 * t314 + A_ij_8 * t312);
-    jac_phi_q_t_lambda_geometry[4] = -t314;
     const jg_real t316 = A_ij_7 * A_joint_i_j_4 - A_ij_4 * A_joint_i_j_7;
     const jg_real t317 = lambda[3] * t316;
     const jg_real t318 = lambda[4] * A_ij_4;
     const jg_real t319 = C_j[0] * t318 + C_j[1] * t317 + v_4_in_j_1 * t316;
-    jac_phi_q_t_lambda_geometry[11] = t319;
     const jg_real t320 = lambda[4] * A_ij_7;
     const jg_real t321 = C_j[0] * t320 + C_j[2] * t317 + v_4_in_j_2 * t316;
     const jg_real t322 = C_j[1] * t320 - C_j[2] * t318;
+    jac_phi_q_t_lambda_geometry[2] = -(A_ij_2 * t315 - A_ij_5 * t314 + A_ij_8 * t312);
+    jac_phi_q_t_lambda_geometry[4] = -t314;
+    jac_phi_q_t_lambda_geometry[11] = t319;
     jac_phi_q_t_lambda_geometry[9] = t322;
     jac_phi_q_t_lambda_geometry[6] = -(A_ij_0 * t322 - A_ij_3 * t321 + A_ij_6 * t319);
     jac_phi_q_t_lambda_geometry[7] = -(A_ij_1 * t322 - A_ij_4 * t321 + A_ij_7 * t319);
@@ -1508,28 +1509,28 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t324 = lambda[3] * t323;
     const jg_real t325 = lambda[4] * A_ij_5;
     const jg_real t326 = C_j[0] * t325 + C_j[1] * t324 + v_4_in_j_1 * t323;
-    jac_phi_q_t_lambda_geometry[17] = t326;
     const jg_real t327 = lambda[4] * A_ij_8;
     const jg_real t328 = C_j[0] * t327 + C_j[2] * t324 + v_4_in_j_2 * t323;
     const jg_real t329 = C_j[1] * t327 - C_j[2] * t325;
+    const jg_real t330 = A_ij_6 * A_joint_i_j_3 - A_ij_3 * A_joint_i_j_6;
+    const jg_real t331 = lambda[4] * (A_ij_3 * A_joint_i_j_8 - A_ij_6 * A_joint_i_j_5) + lambda[3] * t330;
+    const jg_real t332 = v_4_in_j_1 * t330 + C_j[1] * t331;
+    const jg_real t333 = v_4_in_j_2 * t330 + C_j[2] * t331;
+    jac_phi_q_t_lambda_geometry[17] = t326;
     jac_phi_q_t_lambda_geometry[15] = t329;
     jac_phi_q_t_lambda_geometry[12] = -(A_ij_0 * t329 - A_ij_3 * t328 + A_ij_6 * t326);
     jac_phi_q_t_lambda_geometry[13] = -(A_ij_1 * t329 - A_ij_4 * t328 + A_ij_7 * t326);
     jac_phi_q_t_lambda_geometry[14] = -(A_ij_2 * t329 - A_ij_5 * t328 + A_ij_8 * t326);
     jac_phi_q_t_lambda_geometry[16] = -t328;
-    const jg_real t330 = A_ij_6 * A_joint_i_j_3 - A_ij_3 * A_joint_i_j_6;
-    const jg_real t331 = lambda[4] * (A_ij_3 * A_joint_i_j_8 - A_ij_6 * A_joint_i_j_5) + lambda[3] * t330;
-    const jg_real t332 = v_4_in_j_1 * t330 + C_j[1] * t331;
-    const jg_real t333 = v_4_in_j_2 * t330 + C_j[2] * t331;
     jac_phi_q_t_lambda_geometry[21] = t333;
     jac_phi_q_t_lambda_geometry[18] = A_ij_6 * t332 - A_ij_3 * t333;
-    jac_phi_q_t_lambda_geometry[19] = A_ij_7 * t332 - A_ij_4 * t333;
-    jac_phi_q_t_lambda_geometry[20] = A_ij_8 * t332 - A_ij_5 * t333;
-    jac_phi_q_t_lambda_geometry[22] = -t332;
     const jg_real t334 = A_ij_7 * A_joint_i_j_3 - A_ij_4 * A_joint_i_j_6;
     const jg_real t335 = lambda[4] * (A_ij_4 * A_joint_i_j_8 - A_ij_7 * A_joint_i_j_5) + lambda[3] * t334;
     const jg_real t336 = v_4_in_j_1 * t334 + C_j[1] * t335;
     const jg_real t337 = v_4_in_j_2 * t334 + C_j[2] * t335;
+    jac_phi_q_t_lambda_geometry[19] = A_ij_7 * t332 - A_ij_4 * t333;
+    jac_phi_q_t_lambda_geometry[20] = A_ij_8 * t332 - A_ij_5 * t333;
+    jac_phi_q_t_lambda_geometry[22] = -t332;
     jac_phi_q_t_lambda_geometry[26] = t337;
     jac_phi_q_t_lambda_geometry[23] = A_ij_6 * t336 - A_ij_3 * t337;
     jac_phi_q_t_lambda_geometry[24] = A_ij_7 * t336 - A_ij_4 * t337;
@@ -1539,43 +1540,43 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     const jg_real t339 = lambda[4] * (A_ij_5 * A_joint_i_j_8 - A_ij_8 * A_joint_i_j_5) + lambda[3] * t338;
     const jg_real t340 = v_4_in_j_1 * t338 + C_j[1] * t339;
     const jg_real t341 = v_4_in_j_2 * t338 + C_j[2] * t339;
+    const jg_real t342 = lambda[3] * A_ij_6;
+    const jg_real t343 = lambda[3] * A_ij_3;
+    const jg_real t344 = v_4_in_j_1 * A_ij_6 - v_4_in_j_2 * A_ij_3 + (C_j[1] * t342 - C_j[2] * t343);
+    const jg_real t345 = lambda[4] * t309;
+    const jg_real t346 = C_j[2] * t345 - C_j[0] * t342 - v_4_in_j_0 * A_ij_6;
+    const jg_real t347 = C_j[0] * t343 - C_j[1] * t345 + v_4_in_j_0 * A_ij_3;
     jac_phi_q_t_lambda_geometry[31] = t341;
     jac_phi_q_t_lambda_geometry[28] = A_ij_6 * t340 - A_ij_3 * t341;
     jac_phi_q_t_lambda_geometry[29] = A_ij_7 * t340 - A_ij_4 * t341;
     jac_phi_q_t_lambda_geometry[30] = A_ij_8 * t340 - A_ij_5 * t341;
     jac_phi_q_t_lambda_geometry[32] = -t340;
-    const jg_real t342 = lambda[3] * A_ij_6;
-    const jg_real t343 = lambda[3] * A_ij_3;
-    const jg_real t344 = v_4_in_j_1 * A_ij_6 - v_4_in_j_2 * A_ij_3 + (C_j[1] * t342 - C_j[2] * t343);
     jac_phi_q_t_lambda_geometry[36] = t344;
-    const jg_real t345 = lambda[4] * t309;
-    const jg_real t346 = C_j[2] * t345 - C_j[0] * t342 - v_4_in_j_0 * A_ij_6;
     jac_phi_q_t_lambda_geometry[37] = t346;
-    const jg_real t347 = C_j[0] * t343 - C_j[1] * t345 + v_4_in_j_0 * A_ij_3;
     jac_phi_q_t_lambda_geometry[38] = t347;
-    jac_phi_q_t_lambda_geometry[33] = -(A_ij_0 * t344 + A_ij_3 * t346 + A_ij_6 * t347);
-    jac_phi_q_t_lambda_geometry[34] = -(A_ij_1 * t344 + A_ij_4 * t346 + A_ij_7 * t347);
-    jac_phi_q_t_lambda_geometry[35] = -(A_ij_2 * t344 + A_ij_5 * t346 + A_ij_8 * t347);
     const jg_real t348 = lambda[3] * A_ij_7;
     const jg_real t349 = lambda[3] * A_ij_4;
     const jg_real t350 = v_4_in_j_1 * A_ij_7 - v_4_in_j_2 * A_ij_4 + (C_j[1] * t348 - C_j[2] * t349);
-    jac_phi_q_t_lambda_geometry[42] = t350;
     const jg_real t351 = lambda[4] * t316;
     const jg_real t352 = C_j[2] * t351 - C_j[0] * t348 - v_4_in_j_0 * A_ij_7;
-    jac_phi_q_t_lambda_geometry[43] = t352;
     const jg_real t353 = C_j[0] * t349 - C_j[1] * t351 + v_4_in_j_0 * A_ij_4;
+    jac_phi_q_t_lambda_geometry[33] = -(A_ij_0 * t344 + A_ij_3 * t346 + A_ij_6 * t347);
+    jac_phi_q_t_lambda_geometry[34] = -(A_ij_1 * t344 + A_ij_4 * t346 + A_ij_7 * t347);
+    jac_phi_q_t_lambda_geometry[35] = -(A_ij_2 * t344 + A_ij_5 * t346 + A_ij_8 * t347);
+    jac_phi_q_t_lambda_geometry[42] = t350;
+    jac_phi_q_t_lambda_geometry[43] = t352;
     jac_phi_q_t_lambda_geometry[44] = t353;
     jac_phi_q_t_lambda_geometry[39] = -(A_ij_0 * t350 + A_ij_3 * t352 + A_ij_6 * t353);
     jac_phi_q_t_lambda_geometry[40] = -(A_ij_1 * t350 + A_ij_4 * t352 + A_ij_7 * t353);
-    jac_phi_q_t_lambda_geometry[41] = -(A_ij_2 * t350 + A_ij_5 * t352 + A_ij_8 * t353);
     const jg_real t354 = lambda[3] * A_ij_8;
     const jg_real t355 = lambda[3] * A_ij_5;
     const jg_real t356 = v_4_in_j_1 * A_ij_8 - v_4_in_j_2 * A_ij_5 + (C_j[1] * t354 - C_j[2] * t355);
-    jac_phi_q_t_lambda_geometry[48] = t356;
     const jg_real t357 = lambda[4] * t323;
     const jg_real t358 = C_j[2] * t357 - C_j[0] * t354 - v_4_in_j_0 * A_ij_8;
-    jac_phi_q_t_lambda_geometry[49] = t358;
     const jg_real t359 = C_j[0] * t355 - C_j[1] * t357 + v_4_in_j_0 * A_ij_5;
+    jac_phi_q_t_lambda_geometry[41] = -(A_ij_2 * t350 + A_ij_5 * t352 + A_ij_8 * t353);
+    jac_phi_q_t_lambda_geometry[48] = t356;
+    jac_phi_q_t_lambda_geometry[49] = t358;
     jac_phi_q_t_lambda_geometry[50] = t359;
     jac_phi_q_t_lambda_geometry[45] = -(A_ij_0 * t356 + A_ij_3 * t358 + A_ij_6 * t359);
     jac_phi_q_t_lambda_geometry[46] = -(A_ij_1 * t356 + A_ij_4 * t358 + A_ij_7 * t359);
@@ -1597,6 +1598,7 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_geometry[68] = A_ij_5 * v_2_in_j_2 - A_ij_8 * v_2_in_j_1;
     jac_phi_q_t_lambda_geometry[69] = -v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[71] = A_ij_6 * v_2_in_j_0 - A_ij_0 * v_2_in_j_2;
+    const jg_real t360 = lambda[5] * A_joint_i_j_8;
     jac_phi_q_t_lambda_geometry[72] = A_ij_7 * v_2_in_j_0 - A_ij_1 * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[73] = A_ij_8 * v_2_in_j_0 - A_ij_2 * v_2_in_j_2;
     jac_phi_q_t_lambda_geometry[75] = -v_2_in_j_0;
@@ -1604,15 +1606,14 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_geometry[77] = A_ij_1 * v_2_in_j_1 - A_ij_4 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[78] = A_ij_2 * v_2_in_j_1 - A_ij_5 * v_2_in_j_0;
     jac_phi_q_t_lambda_geometry[79] = -v_2_in_j_1;
-    const jg_real t360 = lambda[5] * A_joint_i_j_8;
     jac_phi_q_t_lambda_geometry[89] = t360;
     const jg_real t361 = lambda[5] * A_joint_i_j_5;
+    const jg_real t362 = lambda[5] * A_joint_i_j_2;
     jac_phi_q_t_lambda_geometry[85] = t361;
     jac_phi_q_t_lambda_geometry[81] = A_ij_3 * t360 - A_ij_6 * t361;
     jac_phi_q_t_lambda_geometry[82] = A_ij_4 * t360 - A_ij_7 * t361;
     jac_phi_q_t_lambda_geometry[83] = A_ij_5 * t360 - A_ij_8 * t361;
     jac_phi_q_t_lambda_geometry[84] = -t360;
-    const jg_real t362 = lambda[5] * A_joint_i_j_2;
     jac_phi_q_t_lambda_geometry[95] = t362;
     jac_phi_q_t_lambda_geometry[86] = A_ij_6 * t362 - A_ij_0 * t360;
     jac_phi_q_t_lambda_geometry[87] = A_ij_7 * t362 - A_ij_1 * t360;
@@ -1620,66 +1621,66 @@ static void jg_universal_parametric_table4_phi_q_t_lambda_jacobian(const jg_real
     jac_phi_q_t_lambda_geometry[90] = -t362;
     jac_phi_q_t_lambda_geometry[91] = A_ij_0 * t361 - A_ij_3 * t362;
     jac_phi_q_t_lambda_geometry[92] = A_ij_1 * t361 - A_ij_4 * t362;
-    jac_phi_q_t_lambda_geometry[93] = A_ij_2 * t361 - A_ij_5 * t362;
+    jac_phi_q_t_lambda_geometry[93] = t361 * A_ij_2 - A_ij_5 * t362;
     jac_phi_q_t_lambda_geometry[94] = -t361;
     jac_phi_q_t_lambda_lambda[0] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[10] = JG_REAL(-1.0);
     jac_phi_q_t_lambda_lambda[20] = JG_REAL(-1.0);
     const jg_real t363 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    jac_phi_q_t_lambda_lambda[7] = t363;
     const jg_real t364 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
-    jac_phi_q_t_lambda_lambda[8] = t364;
     const jg_real t365 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    jac_phi_q_t_lambda_lambda[9] = t365;
-    jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t363 + A_ij_3 * t364 + A_ij_6 * t365);
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t363 + A_ij_4 * t364 + A_ij_7 * t365 + v_0_in_i_2);
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
-    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ij_2 * t363 + A_ij_5 * t364 + A_ij_8 * t365);
     const jg_real t368 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    jac_phi_q_t_lambda_lambda[17] = t368;
     const jg_real t369 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    jac_phi_q_t_lambda_lambda[7] = t363;
+    jac_phi_q_t_lambda_lambda[8] = t364;
+    jac_phi_q_t_lambda_lambda[9] = t365;
+    jac_phi_q_t_lambda_lambda[1] = -(A_ij_0 * t363 + A_ij_3 * t364 + A_ij_6 * t365);
+    jac_phi_q_t_lambda_lambda[2] = -(A_ij_1 * t363 + A_ij_4 * t364 + A_ij_7 * t365 + v_0_in_i_2);
+    jac_phi_q_t_lambda_lambda[3] = v_0_in_i_1 - (A_ij_2 * t363 + A_ij_5 * t364 + A_ij_8 * t365);
+    jac_phi_q_t_lambda_lambda[17] = t368;
     jac_phi_q_t_lambda_lambda[18] = t369;
     const jg_real t370 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
+    const jg_real t372 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    const jg_real t373 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    const jg_real t374 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_t_lambda_lambda[19] = t370;
     jac_phi_q_t_lambda_lambda[11] = v_0_in_i_2 - (A_ij_0 * t368 + A_ij_3 * t369 + A_ij_6 * t370);
     jac_phi_q_t_lambda_lambda[12] = -(A_ij_1 * t368 + A_ij_4 * t369 + A_ij_7 * t370);
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
     jac_phi_q_t_lambda_lambda[13] = -(A_ij_2 * t368 + A_ij_5 * t369 + A_ij_8 * t370 + v_0_in_i_0);
-    const jg_real t372 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     jac_phi_q_t_lambda_lambda[27] = t372;
-    const jg_real t373 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
     jac_phi_q_t_lambda_lambda[28] = t373;
-    const jg_real t374 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
     jac_phi_q_t_lambda_lambda[29] = t374;
     jac_phi_q_t_lambda_lambda[21] = -(A_ij_0 * t372 + A_ij_3 * t373 + A_ij_6 * t374 + v_0_in_i_1);
+    const jg_real t375 = C_j[1] * A_joint_i_j_8 - C_j[2] * A_joint_i_j_5;
+    const jg_real t376 = C_j[2] * A_joint_i_j_2 - C_j[0] * A_joint_i_j_8;
+    const jg_real t377 = C_j[0] * A_joint_i_j_5 - C_j[1] * A_joint_i_j_2;
     jac_phi_q_t_lambda_lambda[22] = v_0_in_i_0 - (A_ij_1 * t372 + A_ij_4 * t373 + A_ij_7 * t374);
     jac_phi_q_t_lambda_lambda[23] = -(A_ij_2 * t372 + A_ij_5 * t373 + A_ij_8 * t374);
-    const jg_real t375 = C_j[1] * A_joint_i_j_8 - C_j[2] * A_joint_i_j_5;
     jac_phi_q_t_lambda_lambda[33] = t375;
-    const jg_real t376 = C_j[2] * A_joint_i_j_2 - C_j[0] * A_joint_i_j_8;
     jac_phi_q_t_lambda_lambda[34] = t376;
-    const jg_real t377 = C_j[0] * A_joint_i_j_5 - C_j[1] * A_joint_i_j_2;
     jac_phi_q_t_lambda_lambda[35] = t377;
     jac_phi_q_t_lambda_lambda[30] = -(A_ij_0 * t375 + A_ij_3 * t376 + A_ij_6 * t377);
     jac_phi_q_t_lambda_lambda[31] = -(A_ij_1 * t375 + A_ij_4 * t376 + A_ij_7 * t377);
     jac_phi_q_t_lambda_lambda[32] = -(A_ij_2 * t375 + A_ij_5 * t376 + A_ij_8 * t377);
     const jg_real t378 = C_j[1] * A_joint_i_j_6 - C_j[2] * A_joint_i_j_3;
-    jac_phi_q_t_lambda_lambda[39] = t378;
     const jg_real t379 = C_j[2] * A_joint_i_j_0 - C_j[0] * A_joint_i_j_6;
-    jac_phi_q_t_lambda_lambda[40] = t379;
     const jg_real t380 = C_j[0] * A_joint_i_j_3 - C_j[1] * A_joint_i_j_0;
+    const jg_real t381 = C_j[7] * A_joint_i_j_8 - C_j[8] * A_joint_i_j_5;
+    jac_phi_q_t_lambda_lambda[39] = t378;
+    jac_phi_q_t_lambda_lambda[40] = t379;
     jac_phi_q_t_lambda_lambda[41] = t380;
     jac_phi_q_t_lambda_lambda[36] = -(A_ij_0 * t378 + A_ij_3 * t379 + A_ij_6 * t380);
     jac_phi_q_t_lambda_lambda[37] = -(A_ij_1 * t378 + A_ij_4 * t379 + A_ij_7 * t380);
     jac_phi_q_t_lambda_lambda[38] = -(A_ij_2 * t378 + A_ij_5 * t379 + A_ij_8 * t380);
     jac_phi_q_t_lambda_lambda[42] = sine_0;
-    const jg_real t381 = C_j[7] * A_joint_i_j_8 - C_j[8] * A_joint_i_j_5;
     jac_phi_q_t_lambda_lambda[46] = t381;
     const jg_real t382 = C_j[8] * A_joint_i_j_2 - C_j[6] * A_joint_i_j_8;
-    jac_phi_q_t_lambda_lambda[47] = t382;
     const jg_real t383 = C_j[6] * A_joint_i_j_5 - C_j[7] * A_joint_i_j_2;
+    jac_phi_q_t_lambda_lambda[47] = t382;
     jac_phi_q_t_lambda_lambda[48] = t383;
     jac_phi_q_t_lambda_lambda[43] = -(A_ij_0 * t381 + A_ij_3 * t382 + A_ij_6 * t383);
     jac_phi_q_t_lambda_lambda[44] = -(A_ij_1 * t381 + A_ij_4 * t382 + A_ij_7 * t383);

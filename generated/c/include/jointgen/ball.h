@@ -617,7 +617,7 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 697 (269 add, 425 mul, 3 sincos, 30 neg); temporaries: 204.
+ * @note Operations: 686 (269 add, 414 mul, 3 sincos, 30 neg); temporaries: 199.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -643,7 +643,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 697 (269 add, 425 mul, 3 sincos, 30 neg); temporaries: 111.
+ * @note Operations: 686 (269 add, 414 mul, 3 sincos, 30 neg); temporaries: 111.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -673,7 +673,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, c
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 575 (229 add, 343 mul, 3 sincos, 1 neg); temporaries: 130.
+ * @note Operations: 573 (229 add, 341 mul, 3 sincos, 1 neg); temporaries: 131.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -727,7 +727,7 @@ void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 291 (114 add, 174 mul, 3 sincos, 6 neg); temporaries: 82.
+ * @note Operations: 289 (114 add, 172 mul, 3 sincos, 6 neg); temporaries: 84.
  * @see S1 Eqs. (1), (13); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -763,7 +763,7 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1160 (451 add, 706 mul, 3 sincos, 34 neg); temporaries: 277.
+ * @note Operations: 1150 (451 add, 696 mul, 3 sincos, 34 neg); temporaries: 275.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -801,7 +801,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1160 (451 add, 706 mul, 3 sincos, 34 neg); temporaries: 164.
+ * @note Operations: 1150 (451 add, 696 mul, 3 sincos, 34 neg); temporaries: 164.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1030,7 +1030,7 @@ void jg_ball_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT al
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 30 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 554 (217 add, 334 mul, 3 sincos, 26 neg); temporaries: 140.
+ * @note Operations: 552 (217 add, 332 mul, 3 sincos, 26 neg); temporaries: 142.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1069,7 +1069,7 @@ void jg_ball_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 554 (217 add, 334 mul, 3 sincos, 26 neg); temporaries: 81.
+ * @note Operations: 552 (217 add, 332 mul, 3 sincos, 26 neg); temporaries: 81.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1235,7 +1235,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 308 (128 add, 177 mul, 3 sincos, 2 neg); temporaries: 75.
+ * @note Operations: 306 (128 add, 175 mul, 3 sincos, 2 neg); temporaries: 76.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3
  */
 void jg_ball_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1325,7 +1325,7 @@ void jg_ball_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 642 (256 add, 383 mul, 3 sincos, 28 neg); temporaries: 153.
+ * @note Operations: 637 (256 add, 378 mul, 3 sincos, 28 neg); temporaries: 160.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1363,7 +1363,7 @@ void jg_ball_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 642 (256 add, 383 mul, 3 sincos, 28 neg); temporaries: 123.
+ * @note Operations: 637 (256 add, 378 mul, 3 sincos, 28 neg); temporaries: 123.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1462,7 +1462,7 @@ void jg_ball_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 309 (113 add, 193 mul, 3 sincos, 8 neg); temporaries: 91.
+ * @note Operations: 306 (113 add, 190 mul, 3 sincos, 8 neg); temporaries: 92.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1484,7 +1484,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 309 (113 add, 193 mul, 3 sincos, 8 neg); temporaries: 34.
+ * @note Operations: 306 (113 add, 190 mul, 3 sincos, 8 neg); temporaries: 34.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1592,7 +1592,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_REST
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 786 (307 add, 476 mul, 3 sincos, 17 neg); temporaries: 174.
+ * @note Operations: 781 (307 add, 471 mul, 3 sincos, 17 neg); temporaries: 179.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1631,7 +1631,7 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, c
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 786 (307 add, 476 mul, 3 sincos, 17 neg); temporaries: 84.
+ * @note Operations: 781 (307 add, 471 mul, 3 sincos, 17 neg); temporaries: 84.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -805,7 +805,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 771 (309 add, 461 mul, 1 sincos, 29 neg); temporaries: 194.
+ * @note Operations: 769 (309 add, 459 mul, 1 sincos, 29 neg); temporaries: 192.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -843,7 +843,7 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 771 (309 add, 461 mul, 1 sincos, 29 neg); temporaries: 129.
+ * @note Operations: 769 (309 add, 459 mul, 1 sincos, 29 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1368,7 +1368,7 @@ void jg_cylindrical_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT 
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (249 add, 361 mul, 1 sincos, 28 neg); temporaries: 145.
+ * @note Operations: 608 (249 add, 358 mul, 1 sincos, 28 neg); temporaries: 151.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1406,7 +1406,7 @@ void jg_cylindrical_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (249 add, 361 mul, 1 sincos, 28 neg); temporaries: 116.
+ * @note Operations: 608 (249 add, 358 mul, 1 sincos, 28 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1553,7 +1553,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_dense(const j
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 140 (54 add, 85 mul, 1 sincos, 2 neg); temporaries: 40.
+ * @note Operations: 138 (54 add, 83 mul, 1 sincos, 2 neg); temporaries: 38.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

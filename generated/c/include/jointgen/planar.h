@@ -245,7 +245,7 @@ void jg_planar_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 517 (203 add, 314 mul, 24 neg); temporaries: 131.
+ * @note Operations: 514 (203 add, 311 mul, 24 neg); temporaries: 137.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -280,7 +280,7 @@ void jg_planar_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *J
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [3]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 517 (203 add, 314 mul, 24 neg); temporaries: 96.
+ * @note Operations: 514 (203 add, 311 mul, 24 neg); temporaries: 96.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_planar_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -481,7 +481,7 @@ void jg_planar_conventional_world_phi_q_v(const jg_real *JG_RESTRICT r_i, const 
  * @param[in] lambda [3]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [12]; virtual displacements; translations in world axes, rotations in world axes; N,
  *   N m
- * @note Operations: 114 (45 add, 69 mul, 6 neg); temporaries: 42.
+ * @note Operations: 111 (45 add, 66 mul, 6 neg); temporaries: 39.
  * @see S1 Eqs. (1), (5)
  */
 void jg_planar_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -804,7 +804,7 @@ void jg_planar_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 777 (312 add, 464 mul, 1 sincos, 32 neg); temporaries: 185.
+ * @note Operations: 775 (312 add, 462 mul, 1 sincos, 32 neg); temporaries: 183.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -842,7 +842,7 @@ void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 777 (312 add, 464 mul, 1 sincos, 32 neg); temporaries: 132.
+ * @note Operations: 775 (312 add, 462 mul, 1 sincos, 32 neg); temporaries: 132.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1366,7 +1366,7 @@ void jg_planar_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 617 (252 add, 364 mul, 1 sincos, 31 neg); temporaries: 145.
+ * @note Operations: 614 (252 add, 361 mul, 1 sincos, 31 neg); temporaries: 151.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1404,7 +1404,7 @@ void jg_planar_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 617 (252 add, 364 mul, 1 sincos, 31 neg); temporaries: 119.
+ * @note Operations: 614 (252 add, 361 mul, 1 sincos, 31 neg); temporaries: 119.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1
  */
 void jg_planar_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -1327,7 +1327,7 @@ void jg_revolute_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 605 (246 add, 358 mul, 1 sincos, 25 neg); temporaries: 142.
+ * @note Operations: 602 (246 add, 355 mul, 1 sincos, 25 neg); temporaries: 148.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1365,7 +1365,7 @@ void jg_revolute_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 605 (246 add, 358 mul, 1 sincos, 25 neg); temporaries: 113.
+ * @note Operations: 602 (246 add, 355 mul, 1 sincos, 25 neg); temporaries: 113.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot1
  */
 void jg_revolute_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1512,7 +1512,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 134 (51 add, 82 mul, 1 sincos, 2 neg); temporaries: 37.
+ * @note Operations: 132 (51 add, 80 mul, 1 sincos, 2 neg); temporaries: 35.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

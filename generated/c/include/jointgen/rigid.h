@@ -224,7 +224,7 @@ void jg_rigid_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 601 (240 add, 361 mul, 3 neg); temporaries: 117.
+ * @note Operations: 598 (240 add, 358 mul, 3 neg); temporaries: 123.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -259,7 +259,7 @@ void jg_rigid_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 601 (240 add, 361 mul, 3 neg); temporaries: 78.
+ * @note Operations: 598 (240 add, 358 mul, 3 neg); temporaries: 78.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -474,7 +474,7 @@ void jg_rigid_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 335 (145 add, 190 mul, 24 neg); temporaries: 89.
+ * @note Operations: 332 (145 add, 187 mul, 24 neg); temporaries: 95.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -509,7 +509,7 @@ void jg_rigid_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 335 (145 add, 190 mul, 24 neg); temporaries: 72.
+ * @note Operations: 332 (145 add, 187 mul, 24 neg); temporaries: 72.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_rigid_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -751,7 +751,7 @@ void jg_rigid_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 670 (270 add, 400 mul, 21 neg); temporaries: 156.
+ * @note Operations: 661 (270 add, 391 mul, 21 neg); temporaries: 174.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -786,7 +786,7 @@ void jg_rigid_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 670 (270 add, 400 mul, 21 neg); temporaries: 111.
+ * @note Operations: 661 (270 add, 391 mul, 21 neg); temporaries: 111.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -272,7 +272,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 984 (407 add, 575 mul, 1 div, 1 atan2, 31 neg); temporaries: 224.
+ * @note Operations: 983 (407 add, 574 mul, 1 div, 1 atan2, 31 neg); temporaries: 224.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -310,7 +310,7 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 984 (407 add, 575 mul, 1 div, 1 atan2, 31 neg); temporaries: 120.
+ * @note Operations: 983 (407 add, 574 mul, 1 div, 1 atan2, 31 neg); temporaries: 120.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -572,7 +572,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 624 (264 add, 358 mul, 1 div, 1 atan2, 39 neg); temporaries: 160.
+ * @note Operations: 623 (264 add, 357 mul, 1 div, 1 atan2, 39 neg); temporaries: 160.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -610,7 +610,7 @@ void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 624 (264 add, 358 mul, 1 div, 1 atan2, 39 neg); temporaries: 108.
+ * @note Operations: 623 (264 add, 357 mul, 1 div, 1 atan2, 39 neg); temporaries: 108.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -891,7 +891,7 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 778 (311 add, 466 mul, 1 sincos, 29 neg); temporaries: 198.
+ * @note Operations: 775 (311 add, 463 mul, 1 sincos, 29 neg); temporaries: 196.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -932,7 +932,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 778 (311 add, 466 mul, 1 sincos, 29 neg); temporaries: 129.
+ * @note Operations: 775 (311 add, 463 mul, 1 sincos, 29 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -995,7 +995,7 @@ void jg_screw_parametric_substituted_phi(const jg_real *JG_RESTRICT r_i, const j
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 98 (35 add, 62 mul, 1 sincos, 15 neg); temporaries: 24.
+ * @note Operations: 97 (35 add, 61 mul, 1 sincos, 15 neg); temporaries: 24.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, const jg_real *JG_RESTRICT geometry,
@@ -1018,7 +1018,7 @@ void jg_screw_parametric_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha, 
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 98 (35 add, 62 mul, 1 sincos, 15 neg); temporaries: 49.
+ * @note Operations: 97 (35 add, 61 mul, 1 sincos, 15 neg); temporaries: 49.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1188,7 +1188,7 @@ void jg_screw_parametric_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT a
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 9 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 373 (148 add, 224 mul, 1 sincos, 22 neg); temporaries: 98.
+ * @note Operations: 368 (148 add, 219 mul, 1 sincos, 22 neg); temporaries: 97.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1230,7 +1230,7 @@ void jg_screw_parametric_substituted_all(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 373 (148 add, 224 mul, 1 sincos, 22 neg); temporaries: 58.
+ * @note Operations: 368 (148 add, 219 mul, 1 sincos, 22 neg); temporaries: 58.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1513,7 +1513,7 @@ void jg_screw_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, c
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 618 (251 add, 366 mul, 1 sincos, 28 neg); temporaries: 149.
+ * @note Operations: 614 (251 add, 362 mul, 1 sincos, 28 neg); temporaries: 155.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1554,7 +1554,7 @@ void jg_screw_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 618 (251 add, 366 mul, 1 sincos, 28 neg); temporaries: 116.
+ * @note Operations: 614 (251 add, 362 mul, 1 sincos, 28 neg); temporaries: 116.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1617,7 +1617,7 @@ void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, 
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] compressed-columns, 49 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 104 (35 add, 68 mul, 1 sincos, 14 neg); temporaries: 29.
+ * @note Operations: 103 (35 add, 67 mul, 1 sincos, 14 neg); temporaries: 29.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1640,7 +1640,7 @@ void jg_screw_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT 
  *   [26] revolutions [1] 1
  * @param[out] phi_q [6 x 13] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 104 (35 add, 68 mul, 1 sincos, 14 neg); temporaries: 49.
+ * @note Operations: 103 (35 add, 67 mul, 1 sincos, 14 neg); temporaries: 49.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1810,7 +1810,7 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 10 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 416 (166 add, 249 mul, 1 sincos, 17 neg); temporaries: 116.
+ * @note Operations: 411 (166 add, 244 mul, 1 sincos, 17 neg); temporaries: 115.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1852,7 +1852,7 @@ void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 416 (166 add, 249 mul, 1 sincos, 17 neg); temporaries: 59.
+ * @note Operations: 411 (166 add, 244 mul, 1 sincos, 17 neg); temporaries: 59.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -797,7 +797,7 @@ void jg_translational_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 66 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 676 (273 add, 403 mul, 24 neg); temporaries: 159.
+ * @note Operations: 667 (273 add, 394 mul, 24 neg); temporaries: 177.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -835,7 +835,7 @@ void jg_translational_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_re
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 676 (273 add, 403 mul, 24 neg); temporaries: 114.
+ * @note Operations: 667 (273 add, 394 mul, 24 neg); temporaries: 114.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

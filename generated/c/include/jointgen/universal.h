@@ -225,7 +225,7 @@ void jg_universal_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT A_i, co
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 415 (163 add, 252 mul, 3 neg); temporaries: 92.
+ * @note Operations: 412 (163 add, 249 mul, 3 neg); temporaries: 98.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -260,7 +260,7 @@ void jg_universal_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 415 (163 add, 252 mul, 3 neg); temporaries: 66.
+ * @note Operations: 412 (163 add, 249 mul, 3 neg); temporaries: 66.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -476,7 +476,7 @@ void jg_universal_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT A
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 36 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 216 (97 add, 119 mul, 18 neg); temporaries: 70.
+ * @note Operations: 213 (97 add, 116 mul, 18 neg); temporaries: 76.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -511,7 +511,7 @@ void jg_universal_conventional_world_all(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [4]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 216 (97 add, 119 mul, 18 neg); temporaries: 60.
+ * @note Operations: 213 (97 add, 116 mul, 18 neg); temporaries: 60.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_universal_conventional_world_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -619,7 +619,7 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 558 (215 add, 341 mul, 2 sincos, 26 neg); temporaries: 151.
+ * @note Operations: 556 (215 add, 339 mul, 2 sincos, 26 neg); temporaries: 151.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -645,7 +645,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 558 (215 add, 341 mul, 2 sincos, 26 neg); temporaries: 94.
+ * @note Operations: 556 (215 add, 339 mul, 2 sincos, 26 neg); temporaries: 94.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -675,7 +675,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 457 (186 add, 269 mul, 2 sincos, 1 neg); temporaries: 106.
+ * @note Operations: 454 (186 add, 266 mul, 2 sincos, 1 neg); temporaries: 107.
  * @see second time derivative of S1 Eq. (12); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -765,7 +765,7 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 932 (364 add, 566 mul, 2 sincos, 32 neg); temporaries: 214.
+ * @note Operations: 930 (364 add, 564 mul, 2 sincos, 32 neg); temporaries: 214.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -803,7 +803,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 932 (364 add, 566 mul, 2 sincos, 32 neg); temporaries: 144.
+ * @note Operations: 930 (364 add, 564 mul, 2 sincos, 32 neg); temporaries: 144.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1328,7 +1328,7 @@ void jg_universal_parametric_table4_phi_q_t_lambda(const jg_real *JG_RESTRICT r_
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (248 add, 361 mul, 2 sincos, 26 neg); temporaries: 153.
+ * @note Operations: 608 (248 add, 358 mul, 2 sincos, 26 neg); temporaries: 159.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1366,7 +1366,7 @@ void jg_universal_parametric_table4_all(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 611 (248 add, 361 mul, 2 sincos, 26 neg); temporaries: 115.
+ * @note Operations: 608 (248 add, 358 mul, 2 sincos, 26 neg); temporaries: 115.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1423,7 +1423,7 @@ void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 140 (46 add, 92 mul, 2 sincos, 9 neg); temporaries: 26.
+ * @note Operations: 139 (46 add, 91 mul, 2 sincos, 9 neg); temporaries: 27.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1443,7 +1443,7 @@ void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTR
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 140 (46 add, 92 mul, 2 sincos, 9 neg); temporaries: 47.
+ * @note Operations: 139 (46 add, 91 mul, 2 sincos, 9 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1465,7 +1465,7 @@ void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RE
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 179 (65 add, 112 mul, 2 sincos, 3 neg); temporaries: 46.
+ * @note Operations: 178 (65 add, 111 mul, 2 sincos, 3 neg); temporaries: 45.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1487,7 +1487,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 179 (65 add, 112 mul, 2 sincos, 3 neg); temporaries: 20.
+ * @note Operations: 178 (65 add, 111 mul, 2 sincos, 3 neg); temporaries: 20.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1595,7 +1595,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 564 (217 add, 345 mul, 2 sincos, 12 neg); temporaries: 123.
+ * @note Operations: 562 (217 add, 343 mul, 2 sincos, 12 neg); temporaries: 127.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1634,7 +1634,7 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 564 (217 add, 345 mul, 2 sincos, 12 neg); temporaries: 67.
+ * @note Operations: 562 (217 add, 343 mul, 2 sincos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

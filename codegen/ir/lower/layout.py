@@ -197,6 +197,10 @@ class Layout:
         """Number of a node that something has asked for, else None."""
         return self._numbers.get(key)
 
+    def has_scalar(self, value: Polynomial) -> bool:
+        """Whether something has asked for a scalar or its negative."""
+        return ("scalar", value if value.sign > 0 else -value) in self._numbers
+
     def known_map(self, kind: str, dyadic: Dyadic, rows: str, columns: str) -> Turned | None:
         """A ``block`` or ``pairs`` between two frames that something has asked for, as for `block`, else None."""
         sign, key, turned = _map_key(kind, dyadic, rows, columns)

@@ -17,11 +17,12 @@ Ways = Callable[[Layout, Key], Iterable[Alternative]]
 def lay_out(layout: Layout) -> list[tuple[Alternative, ...]]:
     """Give the alternatives of every node that the demands may need.
 
-    Vectors with raw matrices are laid out first, so that others find them. What takes known sums, products or
-    blocks is added when all of these are known, and what turns or adds to finished blocks at the very end.
+    Vectors with raw matrices are laid out first, so that others find them. What takes known scalars, sums, products
+    or blocks is added when all of these are known, and what turns or adds to finished blocks at the very end.
     """
     _extend(layout, partial(_is_raw, layout))
     _extend(layout, lambda key: True)
+    _add(layout, _alternatives, _components)
     _add(layout, _alternatives, _with_known)
     _add(layout, _early, finished_blocks.in_parts)
     _add(layout, _early, finished_blocks.with_finished)
@@ -52,7 +53,12 @@ def _add(layout: Layout, first: Ways, further: Ways) -> None:
 
 def _early(layout: Layout, key: Key) -> Iterable[Alternative]:
     yield from _alternatives(layout, key)
+    yield from _components(layout, key)
     yield from _with_known(layout, key)
+
+
+def _components(layout: Layout, key: Key) -> Iterable[Alternative]:
+    return vector_forms.components(layout, key[1], key[2]) if key[0] == "vector" else ()
 
 
 def _with_known(layout: Layout, key: Key) -> Iterable[Alternative]:

@@ -221,9 +221,9 @@ void jg_ball_conventional_world_phi_q_v(const jg_real *JG_RESTRICT A_i, const jg
     const jg_real s_j_cross_omega_j_world_1 = s_j_world_2 * omega_j[0] - s_j_world_0 * omega_j[2];
     const jg_real s_j_cross_omega_j_world_2 = s_j_world_0 * omega_j[1] - s_j_world_1 * omega_j[0];
     /* v_1_world = v_j - v_i - s_j x omega_j + s_i x omega_i, world axes */
-    const jg_real v_1_world_0 = s_i_cross_omega_i_world_0 - s_j_cross_omega_j_world_0 + v_0_world_0;
-    const jg_real v_1_world_1 = s_i_cross_omega_i_world_1 - s_j_cross_omega_j_world_1 + v_0_world_1;
-    const jg_real v_1_world_2 = s_i_cross_omega_i_world_2 - s_j_cross_omega_j_world_2 + v_0_world_2;
+    const jg_real v_1_world_0 = v_0_world_0 - s_j_cross_omega_j_world_0 + s_i_cross_omega_i_world_0;
+    const jg_real v_1_world_1 = v_0_world_1 - s_j_cross_omega_j_world_1 + s_i_cross_omega_i_world_1;
+    const jg_real v_1_world_2 = v_0_world_2 - s_j_cross_omega_j_world_2 + s_i_cross_omega_i_world_2;
     phi_q_v[0] = v_1_world_0;
     phi_q_v[1] = v_1_world_1;
     phi_q_v[2] = v_1_world_2;

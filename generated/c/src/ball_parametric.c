@@ -298,12 +298,11 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A
     const jg_real v_0_world_1 = r_j[1] - r_i[1];
     const jg_real A_ji_5 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
     const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    /* v_3_in_j = lambda_3 h_j, axes of body j */
-    const jg_real v_3_in_j_1 = lambda[3] * C_j[7];
+    /* v_2_in_j = lambda_5 g_j, axes of body j */
+    const jg_real v_2_in_j_1 = C_j[4] * lambda[5];
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
-    /* v_1_in_j = lambda_4 f_j, axes of body j */
-    const jg_real v_1_in_j_1 = C_j[1] * lambda[4];
-    const jg_real v_1_in_j_2 = C_j[2] * lambda[4];
+    const jg_real v_2_in_j_2 = C_j[5] * lambda[5];
+    const jg_real v_2_in_j_0 = C_j[3] * lambda[5];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_3 = A_i[3] * A_j[0] + A_i[4] * A_j[1] + A_i[5] * A_j[2];
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
@@ -319,9 +318,9 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A
     const jg_real s_j_in_i_1 = A_ji_3 * s_j[0] + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
     /* v_0_in_i = r_j - r_i, axes of body i */
     const jg_real v_0_in_i_1 = A_i[3] * v_0_world_0 + A_i[4] * v_0_world_1 + A_i[5] * v_0_world_2;
-    /* v_1_in_i = lambda_4 f_j, axes of body i */
-    const jg_real v_1_in_i_2 = f_j_in_i_2 * lambda[4];
-    const jg_real v_1_in_i_1 = f_j_in_i_1 * lambda[4];
+    /* v_2_in_i = lambda_5 g_j, axes of body i */
+    const jg_real v_2_in_i_2 = g_j_in_i_2 * lambda[5];
+    const jg_real v_2_in_i_1 = g_j_in_i_1 * lambda[5];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
     const jg_real s_j_in_i_2 = A_ji_6 * s_j[0] + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
@@ -339,26 +338,19 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A
     const jg_real t34 = lambda[1] * A_ji_7 - lambda[2] * A_ji_4;
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
     const jg_real t36 = lambda[1] * A_ji_8 - lambda[2] * A_ji_5;
-    const jg_real v_3_in_j_2 = lambda[3] * C_j[8];
-    const jg_real v_3_in_j_0 = lambda[3] * C_j[6];
+    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = g_j_in_i_0 * f_j_in_i_2 - f_j_in_i_0 * g_j_in_i_2;
     const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - g_j_in_i_0 * f_j_in_i_1;
     const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
-    const jg_real v_1_in_j_0 = C_j[0] * lambda[4];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = lambda[0] * A_ji_1 + lambda[1] * A_ji_4 + lambda[2] * A_ji_7;
-    /* v_3_in_i = lambda_3 h_j, axes of body i */
-    const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
-    const jg_real v_3_in_i_2 = lambda[3] * h_j_in_i_2;
     const jg_real lambda_0_1_2_in_j_2 = lambda[0] * A_ji_2 + lambda[1] * A_ji_5 + lambda[2] * A_ji_8;
     const jg_real lambda_0_1_2_in_j_0 = lambda[0] * A_ji_0 + lambda[1] * A_ji_3 + lambda[2] * A_ji_6;
-    const jg_real v_1_in_i_0 = f_j_in_i_0 * lambda[4];
+    const jg_real h_j_in_i_0 = g_j_in_i_2 * f_j_in_i_1 - f_j_in_i_2 * g_j_in_i_1;
     const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
     const jg_real v_0_in_i_0 = v_0_world_0 * A_i[0] + v_0_world_1 * A_i[1] + v_0_world_2 * A_i[2];
-    const jg_real h_j_in_i_0 = g_j_in_i_2 * f_j_in_i_1 - f_j_in_i_2 * g_j_in_i_1;
-    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
-    const jg_real t53 = lambda[2] * A_ji_0 - lambda[0] * A_ji_6;
+    const jg_real t47 = lambda[2] * A_ji_0 - lambda[0] * A_ji_6;
     phi_q_t_lambda_q[10] = t34;
     phi_q_t_lambda_q[45] = t34;
     phi_q_t_lambda_q[11] = t36;
@@ -366,317 +358,325 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_real *A
     phi_q_t_lambda_q[76] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[54] = lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[66] = lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[21] = t53;
-    phi_q_t_lambda_q[43] = t53;
-    const jg_real v_3_in_i_0 = lambda[3] * h_j_in_i_0;
-    const jg_real t55 = lambda[2] * A_ji_1 - lambda[0] * A_ji_7;
-    const jg_real t56 = lambda[2] * A_ji_2 - lambda[0] * A_ji_8;
-    const jg_real t57 = lambda[0] * A_ji_3 - lambda[1] * A_ji_0;
-    phi_q_t_lambda_q[22] = t55;
-    phi_q_t_lambda_q[46] = t55;
-    phi_q_t_lambda_q[23] = t56;
-    phi_q_t_lambda_q[49] = t56;
+    phi_q_t_lambda_q[21] = t47;
+    phi_q_t_lambda_q[43] = t47;
+    const jg_real t48 = lambda[2] * A_ji_1 - lambda[0] * A_ji_7;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
+    const jg_real t50 = lambda[2] * A_ji_2 - lambda[0] * A_ji_8;
+    const jg_real t51 = lambda[0] * A_ji_3 - lambda[1] * A_ji_0;
+    phi_q_t_lambda_q[22] = t48;
+    phi_q_t_lambda_q[46] = t48;
     phi_q_t_lambda_q[55] = -lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[65] = -lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[33] = t57;
-    phi_q_t_lambda_q[44] = t57;
-    const jg_real t58 = lambda[0] * A_ji_4 - lambda[1] * A_ji_1;
-    const jg_real t59 = lambda[0] * A_ji_5 - lambda[1] * A_ji_2;
-    const jg_real t60 = cosine_0 * sine_1;
-    const jg_real t61 = sine_0 * cosine_1;
-    const jg_real t62 = cosine_0 * cosine_1;
-    const jg_real t63 = sine_1 * sine_0;
+    phi_q_t_lambda_q[23] = t50;
+    phi_q_t_lambda_q[49] = t50;
+    phi_q_t_lambda_q[77] = -lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[33] = t51;
+    phi_q_t_lambda_q[44] = t51;
+    const jg_real t52 = lambda[0] * A_ji_4 - lambda[1] * A_ji_1;
+    const jg_real t53 = lambda[0] * A_ji_5 - lambda[1] * A_ji_2;
+    const jg_real t54 = cosine_0 * sine_1;
+    const jg_real t55 = sine_0 * cosine_1;
+    const jg_real t56 = cosine_0 * cosine_1;
+    const jg_real t57 = sine_1 * sine_0;
     /* H_21 =  */
     const jg_real H_21 = sine_1 * cosine_2;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
-    /* v_9_in_joint_j = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of joint j */
-    const jg_real v_9_in_joint_j_2 = lambda[3] * sine_1;
-    const jg_real v_9_in_joint_j_0 = cosine_1 * lambda[4];
-    const jg_real t68 = sine_1 * sine_1;
+    /* v_8_in_joint_j = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of joint j */
+    const jg_real v_8_in_joint_j_2 = sine_1 * lambda[3];
+    const jg_real v_8_in_joint_j_0 = cosine_1 * lambda[4];
+    const jg_real t62 = sine_1 * sine_1;
     /* H_01 =  */
-    const jg_real H_01 = sine_2 * t60 - t61;
-    const jg_real t70 = t60 - sine_2 * t61;
+    const jg_real H_01 = sine_2 * t54 - t55;
+    const jg_real t64 = lambda[3] * H_22;
+    const jg_real t65 = t54 - sine_2 * t55;
     /* H_02 =  */
-    const jg_real H_02 = t63 + sine_2 * t62;
+    const jg_real H_02 = t57 + sine_2 * t56;
     /* H_11 =  */
-    const jg_real H_11 = t62 + sine_2 * t63;
-    /* v_18_in_star = (cos(alpha_2) cos(alpha_2) + sin(alpha_2) sin(alpha_2)) f_star, axes of body star */
-    const jg_real v_18_in_star = t68 + cosine_1 * cosine_1;
+    const jg_real H_11 = t56 + sine_2 * t57;
+    const jg_real t68 = H_21 * lambda[4];
+    /* v_17_in_star = (cos(alpha_2) cos(alpha_2) + sin(alpha_2) sin(alpha_2)) f_star, axes of body star */
+    const jg_real v_17_in_star = t62 + cosine_1 * cosine_1;
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t70 * C_i[3] + H_22 * C_i[6];
+    const jg_real h_star_in_i_0 = H_02 * C_i[0] - t65 * C_i[3] + H_22 * C_i[6];
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = H_01 * C_i[1] + H_11 * C_i[4] + H_21 * C_i[7];
     const jg_real g_star_in_i_2 = H_01 * C_i[2] + H_11 * C_i[5] + H_21 * C_i[8];
-    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t70 * C_i[5] + H_22 * C_i[8];
+    const jg_real h_star_in_i_2 = H_02 * C_i[2] - t65 * C_i[5] + H_22 * C_i[8];
     const jg_real g_star_in_i_0 = H_01 * C_i[0] + H_11 * C_i[3] + H_21 * C_i[6];
-    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t70 + C_i[7] * H_22;
+    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t65 + C_i[7] * H_22;
+    /* v_1_in_i = lambda_4 h_star, axes of body i */
+    const jg_real v_1_in_i_0 = h_star_in_i_0 * lambda[4];
+    /* v_3_in_i = lambda_3 g_star, axes of body i */
+    const jg_real v_3_in_i_1 = g_star_in_i_1 * lambda[3];
+    const jg_real v_3_in_i_2 = lambda[3] * g_star_in_i_2;
+    const jg_real v_1_in_i_2 = h_star_in_i_2 * lambda[4];
+    const jg_real v_1_in_i_1 = h_star_in_i_1 * lambda[4];
+    const jg_real v_3_in_i_0 = lambda[3] * g_star_in_i_0;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_1 = h_star_in_i_0 * g_star_in_i_2 - h_star_in_i_2 * g_star_in_i_0;
     const jg_real f_star_in_i_2 = g_star_in_i_0 * h_star_in_i_1 - g_star_in_i_1 * h_star_in_i_0;
     const jg_real f_star_in_i_0 = g_star_in_i_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_i_1;
-    /* v_2_in_i = lambda_5 f_star, axes of body i */
-    const jg_real v_2_in_i_1 = f_star_in_i_1 * lambda[5];
-    const jg_real v_2_in_i_2 = lambda[5] * f_star_in_i_2;
-    const jg_real v_2_in_i_0 = lambda[5] * f_star_in_i_0;
     /* A_star_j = turns j axes to star axes */
     const jg_real A_star_j_8 = A_ji_2 * h_star_in_i_0 + A_ji_5 * h_star_in_i_1 + A_ji_8 * h_star_in_i_2;
-    const jg_real A_star_j_2 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
+    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
+    const jg_real M_0_i_i_4 = f_j_in_i_1 * v_1_in_i_1 + lambda[1] * e_ij_in_i_1 + f_star_in_i_1 * v_2_in_i_1 +
+        h_j_in_i_1 * v_3_in_i_1;
+    const jg_real M_0_i_i_8 = f_j_in_i_2 * v_1_in_i_2 + lambda[2] * e_ij_in_i_2 + f_star_in_i_2 * v_2_in_i_2 +
+        h_j_in_i_2 * v_3_in_i_2;
+    const jg_real M_0_i_i_3 = f_j_in_i_1 * v_1_in_i_0 + lambda[0] * e_ij_in_i_1 + v_2_in_i_1 * f_star_in_i_0 +
+        h_j_in_i_1 * v_3_in_i_0;
+    const jg_real M_0_i_i_6 = f_j_in_i_2 * v_1_in_i_0 + lambda[0] * e_ij_in_i_2 + v_2_in_i_2 * f_star_in_i_0 +
+        h_j_in_i_2 * v_3_in_i_0;
     const jg_real A_star_j_0 = A_ji_0 * f_star_in_i_0 + A_ji_3 * f_star_in_i_1 + A_ji_6 * f_star_in_i_2;
     const jg_real A_star_j_6 = A_ji_2 * f_star_in_i_0 + A_ji_5 * f_star_in_i_1 + A_ji_8 * f_star_in_i_2;
+    /* v_1_in_j = lambda_4 h_star, axes of body j */
+    const jg_real v_1_in_j_2 = lambda[4] * A_star_j_8;
+    const jg_real A_star_j_2 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
     const jg_real A_star_j_1 = A_ji_0 * g_star_in_i_0 + A_ji_3 * g_star_in_i_1 + A_ji_6 * g_star_in_i_2;
-    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_0_i_i_4 = v_1_in_i_1 * h_star_in_i_1 + lambda[1] * e_ij_in_i_1 + v_2_in_i_1 * g_j_in_i_1 +
-        v_3_in_i_1 * g_star_in_i_1;
-    const jg_real M_0_i_i_8 = h_star_in_i_2 * v_1_in_i_2 + lambda[2] * e_ij_in_i_2 + g_j_in_i_2 * v_2_in_i_2 +
-        g_star_in_i_2 * v_3_in_i_2;
+    const jg_real v_1_in_j_0 = lambda[4] * A_star_j_2;
     const jg_real A_star_j_7 = A_ji_2 * g_star_in_i_0 + A_ji_5 * g_star_in_i_1 + A_ji_8 * g_star_in_i_2;
-    const jg_real M_0_i_i_3 = h_star_in_i_0 * v_1_in_i_1 + lambda[0] * e_ij_in_i_1 + g_j_in_i_1 * v_2_in_i_0 +
-        v_3_in_i_1 * g_star_in_i_0;
-    const jg_real M_0_i_i_6 = h_star_in_i_0 * v_1_in_i_2 + lambda[0] * e_ij_in_i_2 + g_j_in_i_2 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_2;
-    /* v_2_in_j = lambda_5 f_star, axes of body j */
-    const jg_real v_2_in_j_2 = lambda[5] * A_star_j_6;
-    const jg_real v_2_in_j_0 = lambda[5] * A_star_j_0;
     const jg_real A_star_j_4 = A_star_j_0 * A_star_j_8 - A_star_j_6 * A_star_j_2;
-    phi_q_t_lambda_q[77] = -lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[34] = t58;
-    phi_q_t_lambda_q[47] = t58;
-    phi_q_t_lambda_q[35] = t59;
-    phi_q_t_lambda_q[50] = t59;
+    /* v_3_in_j = lambda_3 g_star, axes of body j */
+    const jg_real v_3_in_j_0 = lambda[3] * A_star_j_1;
+    const jg_real v_3_in_j_2 = lambda[3] * A_star_j_7;
+    const jg_real v_3_in_j_1 = lambda[3] * A_star_j_4;
+    const jg_real A_star_j_5 = A_star_j_6 * A_star_j_1 - A_star_j_0 * A_star_j_7;
+    const jg_real A_star_j_3 = A_star_j_2 * A_star_j_7 - A_star_j_8 * A_star_j_1;
+    const jg_real v_1_in_j_1 = lambda[4] * A_star_j_5;
+    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_1_in_j_2 + A_star_j_6 * v_2_in_j_2 +
+        v_3_in_j_2 * C_j[8];
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_1_in_j_2 + A_star_j_6 * v_2_in_j_0 +
+        v_3_in_j_2 * C_j[6];
+    phi_q_t_lambda_q[34] = t52;
+    phi_q_t_lambda_q[47] = t52;
+    phi_q_t_lambda_q[35] = t53;
+    phi_q_t_lambda_q[50] = t53;
     phi_q_t_lambda_q[7] = M_0_i_i_3;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    const jg_real A_star_j_5 = A_star_j_6 * A_star_j_1 - A_star_j_0 * A_star_j_7;
-    const jg_real A_star_j_3 = A_star_j_2 * A_star_j_7 - A_star_j_8 * A_star_j_1;
-    const jg_real v_2_in_j_1 = lambda[5] * A_star_j_3;
-    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + A_star_j_8 * v_1_in_j_2 + C_j[5] * v_2_in_j_2 +
-        A_star_j_7 * v_3_in_j_2;
-    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + A_star_j_2 * v_1_in_j_1 + C_j[4] * v_2_in_j_0 +
-        v_3_in_j_1 * A_star_j_1;
-    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + A_star_j_2 * v_1_in_j_2 + C_j[5] * v_2_in_j_0 +
-        A_star_j_1 * v_3_in_j_2;
-    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + A_star_j_2 * v_1_in_j_0 + C_j[3] * v_2_in_j_0 +
-        A_star_j_1 * v_3_in_j_0;
-    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + A_star_j_8 * v_1_in_j_0 + C_j[3] * v_2_in_j_2 +
-        A_star_j_7 * v_3_in_j_0;
-    const jg_real t107 = M_1_j_j_8 + M_1_j_j_0;
-    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + A_star_j_8 * v_1_in_j_1 + C_j[4] * v_2_in_j_2 +
-        v_3_in_j_1 * A_star_j_7;
-    const jg_real M_1_j_j_4 = A_star_j_5 * v_1_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[4] * v_2_in_j_1 +
-        A_star_j_4 * v_3_in_j_1;
-    const jg_real M_1_j_j_7 = A_star_j_5 * v_1_in_j_2 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_2_in_j_1 +
-        A_star_j_4 * v_3_in_j_2;
-    const jg_real M_1_j_j_1 = A_star_j_5 * v_1_in_j_0 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_2_in_j_1 +
-        A_star_j_4 * v_3_in_j_0;
-    const jg_real t112 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t113 = M_1_j_j_4 + M_1_j_j_0;
-    /* f_j_in_star = f_j, axes of body star */
-    const jg_real f_j_in_star_0 = C_j[0] * A_star_j_0 + C_j[1] * A_star_j_3 + C_j[2] * A_star_j_6;
+    phi_q_t_lambda_q[58] = M_1_j_j_2;
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_1_in_j_0 + A_star_j_0 * v_2_in_j_1 + C_j[7]
+        * v_3_in_j_0;
+    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_1_in_j_0 + A_star_j_0 * v_2_in_j_2 + C_j[8]
+        * v_3_in_j_0;
     /* g_j_in_star = g_j, axes of body star */
-    const jg_real g_j_in_star_1 = C_j[4] * A_star_j_4 + C_j[3] * A_star_j_1 + C_j[5] * A_star_j_7;
-    const jg_real f_j_in_star_1 = C_j[1] * A_star_j_4 + C_j[0] * A_star_j_1 + C_j[2] * A_star_j_7;
-    /* v_13_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
-    const jg_real v_13_in_star_2 = lambda[4] * f_j_in_star_0;
-    const jg_real g_j_in_star_0 = C_j[3] * A_star_j_0 + C_j[4] * A_star_j_3 + C_j[5] * A_star_j_6;
-    const jg_real t119 = lambda[5] * g_j_in_star_1;
-    const jg_real t120 = A_ji_2 * t113 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    const jg_real g_j_in_star_0 = g_j_in_i_0 * f_star_in_i_0 + f_star_in_i_1 * g_j_in_i_1 + g_j_in_i_2 *
+        f_star_in_i_2;
+    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_1_in_j_0 + A_star_j_0 * v_2_in_j_0 +
+        v_3_in_j_0 * C_j[6];
+    const jg_real t110 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_1_in_j_2 + A_star_j_6 * v_2_in_j_1 + C_j[7]
+        * v_3_in_j_2;
+    /* f_j_in_star = f_j, axes of body star */
+    const jg_real f_j_in_star_2 = f_j_in_i_0 * h_star_in_i_0 + f_j_in_i_1 * h_star_in_i_1 + f_j_in_i_2 *
+        h_star_in_i_2;
+    const jg_real t113 = lambda[5] * g_j_in_star_0;
+    const jg_real M_1_j_j_4 = C_j[1] * v_1_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + A_star_j_3 * v_2_in_j_1 +
+        v_3_in_j_1 * C_j[7];
+    const jg_real M_1_j_j_7 = C_j[2] * v_1_in_j_1 + s_j[2] * lambda_0_1_2_in_j_1 + A_star_j_3 * v_2_in_j_2 +
+        v_3_in_j_1 * C_j[8];
+    const jg_real M_1_j_j_1 = C_j[0] * v_1_in_j_1 + s_j[0] * lambda_0_1_2_in_j_1 + A_star_j_3 * v_2_in_j_0 +
+        v_3_in_j_1 * C_j[6];
+    const jg_real f_j_in_star_0 = f_j_in_i_0 * f_star_in_i_0 + f_star_in_i_1 * f_j_in_i_1 + f_j_in_i_2 *
+        f_star_in_i_2;
+    const jg_real g_j_in_star_2 = g_j_in_i_0 * h_star_in_i_0 + g_j_in_i_1 * h_star_in_i_1 + g_j_in_i_2 *
+        h_star_in_i_2;
+    const jg_real t119 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t120 = M_1_j_j_4 + M_1_j_j_0;
+    /* v_12_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
+    const jg_real v_12_in_star_2 = lambda[4] * f_j_in_star_0;
+    const jg_real f_j_in_star_1 = f_j_in_i_0 * g_star_in_i_0 + g_star_in_i_1 * f_j_in_i_1 + f_j_in_i_2 *
+        g_star_in_i_2;
+    const jg_real t123 = lambda[4] * f_j_in_star_2;
+    const jg_real t124 = lambda[5] * g_j_in_star_2;
+    const jg_real g_j_in_star_1 = g_j_in_i_0 * g_star_in_i_0 + g_star_in_i_1 * g_j_in_i_1 + g_j_in_i_2 *
+        g_star_in_i_2;
+    /* h_j_in_star = h_j, axes of body star */
+    const jg_real h_j_in_star_1 = g_j_in_star_0 * f_j_in_star_2 - f_j_in_star_0 * g_j_in_star_2;
+    const jg_real t127 = sine_2 * t123;
+    const jg_real t128 = A_ji_2 * t120 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    /* v_10_in_star = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of body star */
+    const jg_real v_10_in_star_1 = cosine_1 * t113;
+    const jg_real t130 = lambda[5] * g_j_in_star_1;
+    const jg_real t131 = lambda[3] * h_j_in_star_1;
+    /* v_5_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
+        */
+    const jg_real v_5_in_star = t127 + H_22 * t124;
+    const jg_real t133 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t110 + A_ji_2 * M_1_j_j_7);
     phi_q_t_lambda_q[67] = M_1_j_j_3;
     phi_q_t_lambda_q[78] = M_1_j_j_6;
-    phi_q_t_lambda_q[58] = M_1_j_j_2;
     phi_q_t_lambda_q[69] = M_1_j_j_5;
     phi_q_t_lambda_q[79] = M_1_j_j_7;
     phi_q_t_lambda_q[57] = M_1_j_j_1;
-    phi_q_t_lambda_q[14] = t120;
-    phi_q_t_lambda_q[73] = t120;
-    const jg_real t121 = lambda[4] * f_j_in_star_1;
-    const jg_real f_j_in_star_2 = C_j[1] * A_star_j_5 + C_j[0] * A_star_j_2 + C_j[2] * A_star_j_8;
-    const jg_real t123 = lambda[5] * g_j_in_star_0;
-    const jg_real g_j_in_star_2 = C_j[4] * A_star_j_5 + C_j[3] * A_star_j_2 + C_j[5] * A_star_j_8;
-    const jg_real t125 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t107 + A_ji_2 * M_1_j_j_7);
-    const jg_real t126 = lambda[4] * f_j_in_star_2;
-    /* h_j_in_star = h_j, axes of body star */
-    const jg_real h_j_in_star_2 = f_j_in_star_0 * g_j_in_star_1 - f_j_in_star_1 * g_j_in_star_0;
-    const jg_real t128 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t112 + A_ji_2 * M_1_j_j_6);
-    const jg_real t129 = lambda[5] * g_j_in_star_2;
-    const jg_real t130 = lambda[3] * h_j_in_star_2;
-    const jg_real t131 = sine_2 * t126;
-    /* v_11_in_star = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of body star */
-    const jg_real v_11_in_star_1 = cosine_1 * t123;
-    const jg_real h_j_in_star_0 = f_j_in_star_1 * g_j_in_star_2 - g_j_in_star_1 * f_j_in_star_2;
-    const jg_real h_j_in_star_1 = g_j_in_star_0 * f_j_in_star_2 - f_j_in_star_0 * g_j_in_star_2;
-    const jg_real t135 = cosine_1 * t130;
-    /* v_9_in_star = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of body star */
-    const jg_real v_9_in_star_2 = h_j_in_star_2 * v_9_in_joint_j_2 + f_j_in_star_2 * v_9_in_joint_j_0;
-    const jg_real v_13_in_star_1 = lambda[3] * h_j_in_star_0;
-    const jg_real t138 = lambda[3] * h_j_in_star_1;
-    /* v_6_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
+    phi_q_t_lambda_q[14] = t128;
+    phi_q_t_lambda_q[73] = t128;
+    phi_q_t_lambda_q[13] = t133;
+    phi_q_t_lambda_q[62] = t133;
+    const jg_real h_j_in_star_2 = f_j_in_star_0 * g_j_in_star_1 - g_j_in_star_0 * f_j_in_star_1;
+    const jg_real h_j_in_star_0 = g_j_in_star_2 * f_j_in_star_1 - f_j_in_star_2 * g_j_in_star_1;
+    /* v_4_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star ...
         */
-    const jg_real v_6_in_star = t131 + H_22 * t129;
-    const jg_real v_11_in_star_0 = sine_1 * t129 - cosine_1 * t119;
-    /* v_4_in_star = cos(alpha_2) lambda_3 f_star x h_j - sin(alpha_2) lambda_4 f_star x f_j, axes of body star */
-    const jg_real v_4_in_star_1 = sine_1 * t126 - t135;
-    const jg_real t142 = v_9_in_star_2 + v_11_in_star_1;
-    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + h_star_in_i_1 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_1 +
-        g_star_in_i_1 * v_3_in_i_0;
-    const jg_real t144 = sine_2 * t138;
-    const jg_real v_9_in_star_1 = h_j_in_star_1 * v_9_in_joint_j_2 + f_j_in_star_1 * v_9_in_joint_j_0;
-    const jg_real t146 = t126 + t138;
-    /* v_5_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star ...
+    const jg_real v_4_in_star_2 = h_j_in_star_1 * t64 - f_j_in_star_1 * t68;
+    const jg_real t137 = sine_2 * t131;
+    const jg_real t138 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t119 + A_ji_2 * M_1_j_j_6);
+    /* v_8_in_star = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of body star */
+    const jg_real v_8_in_star_1 = h_j_in_star_1 * v_8_in_joint_j_2 + f_j_in_star_1 * v_8_in_joint_j_0;
+    const jg_real t140 = t131 + t123;
+    const jg_real v_12_in_star_1 = lambda[3] * h_j_in_star_0;
+    /* v_7_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_7_in_star_2 = sine_2 * v_12_in_star_2 + H_22 * t113 + v_4_in_star_2;
+    const jg_real v_10_in_star_0 = sine_1 * t124 - cosine_1 * t130;
+    /* v_11_in_star = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
+    const jg_real v_11_in_star_2 = v_8_in_star_1 + sine_1 * t113;
+    const jg_real v_4_in_star_1 = f_j_in_star_2 * t68 - t64 * h_j_in_star_2;
+    const jg_real v_8_in_star_2 = h_j_in_star_2 * v_8_in_joint_j_2 + f_j_in_star_2 * v_8_in_joint_j_0;
+    const jg_real t147 = t137 + H_21 * t130 + v_5_in_star;
+    /* v_6_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
         */
-    const jg_real v_5_in_star_1 = cosine_2 * v_4_in_star_1;
-    /* v_7_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
-        */
-    const jg_real v_7_in_star_1 = sine_2 * v_13_in_star_1 + H_21 * t123;
-    const jg_real v_4_in_star_2 = cosine_1 * t138 - sine_1 * t121;
-    /* v_12_in_star = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
-    const jg_real v_12_in_star_2 = v_9_in_star_1 + sine_1 * t123;
-    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + h_star_in_i_0 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_0;
-    /* v_8_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_8_in_star_1 = v_5_in_star_1 + v_7_in_star_1;
-    const jg_real t153 = t144 + H_21 * t119 + v_6_in_star;
-    const jg_real v_5_in_star_2 = cosine_2 * v_4_in_star_2;
-    const jg_real M_0_i_i_7 = h_star_in_i_1 * v_1_in_i_2 + lambda[1] * e_ij_in_i_2 + g_j_in_i_2 * v_2_in_i_1 +
-        g_star_in_i_1 * v_3_in_i_2;
-    const jg_real v_8_in_star_2 = sine_2 * v_13_in_star_2 + H_22 * t123 + v_5_in_star_2;
-    /* v_12_in_i = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
-    const jg_real v_12_in_i_0 = h_star_in_i_0 * v_12_in_star_2 - (g_star_in_i_0 * t142 + f_star_in_i_0 *
-        v_11_in_star_0);
-    phi_q_t_lambda_q[13] = t125;
-    phi_q_t_lambda_q[62] = t125;
-    phi_q_t_lambda_q[12] = t128;
-    phi_q_t_lambda_q[51] = t128;
+    const jg_real v_6_in_star_1 = sine_2 * v_12_in_star_1 + H_21 * t113;
+    const jg_real t149 = v_8_in_star_2 + v_10_in_star_1;
+    const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_1 + f_star_in_i_1 * v_2_in_i_0 +
+        v_3_in_i_1 * h_j_in_i_0;
+    const jg_real v_7_in_star_1 = v_4_in_star_1 + v_6_in_star_1;
+    /* v_12_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
+    const jg_real v_12_in_i_0 = g_star_in_i_0 * v_12_in_star_1 - f_star_in_i_0 * t140 + h_star_in_i_0 *
+        v_12_in_star_2;
+    const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_0 + f_star_in_i_0 * v_2_in_i_0 +
+        v_3_in_i_0 * h_j_in_i_0;
+    const jg_real M_0_i_i_7 = f_j_in_i_2 * v_1_in_i_1 + lambda[1] * e_ij_in_i_2 + f_star_in_i_1 * v_2_in_i_2 +
+        v_3_in_i_1 * h_j_in_i_2;
+    /* v_11_in_i = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
+    const jg_real v_11_in_i_0 = h_star_in_i_0 * v_11_in_star_2 - (g_star_in_i_0 * t149 + f_star_in_i_0 *
+        v_10_in_star_0);
+    phi_q_t_lambda_q[12] = t138;
+    phi_q_t_lambda_q[51] = t138;
     phi_q_t_lambda_q[18] = M_0_i_i_1;
+    phi_q_t_lambda_q[17] = v_12_in_i_0;
+    phi_q_t_lambda_q[102] = v_12_in_i_0;
     phi_q_t_lambda_q[20] = M_0_i_i_7;
-    phi_q_t_lambda_q[16] = v_12_in_i_0;
-    phi_q_t_lambda_q[93] = v_12_in_i_0;
-    const jg_real t158 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t112 + A_ji_5 * M_1_j_j_6);
-    /* v_13_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t146 + h_star_in_i_0 *
-        v_13_in_star_2;
-    const jg_real t160 = A_ji_5 * t113 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
-    const jg_real t161 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t107 + A_ji_5 * M_1_j_j_7);
-    phi_q_t_lambda_q[24] = t158;
-    phi_q_t_lambda_q[52] = t158;
-    phi_q_t_lambda_q[17] = v_13_in_i_0;
-    phi_q_t_lambda_q[102] = v_13_in_i_0;
+    phi_q_t_lambda_q[16] = v_11_in_i_0;
+    phi_q_t_lambda_q[93] = v_11_in_i_0;
+    const jg_real t156 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t119 + A_ji_5 * M_1_j_j_6);
+    const jg_real t157 = A_ji_5 * t120 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    const jg_real t158 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t110 + A_ji_5 * M_1_j_j_7);
+    /* v_7_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_7_in_i_0 = g_star_in_i_0 * v_7_in_star_1 - f_star_in_i_0 * t147 + h_star_in_i_0 * v_7_in_star_2;
+    const jg_real v_7_in_i_1 = g_star_in_i_1 * v_7_in_star_1 - f_star_in_i_1 * t147 + h_star_in_i_1 * v_7_in_star_2;
+    const jg_real v_11_in_i_1 = h_star_in_i_1 * v_11_in_star_2 - (g_star_in_i_1 * t149 + f_star_in_i_1 *
+        v_10_in_star_0);
+    phi_q_t_lambda_q[24] = t156;
+    phi_q_t_lambda_q[52] = t156;
+    phi_q_t_lambda_q[26] = t157;
+    phi_q_t_lambda_q[74] = t157;
     phi_q_t_lambda_q[19] = -(M_0_i_i_8 + M_0_i_i_0);
-    phi_q_t_lambda_q[26] = t160;
-    phi_q_t_lambda_q[74] = t160;
-    phi_q_t_lambda_q[25] = t161;
-    phi_q_t_lambda_q[63] = t161;
-    /* v_8_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_8_in_i_0 = g_star_in_i_0 * v_8_in_star_1 - f_star_in_i_0 * t153 + h_star_in_i_0 * v_8_in_star_2;
-    const jg_real v_8_in_i_1 = g_star_in_i_1 * v_8_in_star_1 - f_star_in_i_1 * t153 + h_star_in_i_1 * v_8_in_star_2;
-    const jg_real t164 = -v_8_in_i_0;
-    const jg_real v_12_in_i_1 = h_star_in_i_1 * v_12_in_star_2 - (g_star_in_i_1 * t142 + f_star_in_i_1 *
-        v_11_in_star_0);
-    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t146 + h_star_in_i_1 *
-        v_13_in_star_2;
-    const jg_real t167 = -v_8_in_i_1;
-    phi_q_t_lambda_q[15] = t164;
-    phi_q_t_lambda_q[84] = t164;
-    phi_q_t_lambda_q[28] = v_12_in_i_1;
-    phi_q_t_lambda_q[94] = v_12_in_i_1;
-    phi_q_t_lambda_q[29] = v_13_in_i_1;
-    phi_q_t_lambda_q[103] = v_13_in_i_1;
-    phi_q_t_lambda_q[27] = t167;
-    phi_q_t_lambda_q[85] = t167;
-    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + h_star_in_i_2 * v_1_in_i_0 + g_j_in_i_0 * v_2_in_i_2 +
-        g_star_in_i_2 * v_3_in_i_0;
-    const jg_real M_0_i_i_5 = h_star_in_i_2 * v_1_in_i_1 + lambda[2] * e_ij_in_i_1 + g_j_in_i_1 * v_2_in_i_2 +
-        v_3_in_i_1 * g_star_in_i_2;
-    const jg_real t170 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t112 + A_ji_8 * M_1_j_j_6);
-    const jg_real t171 = A_ji_8 * t113 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    phi_q_t_lambda_q[25] = t158;
+    phi_q_t_lambda_q[63] = t158;
+    phi_q_t_lambda_q[28] = v_11_in_i_1;
+    phi_q_t_lambda_q[94] = v_11_in_i_1;
+    const jg_real t162 = -v_7_in_i_0;
+    const jg_real t163 = -v_7_in_i_1;
+    const jg_real v_12_in_i_1 = g_star_in_i_1 * v_12_in_star_1 - f_star_in_i_1 * t140 + h_star_in_i_1 *
+        v_12_in_star_2;
+    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_2 + f_star_in_i_2 * v_2_in_i_0 +
+        v_3_in_i_2 * h_j_in_i_0;
+    phi_q_t_lambda_q[15] = t162;
+    phi_q_t_lambda_q[84] = t162;
+    phi_q_t_lambda_q[27] = t163;
+    phi_q_t_lambda_q[85] = t163;
+    phi_q_t_lambda_q[29] = v_12_in_i_1;
+    phi_q_t_lambda_q[103] = v_12_in_i_1;
     phi_q_t_lambda_q[32] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[30] = M_0_i_i_2;
-    phi_q_t_lambda_q[56] = -t112;
+    const jg_real M_0_i_i_5 = f_j_in_i_1 * v_1_in_i_2 + lambda[2] * e_ij_in_i_1 + v_2_in_i_1 * f_star_in_i_2 +
+        h_j_in_i_1 * v_3_in_i_2;
+    const jg_real t167 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t119 + A_ji_8 * M_1_j_j_6);
+    const jg_real t168 = A_ji_8 * t120 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    const jg_real v_7_in_i_2 = g_star_in_i_2 * v_7_in_star_1 - f_star_in_i_2 * t147 + h_star_in_i_2 * v_7_in_star_2;
+    const jg_real t170 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t110 + A_ji_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[56] = -t119;
     phi_q_t_lambda_q[31] = M_0_i_i_5;
-    phi_q_t_lambda_q[36] = t170;
-    phi_q_t_lambda_q[53] = t170;
-    phi_q_t_lambda_q[38] = t171;
-    phi_q_t_lambda_q[75] = t171;
-    const jg_real v_8_in_i_2 = g_star_in_i_2 * v_8_in_star_1 - f_star_in_i_2 * t153 + h_star_in_i_2 * v_8_in_star_2;
-    const jg_real t173 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t107 + A_ji_8 * M_1_j_j_7);
-    const jg_real v_12_in_i_2 = h_star_in_i_2 * v_12_in_star_2 - (g_star_in_i_2 * t142 + f_star_in_i_2 *
-        v_11_in_star_0);
-    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t146 + h_star_in_i_2 *
-        v_13_in_star_2;
-    const jg_real t176 = -v_8_in_i_2;
-    phi_q_t_lambda_q[37] = t173;
-    phi_q_t_lambda_q[64] = t173;
-    phi_q_t_lambda_q[40] = v_12_in_i_2;
-    phi_q_t_lambda_q[95] = v_12_in_i_2;
-    phi_q_t_lambda_q[68] = -t107;
-    phi_q_t_lambda_q[41] = v_13_in_i_2;
-    phi_q_t_lambda_q[104] = v_13_in_i_2;
-    phi_q_t_lambda_q[39] = t176;
-    phi_q_t_lambda_q[86] = t176;
-    /* v_8_in_j = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_8_in_j_0 = A_star_j_1 * v_8_in_star_1 - A_star_j_0 * t153 + A_star_j_2 * v_8_in_star_2;
-    /* v_13_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_13_in_j_0 = A_star_j_1 * v_13_in_star_1 - A_star_j_0 * t146 + A_star_j_2 * v_13_in_star_2;
-    /* v_12_in_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
+    phi_q_t_lambda_q[36] = t167;
+    phi_q_t_lambda_q[53] = t167;
+    phi_q_t_lambda_q[38] = t168;
+    phi_q_t_lambda_q[75] = t168;
+    phi_q_t_lambda_q[37] = t170;
+    phi_q_t_lambda_q[64] = t170;
+    const jg_real v_11_in_i_2 = h_star_in_i_2 * v_11_in_star_2 - (g_star_in_i_2 * t149 + f_star_in_i_2 *
+        v_10_in_star_0);
+    const jg_real v_12_in_i_2 = g_star_in_i_2 * v_12_in_star_1 - f_star_in_i_2 * t140 + h_star_in_i_2 *
+        v_12_in_star_2;
+    const jg_real t173 = -v_7_in_i_2;
+    const jg_real t174 = A_star_j_0 * v_10_in_star_0 + A_star_j_1 * t149 - A_star_j_2 * v_11_in_star_2;
+    phi_q_t_lambda_q[40] = v_11_in_i_2;
+    phi_q_t_lambda_q[95] = v_11_in_i_2;
+    phi_q_t_lambda_q[68] = -t110;
+    phi_q_t_lambda_q[41] = v_12_in_i_2;
+    phi_q_t_lambda_q[104] = v_12_in_i_2;
+    phi_q_t_lambda_q[39] = t173;
+    phi_q_t_lambda_q[86] = t173;
+    phi_q_t_lambda_q[60] = t174;
+    phi_q_t_lambda_q[96] = t174;
+    /* v_7_in_j = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_7_in_j_0 = A_ji_0 * v_7_in_i_0 + A_ji_3 * v_7_in_i_1 + A_ji_6 * v_7_in_i_2;
+    const jg_real v_7_in_j_1 = A_ji_1 * v_7_in_i_0 + A_ji_4 * v_7_in_i_1 + A_ji_7 * v_7_in_i_2;
+    /* v_12_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
     const jg_real v_12_in_j_0 = A_ji_0 * v_12_in_i_0 + A_ji_3 * v_12_in_i_1 + A_ji_6 * v_12_in_i_2;
-    const jg_real v_8_in_j_1 = A_star_j_4 * v_8_in_star_1 - A_star_j_3 * t153 + A_star_j_5 * v_8_in_star_2;
-    const jg_real t181 = -v_13_in_j_0;
+    const jg_real t178 = A_star_j_4 * t149 + A_star_j_3 * v_10_in_star_0 - A_star_j_5 * v_11_in_star_2;
+    const jg_real t179 = lambda[3] * h_j_in_star_2;
     const jg_real v_12_in_j_1 = A_ji_1 * v_12_in_i_0 + A_ji_4 * v_12_in_i_1 + A_ji_7 * v_12_in_i_2;
-    const jg_real t183 = -v_12_in_j_0;
-    phi_q_t_lambda_q[59] = v_8_in_j_0;
-    phi_q_t_lambda_q[87] = v_8_in_j_0;
-    phi_q_t_lambda_q[80] = -t113;
-    phi_q_t_lambda_q[70] = v_8_in_j_1;
-    phi_q_t_lambda_q[88] = v_8_in_j_1;
-    phi_q_t_lambda_q[61] = t181;
-    phi_q_t_lambda_q[105] = t181;
-    phi_q_t_lambda_q[60] = t183;
-    phi_q_t_lambda_q[96] = t183;
-    const jg_real v_13_in_j_1 = A_star_j_4 * v_13_in_star_1 - A_star_j_3 * t146 + A_star_j_5 * v_13_in_star_2;
-    const jg_real v_8_in_j_2 = A_star_j_7 * v_8_in_star_1 - A_star_j_6 * t153 + A_star_j_8 * v_8_in_star_2;
-    const jg_real t186 = -v_12_in_j_1;
+    const jg_real t181 = lambda[4] * f_j_in_star_1;
+    const jg_real t182 = -v_12_in_j_0;
+    phi_q_t_lambda_q[59] = v_7_in_j_0;
+    phi_q_t_lambda_q[87] = v_7_in_j_0;
+    phi_q_t_lambda_q[80] = -t120;
+    phi_q_t_lambda_q[70] = v_7_in_j_1;
+    phi_q_t_lambda_q[88] = v_7_in_j_1;
+    phi_q_t_lambda_q[71] = t178;
+    phi_q_t_lambda_q[97] = t178;
+    phi_q_t_lambda_q[61] = t182;
+    phi_q_t_lambda_q[105] = t182;
+    const jg_real v_7_in_j_2 = A_ji_2 * v_7_in_i_0 + A_ji_5 * v_7_in_i_1 + A_ji_8 * v_7_in_i_2;
+    const jg_real t184 = -v_12_in_j_1;
+    const jg_real t185 = A_star_j_6 * v_10_in_star_0 + A_star_j_7 * t149 - A_star_j_8 * v_11_in_star_2;
     const jg_real v_12_in_j_2 = A_ji_2 * v_12_in_i_0 + A_ji_5 * v_12_in_i_1 + A_ji_8 * v_12_in_i_2;
-    const jg_real t188 = -v_13_in_j_1;
-    const jg_real v_13_in_j_2 = A_star_j_7 * v_13_in_star_1 - A_star_j_6 * t146 + A_star_j_8 * v_13_in_star_2;
-    const jg_real t190 = -v_12_in_j_2;
-    phi_q_t_lambda_q[81] = v_8_in_j_2;
-    phi_q_t_lambda_q[89] = v_8_in_j_2;
-    phi_q_t_lambda_q[71] = t186;
-    phi_q_t_lambda_q[97] = t186;
-    phi_q_t_lambda_q[72] = t188;
-    phi_q_t_lambda_q[106] = t188;
-    phi_q_t_lambda_q[82] = t190;
-    phi_q_t_lambda_q[98] = t190;
-    const jg_real t191 = -v_13_in_j_2;
-    /* v_16_in_star = cos(alpha_2) sin(alpha_2) lambda_4 f_j + sin(alpha_2) sin(alpha_2) lambda_3 h_j, axes of ...
+    const jg_real t187 = -v_12_in_j_2;
+    phi_q_t_lambda_q[81] = v_7_in_j_2;
+    phi_q_t_lambda_q[89] = v_7_in_j_2;
+    phi_q_t_lambda_q[72] = t184;
+    phi_q_t_lambda_q[106] = t184;
+    phi_q_t_lambda_q[82] = t185;
+    phi_q_t_lambda_q[98] = t185;
+    phi_q_t_lambda_q[83] = t187;
+    phi_q_t_lambda_q[107] = t187;
+    /* v_15_in_star = cos(alpha_2) sin(alpha_2) lambda_4 f_j + sin(alpha_2) sin(alpha_2) lambda_3 h_j, axes of ...
         */
-    const jg_real v_16_in_star_1 = sine_1 * v_9_in_star_1;
-    /* v_17_in_star = cos(alpha_2) cos(alpha_2) lambda_4 f_j + cos(alpha_2) sin(alpha_2) lambda_3 h_j, axes of ...
+    const jg_real v_15_in_star_1 = sine_1 * v_8_in_star_1;
+    /* v_16_in_star = cos(alpha_2) cos(alpha_2) lambda_4 f_j + cos(alpha_2) sin(alpha_2) lambda_3 h_j, axes of ...
         */
-    const jg_real v_17_in_star_2 = cosine_1 * v_9_in_star_2;
-    const jg_real v_9_in_star_0 = h_j_in_star_0 * v_9_in_joint_j_2 + f_j_in_star_0 * v_9_in_joint_j_0;
-    const jg_real t195 = (sine_1 * g_j_in_star_2 - cosine_1 * g_j_in_star_1) * (sine_2 * lambda[5]);
-    /* v_14_in_star = cos(alpha_1) cos(alpha_2) lambda_4 f_j + cos(alpha_1) sin(alpha_2) lambda_3 h_j, axes of ...
+    const jg_real v_16_in_star_2 = cosine_1 * v_8_in_star_2;
+    const jg_real v_8_in_star_0 = h_j_in_star_0 * v_8_in_joint_j_2 + f_j_in_star_0 * v_8_in_joint_j_0;
+    const jg_real t191 = (sine_1 * g_j_in_star_2 - cosine_1 * g_j_in_star_1) * (sine_2 * lambda[5]);
+    /* v_13_in_star = cos(alpha_1) cos(alpha_2) lambda_4 f_j + cos(alpha_1) sin(alpha_2) lambda_3 h_j, axes of ...
         */
-    const jg_real v_14_in_star = cosine_2 * v_9_in_star_0;
-    const jg_real t197 = cosine_1 * v_13_in_star_1 - sine_1 * v_13_in_star_2;
-    const jg_real t198 = t144 + v_14_in_star + t131;
-    phi_q_t_lambda_q[83] = t191;
-    phi_q_t_lambda_q[107] = t191;
-    phi_q_t_lambda_q[110] = -t146;
-    phi_q_t_lambda_q[101] = t197;
-    phi_q_t_lambda_q[109] = t197;
-    phi_q_t_lambda_q[91] = v_9_in_joint_j_2 * (H_22 * h_j_in_star_1 - H_21 * h_j_in_star_2) + t195 +
-        v_9_in_joint_j_0 * (H_22 * f_j_in_star_1 - H_21 * f_j_in_star_2);
-    phi_q_t_lambda_q[100] = -(v_16_in_star_1 + v_17_in_star_2 + t123 * v_18_in_star);
-    phi_q_t_lambda_q[92] = t198;
-    phi_q_t_lambda_q[108] = t198;
-    phi_q_t_lambda_q[90] = -(cosine_2 * (cosine_2 * (cosine_1 * (cosine_1 * (t123 + t138) - sine_1 * (t130 + t121))
-        + (t126 + t123) * t68) + sine_2 * (sine_1 * (v_13_in_star_1 + t119) + cosine_1 * (t129 + v_13_in_star_2))) +
-        sine_2 * sine_2 * t146);
-    phi_q_t_lambda_q[99] = t195 + cosine_2 * (cosine_1 * (t135 + sine_1 * (t138 - t126)) + t121 * (JG_REAL(1.0) -
-        t68) - t130);
+    const jg_real v_13_in_star = cosine_2 * v_8_in_star_0;
+    const jg_real t193 = cosine_1 * v_12_in_star_1 - sine_1 * v_12_in_star_2;
+    const jg_real t194 = t137 + v_13_in_star + t127;
+    phi_q_t_lambda_q[110] = -t140;
+    phi_q_t_lambda_q[101] = t193;
+    phi_q_t_lambda_q[109] = t193;
+    phi_q_t_lambda_q[91] = v_8_in_joint_j_2 * (H_22 * h_j_in_star_1 - H_21 * h_j_in_star_2) + t191 +
+        v_8_in_joint_j_0 * (H_22 * f_j_in_star_1 - H_21 * f_j_in_star_2);
+    phi_q_t_lambda_q[100] = -(v_15_in_star_1 + v_16_in_star_2 + t113 * v_17_in_star);
+    phi_q_t_lambda_q[92] = t194;
+    phi_q_t_lambda_q[108] = t194;
+    phi_q_t_lambda_q[99] = t191 + cosine_2 * (cosine_1 * (sine_1 * (t131 - t123) + cosine_1 * t179) + t181 *
+        (JG_REAL(1.0) - t62) - t179);
+    phi_q_t_lambda_q[90] = -(cosine_2 * (cosine_2 * (cosine_1 * (cosine_1 * (t113 + t131) - sine_1 * (t179 + t181))
+        + (t113 + t123) * t62) + sine_2 * (sine_1 * (v_12_in_star_1 + t130) + cosine_1 * (v_12_in_star_2 + t124))) +
+        sine_2 * sine_2 * t140);
 }
 
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -940,76 +940,76 @@ void jg_ball_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
     const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[2], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[0], &sine_1, &cosine_1);
     jg_real sine_2;
     jg_real cosine_2;
-    jg_sincos(alpha[1], &sine_2, &cosine_2);
+    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
+    const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
-    const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_1_in_j = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_2 * e_ij_in_j_1 - omega_i_in_j_1 * e_ij_in_j_2;
     const jg_real v_1_in_j_1 = omega_i_in_j_0 * e_ij_in_j_2 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = omega_i_in_j_1 * e_ij_in_j_0 - omega_i_in_j_0 * e_ij_in_j_1;
+    /* v_3_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_1_in_j_0 + v_2_in_j_0;
+    const jg_real v_3_in_j_1 = v_1_in_j_1 + v_2_in_j_1;
+    const jg_real v_3_in_j_2 = v_1_in_j_2 + v_2_in_j_2;
     /* omega_i_in_joint_j = omega_i, axes of joint j */
     const jg_real omega_i_in_joint_j_0 = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 *
         C_j[2];
     const jg_real omega_i_in_joint_j_1 = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 *
         C_j[5];
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
         C_j[8];
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
+    /* v_3_in_i = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
     const jg_real v_3_in_i_0 = A_ji_0 * v_3_in_j_0 + A_ji_1 * v_3_in_j_1 + A_ji_2 * v_3_in_j_2;
     const jg_real v_3_in_i_1 = A_ji_3 * v_3_in_j_0 + A_ji_4 * v_3_in_j_1 + A_ji_5 * v_3_in_j_2;
     const jg_real v_3_in_i_2 = A_ji_6 * v_3_in_j_0 + A_ji_7 * v_3_in_j_1 + A_ji_8 * v_3_in_j_2;
+    /* v_4_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
+    const jg_real v_4_in_i_0 = v_3_in_i_0 - v_i[0];
+    const jg_real v_4_in_i_1 = v_3_in_i_1 - v_i[1];
+    const jg_real v_4_in_i_2 = v_3_in_i_2 - v_i[2];
     /* H_22 =  */
-    const jg_real H_22 = cosine_2 * cosine_0;
+    const jg_real H_22 = cosine_0 * cosine_2;
     /* H_00 =  */
-    const jg_real H_00 = cosine_2 * cosine_1;
+    const jg_real H_00 = cosine_0 * cosine_1;
     /* H_10 =  */
-    const jg_real H_10 = cosine_2 * sine_1;
+    const jg_real H_10 = cosine_0 * sine_1;
     /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1 + sine_2 * cosine_1 * cosine_0;
-    const jg_real t55 = sine_0 * cosine_1 - sine_2 * sine_1 * cosine_0;
+    const jg_real H_02 = sine_0 * cosine_1 * cosine_2 + sine_2 * sine_1;
+    const jg_real t55 = sine_2 * cosine_1 - sine_0 * sine_1 * cosine_2;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - sine_2 * C_i[7];
-    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - sine_2 * C_i[6];
-    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - sine_2 * C_i[8];
+    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - sine_0 * C_i[7];
+    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - sine_0 * C_i[6];
+    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - sine_0 * C_i[8];
     /* h_star_in_i = h_star, axes of body i */
     const jg_real h_star_in_i_1 = H_02 * C_i[1] - t55 * C_i[4] + H_22 * C_i[7];
     const jg_real h_star_in_i_0 = H_02 * C_i[0] - t55 * C_i[3] + H_22 * C_i[6];
@@ -1022,14 +1022,14 @@ void jg_ball_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg
     const jg_real h_star_in_j_1 = A_ji_1 * h_star_in_i_0 + A_ji_4 * h_star_in_i_1 + A_ji_7 * h_star_in_i_2;
     const jg_real h_star_in_j_2 = A_ji_2 * h_star_in_i_0 + A_ji_5 * h_star_in_i_1 + A_ji_8 * h_star_in_i_2;
     const jg_real h_star_in_j_0 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
-    /* f_star_dot_h_j = f_star . h_j */
-    const jg_real f_star_dot_h_j = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
-    /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - h_star_in_j_2 * f_star_in_j_1;
+    /* f_star_dot_h_j = f_star . h_j */
+    const jg_real f_star_dot_h_j = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
     const jg_real g_star_in_j_1 = h_star_in_j_2 * f_star_in_j_0 - h_star_in_j_0 * f_star_in_j_2;
     const jg_real g_star_in_j_2 = h_star_in_j_0 * f_star_in_j_1 - h_star_in_j_1 * f_star_in_j_0;
+    /* f_star_dot_f_j = f_star . f_j */
+    const jg_real f_star_dot_f_j = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
     /* h_star_dot_h_j = h_star . h_j */
     const jg_real h_star_dot_h_j = h_star_in_j_0 * C_j[6] + h_star_in_j_1 * C_j[7] + h_star_in_j_2 * C_j[8];
     /* h_star_dot_g_j = h_star . g_j */
@@ -1038,18 +1038,18 @@ void jg_ball_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, const jg
     const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = g_star_in_j_0 * C_j[0] + g_star_in_j_1 * C_j[1] + g_star_in_j_2 * C_j[2];
-    phi_q_v[0] = v_3_in_i_0;
-    phi_q_v[1] = v_3_in_i_1;
-    phi_q_v[2] = v_3_in_i_2;
+    phi_q_v[0] = v_4_in_i_0;
+    phi_q_v[1] = v_4_in_i_1;
+    phi_q_v[2] = v_4_in_i_2;
     phi_q_v[3] = -(g_star_dot_g_j * omega_j_in_joint_j_0 - g_star_dot_f_j * omega_j_in_joint_j_1 + (alphadot[0] *
-        (H_22 * f_star_dot_h_j + sine_2 * h_star_dot_h_j) - sine_0 * f_star_dot_h_j * alphadot[1] - (g_star_dot_g_j
+        (H_22 * f_star_dot_h_j + sine_0 * h_star_dot_h_j) - sine_2 * f_star_dot_h_j * alphadot[1] - (g_star_dot_g_j
         * omega_i_in_joint_j_0 - g_star_dot_f_j * omega_i_in_joint_j_1) - h_star_dot_h_j * alphadot[2]));
-    phi_q_v[5] = omega_i_in_joint_j_2 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_dot_h_j + ((cosine_0 *
-        g_star_dot_g_j - sine_0 * h_star_dot_g_j) * (cosine_2 * alphadot[0]) - alphadot[1] * (cosine_0 *
-        h_star_dot_g_j + sine_0 * g_star_dot_g_j)) - (omega_j_in_joint_j_2 * f_star_dot_f_j - f_star_dot_h_j *
+    phi_q_v[5] = omega_i_in_joint_j_2 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_dot_h_j + ((cosine_2 *
+        g_star_dot_g_j - sine_2 * h_star_dot_g_j) * (cosine_0 * alphadot[0]) - alphadot[1] * (cosine_2 *
+        h_star_dot_g_j + sine_2 * g_star_dot_g_j)) - (omega_j_in_joint_j_2 * f_star_dot_f_j - f_star_dot_h_j *
         omega_j_in_joint_j_0);
     phi_q_v[4] = omega_i_in_joint_j_1 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_dot_g_j + (alphadot[0] *
-        (cosine_2 * sine_0 * f_star_dot_f_j + sine_2 * g_star_dot_f_j) + cosine_0 * alphadot[1] * f_star_dot_f_j -
+        (cosine_0 * sine_2 * f_star_dot_f_j + sine_0 * g_star_dot_f_j) + cosine_2 * alphadot[1] * f_star_dot_f_j -
         g_star_dot_f_j * alphadot[2]) - (h_star_dot_h_j * omega_j_in_joint_j_1 - omega_j_in_joint_j_2 *
         h_star_dot_g_j);
 }
@@ -1353,51 +1353,56 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     phi_q_t_lambda_q[44] = t63;
     phi_q_t_lambda_q[34] = t64;
     phi_q_t_lambda_q[47] = t64;
-    /* v_20_in_i = 2 omega_i, axes of body i */
-    const jg_real v_20_in_i_0 = omega_i[0] * JG_REAL(2.0);
-    const jg_real v_20_in_i_1 = omega_i[1] * JG_REAL(2.0);
-    const jg_real v_20_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    /* v_25_in_i = 2 omega_i, axes of body i */
+    const jg_real v_25_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_25_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_25_in_i_2 = omega_i[2] * JG_REAL(2.0);
     const jg_real t68 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
+    const jg_real t69 = alphadot[2] * alphadot[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    const jg_real t70 = JG_REAL(2.0) * alphadot[2];
     const jg_real t71 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    const jg_real t72 = alphadot[2] * alphadot[2];
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
-    /* v_23_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
-    const jg_real v_23_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
-    const jg_real t75 = cosine_0 * sine_1;
-    const jg_real t76 = sine_0 * cosine_1;
-    const jg_real t77 = cosine_0 * cosine_1;
-    const jg_real t78 = sine_1 * sine_0;
+    /* v_28_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
+    const jg_real v_28_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
+    const jg_real t74 = cosine_0 * sine_1;
+    const jg_real t75 = sine_0 * cosine_1;
+    const jg_real t76 = cosine_0 * cosine_1;
+    const jg_real t77 = sine_1 * sine_0;
     /* H_21 =  */
     const jg_real H_21 = sine_1 * cosine_2;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
-    const jg_real t81 = cosine_1 * lambda[4];
-    const jg_real t82 = sine_1 * lambda[3];
-    const jg_real t83 = sine_1 * sine_1;
-    const jg_real t84 = cosine_1 * cosine_1;
+    /* v_14_in_joint_j = cos(alpha_2) lambda_4 f_j + sin(alpha_2) lambda_3 h_j, axes of joint j */
+    const jg_real v_14_in_joint_j_0 = cosine_1 * lambda[4];
+    const jg_real v_14_in_joint_j_2 = sine_1 * lambda[3];
+    const jg_real t82 = sine_1 * sine_1;
+    const jg_real t83 = cosine_1 * cosine_1;
     /* H_01 =  */
-    const jg_real H_01 = sine_2 * t75 - t76;
-    const jg_real t86 = t75 - sine_2 * t76;
+    const jg_real H_01 = sine_2 * t74 - t75;
+    /* v_20_in_joint_j = cos(alpha_1) cos(alpha_2) lambda_4 f_j + cos(alpha_1) sin(alpha_2) lambda_3 h_j, axes of
+        joint j */
+    const jg_real v_20_in_joint_j_0 = cosine_2 * v_14_in_joint_j_0;
+    const jg_real t86 = t74 - sine_2 * t75;
     /* H_02 =  */
-    const jg_real H_02 = t78 + sine_2 * t77;
+    const jg_real H_02 = t77 + sine_2 * t76;
     /* H_11 =  */
-    const jg_real H_11 = t77 + sine_2 * t78;
-    /* v_26_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_26_in_i_0 = omega_i[0] * t71;
-    /* v_21_in_i = v_j - v_i, axes of body i */
-    const jg_real v_21_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real H_11 = t76 + sine_2 * t77;
+    const jg_real v_20_in_joint_j_2 = cosine_2 * v_14_in_joint_j_2;
+    /* v_29_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
+    const jg_real v_29_in_i_0 = omega_i[0] * t71;
+    /* v_26_in_i = v_j - v_i, axes of body i */
+    const jg_real v_26_in_i_2 = v_j_in_i_2 - v_i[2];
     const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real v_23_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
-    const jg_real v_26_in_i_1 = omega_i[1] * t71;
     const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
-    const jg_real v_21_in_i_1 = v_j_in_i_1 - v_i[1];
-    const jg_real v_21_in_i_0 = v_j_in_i_0 - v_i[0];
-    const jg_real v_23_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
-    const jg_real v_26_in_i_2 = omega_i[2] * t71;
+    /* v_30_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i + (-(r_j . omega_i) - (s_j . omega_i) + ... */
+    const jg_real v_30_in_i_0 = v_28_in_i_0 - v_29_in_i_0;
+    const jg_real v_26_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real v_26_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real v_29_in_i_1 = omega_i[1] * t71;
+    const jg_real v_28_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
+    const jg_real v_29_in_i_2 = omega_i[2] * t71;
     /* h_star_in_i = h_star, axes of body i */
     const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t86 + C_i[6] * H_22;
     /* g_star_in_i = g_star, axes of body i */
@@ -1406,12 +1411,11 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real g_star_in_i_2 = H_01 * C_i[2] + H_11 * C_i[5] + H_21 * C_i[8];
     const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t86 + C_i[7] * H_22;
     const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t86 + C_i[8] * H_22;
-    /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_1 * omega_i[1] + g_j_in_i_0 * omega_i[0] + g_j_in_i_2 * omega_i[2];
-    /* v_22_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_22_in_i_0 = v_20_in_i_1 * v_21_in_i_2 - v_20_in_i_2 * v_21_in_i_1;
-    const jg_real v_22_in_i_1 = v_20_in_i_2 * v_21_in_i_0 - v_20_in_i_0 * v_21_in_i_2;
-    const jg_real t108 = cosine_2 * alphadot[0];
+    const jg_real v_30_in_i_1 = v_28_in_i_1 - v_29_in_i_1;
+    const jg_real v_28_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
+    /* v_27_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_27_in_i_0 = v_25_in_i_1 * v_26_in_i_2 - v_25_in_i_2 * v_26_in_i_1;
+    const jg_real v_27_in_i_1 = v_25_in_i_2 * v_26_in_i_0 - v_25_in_i_0 * v_26_in_i_2;
     /* g_star_in_joint_j = g_star, axes of joint j */
     const jg_real g_star_in_joint_j_2 = h_j_in_i_0 * g_star_in_i_0 + g_star_in_i_1 * h_j_in_i_1 + g_star_in_i_2 *
         h_j_in_i_2;
@@ -1423,415 +1427,427 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
     const jg_real h_star_in_joint_j_2 = h_j_in_i_0 * h_star_in_i_0 + h_j_in_i_1 * h_star_in_i_1 + h_j_in_i_2 *
         h_star_in_i_2;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_0 = g_star_in_i_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_i_1;
     const jg_real f_star_in_i_1 = g_star_in_i_2 * h_star_in_i_0 - g_star_in_i_0 * h_star_in_i_2;
-    const jg_real h_star_in_joint_j_1 = h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_2 *
-        g_j_in_i_2;
-    const jg_real f_star_in_i_2 = g_star_in_i_0 * h_star_in_i_1 - g_star_in_i_1 * h_star_in_i_0;
     const jg_real g_star_in_joint_j_1 = g_star_in_i_1 * g_j_in_i_1 + g_star_in_i_0 * g_j_in_i_0 + g_star_in_i_2 *
+        g_j_in_i_2;
+    const jg_real h_star_in_joint_j_1 = h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_2 *
         g_j_in_i_2;
     /* f_star_in_joint_j = f_star, axes of joint j */
     const jg_real f_star_in_joint_j_1 = g_star_in_joint_j_2 * h_star_in_joint_j_0 - g_star_in_joint_j_0 *
         h_star_in_joint_j_2;
-    const jg_real f_star_in_joint_j_2 = g_star_in_joint_j_0 * h_star_in_joint_j_1 - h_star_in_joint_j_0 *
-        g_star_in_joint_j_1;
-    const jg_real f_star_in_joint_j_0 = h_star_in_joint_j_2 * g_star_in_joint_j_1 - g_star_in_joint_j_2 *
-        h_star_in_joint_j_1;
-    /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
-    const jg_real f_star_cross_g_j_in_i_0 = h_star_in_i_0 * g_star_in_joint_j_1 - g_star_in_i_0 *
-        h_star_in_joint_j_1;
-    const jg_real f_star_cross_g_j_in_i_1 = h_star_in_i_1 * g_star_in_joint_j_1 - g_star_in_i_1 *
-        h_star_in_joint_j_1;
+    /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
+    const jg_real g_star_cross_h_j_in_i_0 = f_j_in_i_0 * g_star_in_joint_j_1 - g_star_in_joint_j_0 * g_j_in_i_0;
+    const jg_real g_star_cross_h_j_in_i_1 = f_j_in_i_1 * g_star_in_joint_j_1 - g_star_in_joint_j_0 * g_j_in_i_1;
     phi_q_t_lambda_q[35] = t68;
     phi_q_t_lambda_q[50] = t68;
     phi[3] = g_star_in_joint_j_2;
     phi[4] = h_star_in_joint_j_0;
     phi_q[51] = h_star_in_joint_j_2;
     phi[5] = f_star_in_joint_j_1;
+    phi_q[5] = g_star_cross_h_j_in_i_0;
+    phi_q[10] = g_star_cross_h_j_in_i_1;
+    const jg_real g_star_cross_h_j_in_i_2 = f_j_in_i_2 * g_star_in_joint_j_1 - g_star_in_joint_j_0 * g_j_in_i_2;
+    /* h_star_cross_f_j_in_i = h_star x f_j, axes of body i */
+    const jg_real h_star_cross_f_j_in_i_0 = h_star_in_joint_j_2 * g_j_in_i_0 - h_j_in_i_0 * h_star_in_joint_j_1;
+    const jg_real f_star_in_joint_j_0 = h_star_in_joint_j_2 * g_star_in_joint_j_1 - g_star_in_joint_j_2 *
+        h_star_in_joint_j_1;
+    const jg_real f_star_in_joint_j_2 = g_star_in_joint_j_0 * h_star_in_joint_j_1 - h_star_in_joint_j_0 *
+        g_star_in_joint_j_1;
+    const jg_real h_star_cross_f_j_in_i_1 = h_star_in_joint_j_2 * g_j_in_i_1 - h_j_in_i_1 * h_star_in_joint_j_1;
+    const jg_real h_star_cross_f_j_in_i_2 = h_star_in_joint_j_2 * g_j_in_i_2 - h_j_in_i_2 * h_star_in_joint_j_1;
+    phi_q[15] = g_star_cross_h_j_in_i_2;
+    phi_q[6] = h_star_cross_f_j_in_i_0;
+    phi_q[11] = h_star_cross_f_j_in_i_1;
+    phi_q[16] = h_star_cross_f_j_in_i_2;
+    phi_q[30] = g_star_in_joint_j_0 * C_j[3] - C_j[0] * g_star_in_joint_j_1;
+    phi_q[31] = C_j[6] * h_star_in_joint_j_1 - h_star_in_joint_j_2 * C_j[3];
+    phi_q[36] = g_star_in_joint_j_0 * C_j[4] - C_j[1] * g_star_in_joint_j_1;
+    phi_q[37] = C_j[7] * h_star_in_joint_j_1 - h_star_in_joint_j_2 * C_j[4];
+    /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
+    const jg_real f_star_cross_g_j_in_i_0 = h_j_in_i_0 * f_star_in_joint_j_0 - f_j_in_i_0 * f_star_in_joint_j_2;
+    const jg_real f_star_cross_g_j_in_i_1 = h_j_in_i_1 * f_star_in_joint_j_0 - f_j_in_i_1 * f_star_in_joint_j_2;
+    const jg_real f_star_cross_g_j_in_i_2 = h_j_in_i_2 * f_star_in_joint_j_0 - f_j_in_i_2 * f_star_in_joint_j_2;
+    phi_q[42] = g_star_in_joint_j_0 * C_j[5] - C_j[2] * g_star_in_joint_j_1;
     phi_q[7] = f_star_cross_g_j_in_i_0;
     phi_q[12] = f_star_cross_g_j_in_i_1;
-    const jg_real f_star_cross_g_j_in_i_2 = h_star_in_i_2 * g_star_in_joint_j_1 - g_star_in_i_2 *
-        h_star_in_joint_j_1;
-    /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_1 = g_star_in_joint_j_1 * C_j[4] + C_j[1] * g_star_in_joint_j_0 + C_j[7] *
-        g_star_in_joint_j_2;
+    phi_q[17] = f_star_cross_g_j_in_i_2;
+    phi_q[32] = C_j[0] * f_star_in_joint_j_2 - C_j[6] * f_star_in_joint_j_0;
+    phi_q[38] = C_j[1] * f_star_in_joint_j_2 - C_j[7] * f_star_in_joint_j_0;
+    phi_q[43] = C_j[8] * h_star_in_joint_j_1 - h_star_in_joint_j_2 * C_j[5];
+    phi_q[48] = sine_1 * f_star_in_joint_j_2;
+    const jg_real f_star_in_i_2 = g_star_in_i_0 * h_star_in_i_1 - g_star_in_i_1 * h_star_in_i_0;
+    const jg_real f_star_in_i_0 = g_star_in_i_1 * h_star_in_i_2 - g_star_in_i_2 * h_star_in_i_1;
+    /* v_4_in_joint_j = sin(alpha_2) g_star + cos(alpha_2) h_star, axes of joint j */
+    const jg_real v_4_in_joint_j_1 = sine_1 * g_star_in_joint_j_1 + cosine_1 * h_star_in_joint_j_1;
+    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
+    const jg_real M_0_i_i_4 = h_star_in_i_1 * v_5_in_i_1 + e_ij_in_i_1 * lambda[1] + v_6_in_i_1 * f_star_in_i_1 +
+        g_star_in_i_1 * v_7_in_i_1;
+    const jg_real M_0_i_i_8 = h_star_in_i_2 * v_5_in_i_2 + e_ij_in_i_2 * lambda[2] + v_6_in_i_2 * f_star_in_i_2 +
+        g_star_in_i_2 * v_7_in_i_2;
     /* h_star_in_j = h_star, axes of body j */
+    const jg_real h_star_in_j_0 = h_star_in_joint_j_1 * C_j[3] + C_j[0] * h_star_in_joint_j_0 + C_j[6] *
+        h_star_in_joint_j_2;
+    const jg_real M_0_i_i_3 = h_star_in_i_0 * v_5_in_i_1 + e_ij_in_i_1 * lambda[0] + v_6_in_i_1 * f_star_in_i_0 +
+        g_star_in_i_0 * v_7_in_i_1;
+    phi_q[49] = cosine_1 * f_star_in_joint_j_0;
+    phi_q[44] = C_j[2] * f_star_in_joint_j_2 - C_j[8] * f_star_in_joint_j_0;
+    phi_q[52] = -g_star_in_joint_j_0;
+    phi_q[46] = H_21 * f_star_in_joint_j_0 + sine_2 * g_star_in_joint_j_0;
+    phi_q[47] = H_22 * g_star_in_joint_j_1 - H_21 * h_star_in_joint_j_1;
+    phi_q[45] = -(H_22 * f_star_in_joint_j_2 + sine_2 * h_star_in_joint_j_2);
+    phi_q[50] = -v_4_in_joint_j_1;
+    phi_q_t_lambda_q[7] = M_0_i_i_3;
+    const jg_real M_0_i_i_6 = h_star_in_i_0 * v_5_in_i_2 + e_ij_in_i_2 * lambda[0] + v_6_in_i_2 * f_star_in_i_0 +
+        g_star_in_i_0 * v_7_in_i_2;
+    /* g_star_in_j = g_star, axes of body j */
+    const jg_real g_star_in_j_2 = g_star_in_joint_j_1 * C_j[5] + C_j[2] * g_star_in_joint_j_0 + C_j[8] *
+        g_star_in_joint_j_2;
     const jg_real h_star_in_j_2 = h_star_in_joint_j_1 * C_j[5] + C_j[2] * h_star_in_joint_j_0 + C_j[8] *
         h_star_in_joint_j_2;
-    /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
-    const jg_real g_star_cross_h_j_in_i_0 = h_star_in_joint_j_2 * f_star_in_i_0 - h_star_in_i_0 *
-        f_star_in_joint_j_2;
-    /* h_star_cross_f_j_in_i = h_star x f_j, axes of body i */
-    const jg_real h_star_cross_f_j_in_i_0 = g_star_in_i_0 * f_star_in_joint_j_0 - g_star_in_joint_j_0 *
-        f_star_in_i_0;
-    const jg_real g_star_cross_h_j_in_i_1 = h_star_in_joint_j_2 * f_star_in_i_1 - h_star_in_i_1 *
-        f_star_in_joint_j_2;
-    const jg_real h_star_cross_f_j_in_i_1 = g_star_in_i_1 * f_star_in_joint_j_0 - g_star_in_joint_j_0 *
-        f_star_in_i_1;
-    const jg_real g_star_cross_h_j_in_i_2 = h_star_in_joint_j_2 * f_star_in_i_2 - h_star_in_i_2 *
-        f_star_in_joint_j_2;
-    const jg_real h_star_cross_f_j_in_i_2 = g_star_in_i_2 * f_star_in_joint_j_0 - g_star_in_joint_j_0 *
-        f_star_in_i_2;
-    const jg_real g_star_in_j_2 = g_star_in_joint_j_1 * C_j[5] + C_j[2] * g_star_in_joint_j_0 + C_j[8] *
+    /* v_19_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
+    const jg_real v_19_in_star_1 = f_star_in_joint_j_2 * lambda[3];
+    const jg_real t140 = f_star_in_joint_j_1 * lambda[5];
+    const jg_real g_star_in_j_0 = g_star_in_joint_j_1 * C_j[3] + C_j[0] * g_star_in_joint_j_0 + C_j[6] *
         g_star_in_joint_j_2;
     const jg_real h_star_in_j_1 = h_star_in_joint_j_1 * C_j[4] + C_j[1] * h_star_in_joint_j_0 + C_j[7] *
         h_star_in_joint_j_2;
-    const jg_real h_star_in_j_0 = h_star_in_joint_j_1 * C_j[3] + C_j[0] * h_star_in_joint_j_0 + C_j[6] *
-        h_star_in_joint_j_2;
-    phi_q[17] = f_star_cross_g_j_in_i_2;
-    phi_q[5] = g_star_cross_h_j_in_i_0;
-    phi_q[6] = h_star_cross_f_j_in_i_0;
-    phi_q[10] = g_star_cross_h_j_in_i_1;
-    phi_q[11] = h_star_cross_f_j_in_i_1;
-    phi_q[15] = g_star_cross_h_j_in_i_2;
-    phi_q[16] = h_star_cross_f_j_in_i_2;
-    phi_q[48] = sine_1 * f_star_in_joint_j_2;
-    /* f_star_in_j = f_star, axes of body j */
-    const jg_real f_star_in_j_0 = g_star_in_j_1 * h_star_in_j_2 - g_star_in_j_2 * h_star_in_j_1;
-    const jg_real g_star_in_j_0 = g_star_in_joint_j_1 * C_j[3] + C_j[0] * g_star_in_joint_j_0 + C_j[6] *
+    const jg_real g_star_in_j_1 = g_star_in_joint_j_1 * C_j[4] + C_j[1] * g_star_in_joint_j_0 + C_j[7] *
         g_star_in_joint_j_2;
-    phi_q[49] = cosine_1 * f_star_in_joint_j_0;
-    phi_q[38] = h_star_in_joint_j_1 * g_star_in_j_1 - g_star_in_joint_j_1 * h_star_in_j_1;
-    phi_q[44] = h_star_in_joint_j_1 * g_star_in_j_2 - g_star_in_joint_j_1 * h_star_in_j_2;
-    phi_q[46] = H_21 * f_star_in_joint_j_0 + sine_2 * g_star_in_joint_j_0;
-    phi_q[47] = H_22 * g_star_in_joint_j_1 - H_21 * h_star_in_joint_j_1;
-    phi_q[52] = -g_star_in_joint_j_0;
-    phi_q[45] = -(H_22 * f_star_in_joint_j_2 + sine_2 * h_star_in_joint_j_2);
-    phi_q[30] = f_star_in_joint_j_2 * h_star_in_j_0 - h_star_in_joint_j_2 * f_star_in_j_0;
-    /* v_4_in_joint_j = sin(alpha_2) g_star + cos(alpha_2) h_star, axes of joint j */
-    const jg_real v_4_in_joint_j_1 = sine_1 * g_star_in_joint_j_1 + cosine_1 * h_star_in_joint_j_1;
-    const jg_real f_star_in_j_1 = g_star_in_j_2 * h_star_in_j_0 - h_star_in_j_2 * g_star_in_j_0;
-    const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - g_star_in_j_1 * h_star_in_j_0;
-    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_0_i_i_4 = h_star_in_i_1 * v_5_in_i_1 + e_ij_in_i_1 * lambda[1] + f_star_in_i_1 * v_6_in_i_1 +
-        g_star_in_i_1 * v_7_in_i_1;
+    /* f_star_in_j = f_star, axes of body j */
+    const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
     /* v_8_in_j = lambda_5 f_star, axes of body j */
-    const jg_real v_8_in_j_1 = f_star_in_j_1 * lambda[5];
-    const jg_real v_8_in_j_2 = f_star_in_j_2 * lambda[5];
-    const jg_real M_0_i_i_8 = h_star_in_i_2 * v_5_in_i_2 + e_ij_in_i_2 * lambda[2] + f_star_in_i_2 * v_6_in_i_2 +
-        g_star_in_i_2 * v_7_in_i_2;
-    const jg_real v_8_in_j_0 = f_star_in_j_0 * lambda[5];
-    const jg_real M_0_i_i_3 = h_star_in_i_0 * v_5_in_i_1 + e_ij_in_i_1 * lambda[0] + f_star_in_i_0 * v_6_in_i_1 +
-        g_star_in_i_0 * v_7_in_i_1;
-    phi_q[31] = g_star_in_joint_j_0 * f_star_in_j_0 - f_star_in_joint_j_0 * g_star_in_j_0;
-    phi_q[32] = h_star_in_joint_j_1 * g_star_in_j_0 - g_star_in_joint_j_1 * h_star_in_j_0;
-    phi_q[50] = -v_4_in_joint_j_1;
-    phi_q[36] = f_star_in_joint_j_2 * h_star_in_j_1 - h_star_in_joint_j_2 * f_star_in_j_1;
-    phi_q[37] = g_star_in_joint_j_0 * f_star_in_j_1 - f_star_in_joint_j_0 * g_star_in_j_1;
-    phi_q[42] = f_star_in_joint_j_2 * h_star_in_j_2 - h_star_in_joint_j_2 * f_star_in_j_2;
-    phi_q[43] = g_star_in_joint_j_0 * f_star_in_j_2 - f_star_in_joint_j_0 * g_star_in_j_2;
-    phi_q_t_lambda_q[7] = M_0_i_i_3;
-    const jg_real M_0_i_i_6 = h_star_in_i_0 * v_5_in_i_2 + e_ij_in_i_2 * lambda[0] + f_star_in_i_0 * v_6_in_i_2 +
-        g_star_in_i_0 * v_7_in_i_2;
+    const jg_real v_8_in_j_1 = lambda[5] * f_star_in_j_1;
+    const jg_real f_star_in_j_2 = g_star_in_j_0 * h_star_in_j_1 - h_star_in_j_0 * g_star_in_j_1;
+    const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - g_star_in_j_2 * h_star_in_j_1;
+    const jg_real t148 = h_star_in_joint_j_0 * lambda[4];
+    const jg_real t149 = h_star_in_joint_j_2 * lambda[3];
+    const jg_real t150 = h_star_in_joint_j_1 * lambda[5];
+    const jg_real t151 = g_star_in_joint_j_1 * lambda[5];
+    const jg_real t152 = g_star_in_joint_j_2 * lambda[3];
+    const jg_real v_19_in_star_2 = f_star_in_joint_j_0 * lambda[4];
+    const jg_real v_8_in_j_2 = lambda[5] * f_star_in_j_2;
+    const jg_real v_8_in_j_0 = lambda[5] * f_star_in_j_0;
+    /* v_12_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
+        */
+    const jg_real v_12_in_star_1 = sine_2 * v_19_in_star_1 + H_21 * t140;
+    const jg_real t157 = sine_2 * t148;
+    const jg_real t158 = sine_2 * t152;
+    /* v_9_in_star = cos(alpha_2) lambda_3 f_star x h_j - sin(alpha_2) lambda_4 f_star x f_j, axes of body star */
+    const jg_real v_9_in_star_1 = sine_1 * t148 - cosine_1 * t149;
+    /* v_11_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
+        */
+    const jg_real v_11_in_star = H_22 * t150 + t157;
     /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
     const jg_real M_1_j_j_4 = h_star_in_j_1 * v_5_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[4] * v_8_in_j_1 +
         g_star_in_j_1 * v_7_in_j_1;
+    const jg_real M_1_j_j_1 = h_star_in_j_1 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_8_in_j_1 +
+        g_star_in_j_1 * v_7_in_j_0;
+    const jg_real M_1_j_j_7 = h_star_in_j_1 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_8_in_j_1 +
+        g_star_in_j_1 * v_7_in_j_2;
+    /* v_10_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star
+        ... */
+    const jg_real v_10_in_star_1 = cosine_2 * v_9_in_star_1;
+    const jg_real t165 = H_21 * t151 + t158 + v_11_in_star;
     const jg_real M_1_j_j_8 = h_star_in_j_2 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + C_j[5] * v_8_in_j_2 +
         g_star_in_j_2 * v_7_in_j_2;
     const jg_real M_1_j_j_3 = h_star_in_j_0 * v_5_in_j_1 + s_j[1] * lambda_0_1_2_in_j_0 + C_j[4] * v_8_in_j_0 +
         g_star_in_j_0 * v_7_in_j_1;
     const jg_real M_1_j_j_6 = h_star_in_j_0 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_0 + C_j[5] * v_8_in_j_0 +
         g_star_in_j_0 * v_7_in_j_2;
-    const jg_real t151 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t152 = h_star_in_joint_j_1 * lambda[5];
-    const jg_real t153 = h_star_in_joint_j_0 * lambda[4];
     const jg_real M_1_j_j_0 = h_star_in_j_0 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_0 + C_j[3] * v_8_in_j_0 +
         g_star_in_j_0 * v_7_in_j_0;
-    const jg_real t155 = g_star_in_joint_j_1 * lambda[5];
-    const jg_real t156 = g_star_in_joint_j_2 * lambda[3];
-    const jg_real t157 = M_1_j_j_8 + M_1_j_j_0;
-    const jg_real M_1_j_j_1 = h_star_in_j_1 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_8_in_j_1 +
-        g_star_in_j_1 * v_7_in_j_0;
-    const jg_real t159 = M_1_j_j_4 + M_1_j_j_0;
-    const jg_real M_1_j_j_7 = h_star_in_j_1 * v_5_in_j_2 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_8_in_j_1 +
-        g_star_in_j_1 * v_7_in_j_2;
-    /* v_19_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
-    const jg_real v_19_in_star_1 = f_star_in_joint_j_2 * lambda[3];
-    const jg_real t162 = f_star_in_joint_j_1 * lambda[5];
     const jg_real M_1_j_j_2 = h_star_in_j_2 * v_5_in_j_0 + s_j[0] * lambda_0_1_2_in_j_2 + C_j[3] * v_8_in_j_2 +
         g_star_in_j_2 * v_7_in_j_0;
-    /* v_12_in_star = sin(alpha_1) lambda_4 g_star x f_j + cos(alpha_1) cos(alpha_2) lambda_5 g_star x g_j, axes ...
-        */
-    const jg_real v_12_in_star = H_22 * t152 + sine_2 * t153;
     const jg_real M_1_j_j_5 = h_star_in_j_2 * v_5_in_j_1 + s_j[1] * lambda_0_1_2_in_j_2 + C_j[4] * v_8_in_j_2 +
         g_star_in_j_2 * v_7_in_j_1;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    phi_q_t_lambda_q[67] = M_1_j_j_3;
-    phi_q_t_lambda_q[78] = M_1_j_j_6;
     phi_q_t_lambda_q[57] = M_1_j_j_1;
     phi_q_t_lambda_q[79] = M_1_j_j_7;
+    phi_q_t_lambda_q[67] = M_1_j_j_3;
+    phi_q_t_lambda_q[78] = M_1_j_j_6;
     phi_q_t_lambda_q[58] = M_1_j_j_2;
     phi_q_t_lambda_q[69] = M_1_j_j_5;
-    const jg_real t166 = h_star_in_joint_j_2 * lambda[3];
-    const jg_real v_19_in_star_2 = f_star_in_joint_j_0 * lambda[4];
-    const jg_real t168 = g_star_in_joint_j_0 * lambda[4];
-    const jg_real t169 = H_21 * t155 + sine_2 * t156 + v_12_in_star;
-    const jg_real t170 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t151 + A_ji_2 * M_1_j_j_6);
-    /* v_13_in_star = sin(alpha_1) lambda_3 h_star x h_j + cos(alpha_1) sin(alpha_2) lambda_5 h_star x g_j, axes ...
-        */
-    const jg_real v_13_in_star_1 = sine_2 * v_19_in_star_1 + H_21 * t162;
+    /* v_13_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_13_in_star_1 = v_12_in_star_1 + v_10_in_star_1;
+    const jg_real t173 = g_star_in_joint_j_0 * lambda[4];
+    const jg_real t174 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real t175 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t176 = M_1_j_j_4 + M_1_j_j_0;
     /* v_15_in_joint_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j, axes of joint j */
-    const jg_real v_15_in_joint_j_0 = f_star_in_joint_j_1 * t82;
-    const jg_real t173 = cosine_1 * h_star_in_joint_j_2;
-    const jg_real v_15_in_joint_j_1 = f_star_in_joint_j_2 * t81 - f_star_in_joint_j_0 * t82;
-    /* v_9_in_star = sin(alpha_2) lambda_4 f_j - cos(alpha_2) lambda_3 h_j, axes of body star */
-    const jg_real v_9_in_star_2 = sine_1 * t153 - cosine_1 * t166;
-    const jg_real t176 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t157 + A_ji_2 * M_1_j_j_7);
-    const jg_real t177 = A_ji_2 * t159 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
-    const jg_real v_9_in_star_1 = sine_1 * t168 - cosine_1 * t156;
-    const jg_real t179 = sine_1 * g_star_in_joint_j_0;
-    const jg_real v_4_in_joint_j_2 = sine_1 * g_star_in_joint_j_2 + t173;
-    const jg_real t181 = t153 + t156;
-    /* v_11_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j - cos(alpha_1) sin(alpha_2) lambda_4 f_star
-        ... */
-    const jg_real v_11_in_star_1 = cosine_2 * v_9_in_star_2;
-    const jg_real v_4_in_joint_j_0 = t179 + cosine_1 * h_star_in_joint_j_0;
-    /* v_14_in_star = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_14_in_star_1 = v_13_in_star_1 + v_11_in_star_1;
-    const jg_real v_14_in_star_2 = sine_2 * v_19_in_star_2 + H_22 * t162 - cosine_2 * v_9_in_star_1;
+    const jg_real v_15_in_joint_j_0 = f_star_in_joint_j_1 * v_14_in_joint_j_2;
+    const jg_real v_15_in_joint_j_1 = f_star_in_joint_j_2 * v_14_in_joint_j_0 - f_star_in_joint_j_0 *
+        v_14_in_joint_j_2;
+    const jg_real t179 = cosine_1 * h_star_in_joint_j_2;
+    const jg_real t180 = sine_1 * g_star_in_joint_j_0;
+    const jg_real v_9_in_star_2 = cosine_1 * t152 - sine_1 * t173;
+    const jg_real v_4_in_joint_j_2 = sine_1 * g_star_in_joint_j_2 + t179;
+    const jg_real t183 = A_ji_2 * t176 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    const jg_real t184 = t148 + t152;
+    const jg_real v_4_in_joint_j_0 = t180 + cosine_1 * h_star_in_joint_j_0;
+    const jg_real v_10_in_star_2 = cosine_2 * v_9_in_star_2;
+    /* v_17_in_joint_j = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of joint j */
+    const jg_real v_17_in_joint_j_2 = lambda[5] * v_4_in_joint_j_0;
+    const jg_real v_13_in_star_2 = sine_2 * v_19_in_star_2 + H_22 * t140 + v_10_in_star_2;
+    const jg_real t189 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t174 + A_ji_2 * M_1_j_j_6);
     /* v_18_in_joint_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ...
         */
     const jg_real v_18_in_joint_j = v_15_in_joint_j_0 + lambda[5] * v_4_in_joint_j_2;
-    /* v_17_in_joint_j = sin(alpha_2) lambda_5 g_star x g_j + cos(alpha_2) lambda_5 h_star x g_j, axes of joint j */
-    const jg_real v_17_in_joint_j_2 = lambda[5] * v_4_in_joint_j_0;
-    const jg_real t188 = f_star_in_joint_j_1 * t81 + v_17_in_joint_j_2;
-    /* v_19_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_19_in_j_0 = g_star_in_j_0 * v_19_in_star_1 - f_star_in_j_0 * t181 + h_star_in_j_0 *
-        v_19_in_star_2;
-    const jg_real v_19_in_j_1 = g_star_in_j_1 * v_19_in_star_1 - f_star_in_j_1 * t181 + h_star_in_j_1 *
-        v_19_in_star_2;
-    const jg_real v_19_in_j_2 = g_star_in_j_2 * v_19_in_star_1 - f_star_in_j_2 * t181 + h_star_in_j_2 *
-        v_19_in_star_2;
-    /* v_14_in_j = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_14_in_j_0 = g_star_in_j_0 * v_14_in_star_1 - f_star_in_j_0 * t169 + h_star_in_j_0 *
-        v_14_in_star_2;
-    phi_q_t_lambda_q[12] = t170;
-    phi_q_t_lambda_q[51] = t170;
-    phi_q_t_lambda_q[13] = t176;
-    phi_q_t_lambda_q[62] = t176;
-    phi_q_t_lambda_q[14] = t177;
-    phi_q_t_lambda_q[73] = t177;
-    phi_q_t_lambda_q[59] = v_14_in_j_0;
-    phi_q_t_lambda_q[87] = v_14_in_j_0;
-    const jg_real v_14_in_j_1 = g_star_in_j_1 * v_14_in_star_1 - f_star_in_j_1 * t169 + h_star_in_j_1 *
-        v_14_in_star_2;
-    const jg_real v_14_in_j_2 = g_star_in_j_2 * v_14_in_star_1 - f_star_in_j_2 * t169 + h_star_in_j_2 *
-        v_14_in_star_2;
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_5_in_i_0 + f_star_in_i_1 * v_6_in_i_0 +
-        g_star_in_i_1 * v_7_in_i_0;
-    /* v_18_in_i = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
-    const jg_real v_18_in_i_0 = g_j_in_i_0 * v_15_in_joint_j_1 + f_j_in_i_0 * v_18_in_joint_j - h_j_in_i_0 * t188;
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_5_in_i_0 + f_star_in_i_0 * v_6_in_i_0 +
-        g_star_in_i_0 * v_7_in_i_0;
+    const jg_real t191 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t175 + A_ji_2 * M_1_j_j_7);
+    const jg_real t192 = f_star_in_joint_j_1 * v_14_in_joint_j_0 + v_17_in_joint_j_2;
     /* v_19_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_19_in_i_0 = A_ji_0 * v_19_in_j_0 + A_ji_1 * v_19_in_j_1 + A_ji_2 * v_19_in_j_2;
-    phi_q_t_lambda_q[70] = v_14_in_j_1;
-    phi_q_t_lambda_q[88] = v_14_in_j_1;
-    phi_q_t_lambda_q[81] = v_14_in_j_2;
-    phi_q_t_lambda_q[89] = v_14_in_j_2;
-    phi_q_t_lambda_q[18] = M_0_i_i_1;
-    phi_q_t_lambda_q[16] = v_18_in_i_0;
-    phi_q_t_lambda_q[93] = v_18_in_i_0;
+    const jg_real v_19_in_i_0 = g_star_in_i_0 * v_19_in_star_1 - f_star_in_i_0 * t184 + h_star_in_i_0 *
+        v_19_in_star_2;
+    phi_q_t_lambda_q[14] = t183;
+    phi_q_t_lambda_q[73] = t183;
+    phi_q_t_lambda_q[12] = t189;
+    phi_q_t_lambda_q[51] = t189;
+    phi_q_t_lambda_q[13] = t191;
+    phi_q_t_lambda_q[62] = t191;
     phi_q_t_lambda_q[17] = v_19_in_i_0;
     phi_q_t_lambda_q[102] = v_19_in_i_0;
+    /* v_13_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t165 + h_star_in_i_0 *
+        v_13_in_star_2;
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_5_in_i_0 + f_star_in_i_1 * v_6_in_i_0 +
+        g_star_in_i_1 * v_7_in_i_0;
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_5_in_i_0 + f_star_in_i_0 * v_6_in_i_0 +
+        g_star_in_i_0 * v_7_in_i_0;
+    const jg_real t197 = -v_13_in_i_0;
+    /* v_18_in_j = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
+    const jg_real v_18_in_j_0 = C_j[3] * v_15_in_joint_j_1 + C_j[0] * v_18_in_joint_j - C_j[6] * t192;
+    const jg_real v_18_in_j_1 = C_j[4] * v_15_in_joint_j_1 + C_j[1] * v_18_in_joint_j - C_j[7] * t192;
+    const jg_real v_18_in_j_2 = C_j[5] * v_15_in_joint_j_1 + C_j[2] * v_18_in_joint_j - C_j[8] * t192;
     const jg_real M_0_i_i_7 = h_star_in_i_1 * v_5_in_i_2 + e_ij_in_i_2 * lambda[1] + f_star_in_i_1 * v_6_in_i_2 +
         g_star_in_i_1 * v_7_in_i_2;
-    /* v_14_in_i = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
-    const jg_real v_14_in_i_0 = A_ji_0 * v_14_in_j_0 + A_ji_1 * v_14_in_j_1 + A_ji_2 * v_14_in_j_2;
-    const jg_real t201 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t151 + A_ji_5 * M_1_j_j_6);
-    const jg_real t202 = -v_14_in_i_0;
-    const jg_real t203 = A_ji_5 * t159 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    const jg_real t202 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t174 + A_ji_5 * M_1_j_j_6);
+    const jg_real t203 = A_ji_5 * t176 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    phi_q_t_lambda_q[18] = M_0_i_i_1;
+    phi_q_t_lambda_q[15] = t197;
+    phi_q_t_lambda_q[84] = t197;
     phi_q_t_lambda_q[20] = M_0_i_i_7;
     phi_q_t_lambda_q[19] = -(M_0_i_i_8 + M_0_i_i_0);
-    phi_q_t_lambda_q[24] = t201;
-    phi_q_t_lambda_q[52] = t201;
-    phi_q_t_lambda_q[15] = t202;
-    phi_q_t_lambda_q[84] = t202;
+    phi_q_t_lambda_q[24] = t202;
+    phi_q_t_lambda_q[52] = t202;
     phi_q_t_lambda_q[26] = t203;
     phi_q_t_lambda_q[74] = t203;
-    const jg_real v_14_in_i_1 = A_ji_3 * v_14_in_j_0 + A_ji_4 * v_14_in_j_1 + A_ji_5 * v_14_in_j_2;
-    const jg_real t205 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t157 + A_ji_5 * M_1_j_j_7);
-    const jg_real v_18_in_i_1 = g_j_in_i_1 * v_15_in_joint_j_1 + f_j_in_i_1 * v_18_in_joint_j - h_j_in_i_1 * t188;
-    const jg_real t207 = -v_14_in_i_1;
-    const jg_real v_19_in_i_1 = A_ji_3 * v_19_in_j_0 + A_ji_4 * v_19_in_j_1 + A_ji_5 * v_19_in_j_2;
-    phi_q_t_lambda_q[25] = t205;
-    phi_q_t_lambda_q[63] = t205;
+    const jg_real t204 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t175 + A_ji_5 * M_1_j_j_7);
+    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t165 + h_star_in_i_1 *
+        v_13_in_star_2;
+    /* v_18_in_i = sin(alpha_2) lambda_3 f_star x h_j + cos(alpha_2) lambda_4 f_star x f_j - sin(alpha_2) ... */
+    const jg_real v_18_in_i_0 = A_ji_0 * v_18_in_j_0 + A_ji_1 * v_18_in_j_1 + A_ji_2 * v_18_in_j_2;
+    const jg_real v_18_in_i_1 = A_ji_3 * v_18_in_j_0 + A_ji_4 * v_18_in_j_1 + A_ji_5 * v_18_in_j_2;
+    const jg_real t208 = -v_13_in_i_1;
+    phi_q_t_lambda_q[25] = t204;
+    phi_q_t_lambda_q[63] = t204;
+    phi_q_t_lambda_q[16] = v_18_in_i_0;
+    phi_q_t_lambda_q[93] = v_18_in_i_0;
     phi_q_t_lambda_q[28] = v_18_in_i_1;
     phi_q_t_lambda_q[94] = v_18_in_i_1;
-    phi_q_t_lambda_q[27] = t207;
-    phi_q_t_lambda_q[85] = t207;
-    phi_q_t_lambda_q[29] = v_19_in_i_1;
-    phi_q_t_lambda_q[103] = v_19_in_i_1;
+    phi_q_t_lambda_q[27] = t208;
+    phi_q_t_lambda_q[85] = t208;
+    const jg_real v_19_in_i_1 = g_star_in_i_1 * v_19_in_star_1 - f_star_in_i_1 * t184 + h_star_in_i_1 *
+        v_19_in_star_2;
     const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + h_star_in_i_2 * v_5_in_i_0 + f_star_in_i_2 * v_6_in_i_0 +
         g_star_in_i_2 * v_7_in_i_0;
-    const jg_real M_0_i_i_5 = h_star_in_i_2 * v_5_in_i_1 + e_ij_in_i_1 * lambda[2] + f_star_in_i_2 * v_6_in_i_1 +
+    const jg_real M_0_i_i_5 = h_star_in_i_2 * v_5_in_i_1 + e_ij_in_i_1 * lambda[2] + v_6_in_i_1 * f_star_in_i_2 +
         g_star_in_i_2 * v_7_in_i_1;
-    const jg_real t211 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t151 + A_ji_8 * M_1_j_j_6);
-    const jg_real t212 = A_ji_8 * t159 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    const jg_real t212 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t174 + A_ji_8 * M_1_j_j_6);
     phi_q_t_lambda_q[32] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[29] = v_19_in_i_1;
+    phi_q_t_lambda_q[103] = v_19_in_i_1;
     phi_q_t_lambda_q[30] = M_0_i_i_2;
     phi_q_t_lambda_q[31] = M_0_i_i_5;
-    phi_q_t_lambda_q[56] = -t151;
-    phi_q_t_lambda_q[36] = t211;
-    phi_q_t_lambda_q[53] = t211;
-    phi_q_t_lambda_q[38] = t212;
-    phi_q_t_lambda_q[75] = t212;
-    const jg_real v_14_in_i_2 = A_ji_6 * v_14_in_j_0 + A_ji_7 * v_14_in_j_1 + A_ji_8 * v_14_in_j_2;
-    const jg_real t214 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t157 + A_ji_8 * M_1_j_j_7);
-    const jg_real t215 = -v_19_in_j_0;
-    const jg_real v_18_in_i_2 = g_j_in_i_2 * v_15_in_joint_j_1 + f_j_in_i_2 * v_18_in_joint_j - h_j_in_i_2 * t188;
-    const jg_real t217 = -v_19_in_j_1;
-    phi_q_t_lambda_q[37] = t214;
-    phi_q_t_lambda_q[64] = t214;
-    phi_q_t_lambda_q[61] = t215;
-    phi_q_t_lambda_q[105] = t215;
-    phi_q_t_lambda_q[68] = -t157;
+    phi_q_t_lambda_q[56] = -t174;
+    phi_q_t_lambda_q[36] = t212;
+    phi_q_t_lambda_q[53] = t212;
+    const jg_real t213 = A_ji_8 * t176 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    const jg_real t214 = -v_18_in_j_0;
+    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t165 + h_star_in_i_2 *
+        v_13_in_star_2;
+    const jg_real t216 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t175 + A_ji_8 * M_1_j_j_7);
+    const jg_real v_18_in_i_2 = A_ji_6 * v_18_in_j_0 + A_ji_7 * v_18_in_j_1 + A_ji_8 * v_18_in_j_2;
+    phi_q_t_lambda_q[38] = t213;
+    phi_q_t_lambda_q[75] = t213;
+    phi_q_t_lambda_q[60] = t214;
+    phi_q_t_lambda_q[96] = t214;
+    phi_q_t_lambda_q[37] = t216;
+    phi_q_t_lambda_q[64] = t216;
     phi_q_t_lambda_q[40] = v_18_in_i_2;
     phi_q_t_lambda_q[95] = v_18_in_i_2;
-    phi_q_t_lambda_q[72] = t217;
-    phi_q_t_lambda_q[106] = t217;
-    const jg_real v_19_in_i_2 = A_ji_6 * v_19_in_j_0 + A_ji_7 * v_19_in_j_1 + A_ji_8 * v_19_in_j_2;
-    const jg_real t219 = -v_14_in_i_2;
-    const jg_real t220 = -v_19_in_j_2;
-    const jg_real t221 = C_j[6] * t188 - (C_j[3] * v_15_in_joint_j_1 + C_j[0] * v_18_in_joint_j);
-    phi_q_t_lambda_q[80] = -t159;
+    const jg_real t218 = -v_13_in_i_2;
+    const jg_real t219 = -v_18_in_j_1;
+    const jg_real v_19_in_i_2 = g_star_in_i_2 * v_19_in_star_1 - f_star_in_i_2 * t184 + h_star_in_i_2 *
+        v_19_in_star_2;
+    /* v_13_in_j = cos(alpha_1) cos(alpha_2) lambda_3 f_star x h_j + sin(alpha_1) lambda_3 h_star x h_j - ... */
+    const jg_real v_13_in_j_0 = g_star_in_j_0 * v_13_in_star_1 - f_star_in_j_0 * t165 + h_star_in_j_0 *
+        v_13_in_star_2;
+    phi_q_t_lambda_q[68] = -t175;
+    phi_q_t_lambda_q[39] = t218;
+    phi_q_t_lambda_q[86] = t218;
+    phi_q_t_lambda_q[71] = t219;
+    phi_q_t_lambda_q[97] = t219;
     phi_q_t_lambda_q[41] = v_19_in_i_2;
     phi_q_t_lambda_q[104] = v_19_in_i_2;
-    phi_q_t_lambda_q[39] = t219;
-    phi_q_t_lambda_q[86] = t219;
-    phi_q_t_lambda_q[83] = t220;
-    phi_q_t_lambda_q[107] = t220;
-    phi_q_t_lambda_q[60] = t221;
-    phi_q_t_lambda_q[96] = t221;
-    const jg_real t222 = C_j[7] * t188 - (C_j[4] * v_15_in_joint_j_1 + C_j[1] * v_18_in_joint_j);
-    const jg_real t223 = C_j[8] * t188 - (C_j[5] * v_15_in_joint_j_1 + C_j[2] * v_18_in_joint_j);
-    const jg_real t224 = sine_1 * h_star_in_joint_j_1 - cosine_1 * g_star_in_joint_j_1;
-    const jg_real t225 = sine_2 * lambda[5] * t224;
-    const jg_real t226 = cosine_1 * v_19_in_star_1 - sine_1 * v_19_in_star_2;
-    phi_q_t_lambda_q[71] = t222;
-    phi_q_t_lambda_q[97] = t222;
-    phi_q_t_lambda_q[82] = t223;
-    phi_q_t_lambda_q[98] = t223;
-    phi_q_t_lambda_q[110] = -t181;
-    phi_q_t_lambda_q[101] = t226;
-    phi_q_t_lambda_q[109] = t226;
-    phi_q_t_lambda_q[91] = t225 + t82 * (g_star_in_joint_j_2 * H_22 - H_21 * h_star_in_joint_j_2) + t81 * (H_22 *
-        g_star_in_joint_j_0 - H_21 * h_star_in_joint_j_0);
-    const jg_real t227 = lambda[3] * (H_21 * f_star_in_joint_j_2 + sine_2 * g_star_in_joint_j_2) + lambda[4] * (H_22
-        * f_star_in_joint_j_0 + sine_2 * h_star_in_joint_j_0);
-    const jg_real v_22_in_i_2 = v_20_in_i_0 * v_21_in_i_1 - v_20_in_i_1 * v_21_in_i_0;
-    /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    const jg_real t230 = sine_1 * h_star_in_joint_j_2;
+    phi_q_t_lambda_q[59] = v_13_in_j_0;
+    phi_q_t_lambda_q[87] = v_13_in_j_0;
+    const jg_real t222 = -v_18_in_j_2;
+    /* v_19_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
+    const jg_real v_19_in_j_0 = g_star_in_j_0 * v_19_in_star_1 - f_star_in_j_0 * t184 + h_star_in_j_0 *
+        v_19_in_star_2;
+    const jg_real v_13_in_j_1 = g_star_in_j_1 * v_13_in_star_1 - f_star_in_j_1 * t165 + h_star_in_j_1 *
+        v_13_in_star_2;
+    const jg_real t225 = -v_19_in_j_0;
+    const jg_real v_19_in_j_1 = g_star_in_j_1 * v_19_in_star_1 - f_star_in_j_1 * t184 + h_star_in_j_1 *
+        v_19_in_star_2;
+    const jg_real v_13_in_j_2 = g_star_in_j_2 * v_13_in_star_1 - f_star_in_j_2 * t165 + h_star_in_j_2 *
+        v_13_in_star_2;
+    phi_q_t_lambda_q[80] = -t176;
+    phi_q_t_lambda_q[82] = t222;
+    phi_q_t_lambda_q[98] = t222;
+    phi_q_t_lambda_q[70] = v_13_in_j_1;
+    phi_q_t_lambda_q[88] = v_13_in_j_1;
+    phi_q_t_lambda_q[61] = t225;
+    phi_q_t_lambda_q[105] = t225;
+    phi_q_t_lambda_q[81] = v_13_in_j_2;
+    phi_q_t_lambda_q[89] = v_13_in_j_2;
+    const jg_real v_19_in_j_2 = g_star_in_j_2 * v_19_in_star_1 - f_star_in_j_2 * t184 + h_star_in_j_2 *
+        v_19_in_star_2;
+    const jg_real t229 = -v_19_in_j_1;
+    const jg_real t230 = sine_1 * h_star_in_joint_j_1 - cosine_1 * g_star_in_joint_j_1;
+    const jg_real t231 = -v_19_in_j_2;
+    const jg_real t232 = sine_2 * lambda[5] * t230;
+    const jg_real t233 = cosine_1 * v_19_in_star_1 - sine_1 * v_19_in_star_2;
+    const jg_real t234 = f_star_in_joint_j_0 * v_20_in_joint_j_0 + f_star_in_joint_j_2 * v_20_in_joint_j_2 + t158 +
+        t157;
+    phi_q_t_lambda_q[72] = t229;
+    phi_q_t_lambda_q[106] = t229;
+    phi_q_t_lambda_q[83] = t231;
+    phi_q_t_lambda_q[107] = t231;
+    phi_q_t_lambda_q[110] = -t184;
+    phi_q_t_lambda_q[101] = t233;
+    phi_q_t_lambda_q[109] = t233;
+    phi_q_t_lambda_q[92] = t234;
+    phi_q_t_lambda_q[108] = t234;
+    /* v_31_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i + (-(r_j . omega_i) - (s_j . omega_i) + ... */
+    const jg_real v_31_in_i_0 = v_30_in_i_0 + v_27_in_i_0;
+    const jg_real v_31_in_i_1 = v_27_in_i_1 + v_30_in_i_1;
+    const jg_real v_27_in_i_2 = v_25_in_i_0 * v_26_in_i_1 - v_25_in_i_1 * v_26_in_i_0;
     /* f_star_dot_omega_j = f_star . omega_j */
     const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
         omega_j[2];
-    const jg_real t232 = sine_1 * JG_REAL(2.0);
+    const jg_real v_30_in_i_2 = v_28_in_i_2 - v_29_in_i_2;
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_j_0 * omega_j[0] + g_star_in_j_1 * omega_j[1] + g_star_in_j_2 *
         omega_j[2];
     /* h_star_dot_omega_j = h_star . omega_j */
     const jg_real h_star_dot_omega_j = h_star_in_j_0 * omega_j[0] + h_star_in_j_1 * omega_j[1] + h_star_in_j_2 *
         omega_j[2];
-    /* omega_j_dot_omega_j = omega_j . omega_j */
-    const jg_real omega_j_dot_omega_j = f_star_dot_omega_j * f_star_dot_omega_j + g_star_dot_omega_j *
-        g_star_dot_omega_j + h_star_dot_omega_j * h_star_dot_omega_j;
-    /* omega_j_in_i = omega_j, axes of body i */
-    const jg_real omega_j_in_i_0 = f_star_in_i_0 * f_star_dot_omega_j + g_star_in_i_0 * g_star_dot_omega_j +
-        h_star_in_i_0 * h_star_dot_omega_j;
-    const jg_real omega_j_in_i_1 = f_star_in_i_1 * f_star_dot_omega_j + g_star_in_i_1 * g_star_dot_omega_j +
-        h_star_in_i_1 * h_star_dot_omega_j;
-    const jg_real t238 = f_star_in_joint_j_1 * f_j_dot_omega_i - f_star_in_joint_j_0 * g_j_dot_omega_i;
-    const jg_real omega_j_in_i_2 = f_star_in_i_2 * f_star_dot_omega_j + g_star_in_i_2 * g_star_dot_omega_j +
-        h_star_in_i_2 * h_star_dot_omega_j;
-    const jg_real t240 = sine_2 * alphadot[0] - t70;
+    const jg_real v_31_in_i_2 = v_27_in_i_2 + v_30_in_i_2;
+    /* g_j_dot_omega_i = g_j . omega_i */
+    const jg_real g_j_dot_omega_i = g_j_in_i_1 * omega_i[1] + g_j_in_i_0 * omega_i[0] + g_j_in_i_2 * omega_i[2];
+    /* f_j_dot_omega_i = f_j . omega_i */
+    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    /* h_j_dot_omega_i = h_j . omega_i */
+    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = f_star_in_joint_j_0 * f_star_dot_omega_j + g_star_in_joint_j_0 *
         g_star_dot_omega_j + h_star_in_joint_j_0 * h_star_dot_omega_j;
-    /* v_24_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_24_in_i_0 = v_20_in_i_0 - omega_j_in_i_0;
-    const jg_real v_24_in_i_1 = v_20_in_i_1 - omega_j_in_i_1;
-    const jg_real v_24_in_i_2 = v_20_in_i_2 - omega_j_in_i_2;
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = f_star_in_joint_j_1 * f_star_dot_omega_j + g_star_in_joint_j_1 *
         g_star_dot_omega_j + h_star_in_joint_j_1 * h_star_dot_omega_j;
-    const jg_real t246 = cosine_1 * JG_REAL(2.0);
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
-        omega_i[2];
-    const jg_real t248 = f_star_in_joint_j_1 * f_j_dot_omega_j - f_star_in_joint_j_0 * g_j_dot_omega_j;
-    const jg_real t249 = omega_i_dot_omega_j * JG_REAL(2.0);
-    const jg_real t250 = s_j_in_i_0 * v_24_in_i_0 + s_j_in_i_1 * v_24_in_i_1 + s_j_in_i_2 * v_24_in_i_2;
-    const jg_real t251 = h_star_in_joint_j_1 * f_j_dot_omega_i - h_star_in_joint_j_0 * g_j_dot_omega_i -
-        (h_star_in_joint_j_1 * f_j_dot_omega_j - h_star_in_joint_j_0 * g_j_dot_omega_j);
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = f_star_in_joint_j_2 * f_star_dot_omega_j + g_star_in_joint_j_2 *
         g_star_dot_omega_j + h_star_in_joint_j_2 * h_star_dot_omega_j;
-    const jg_real t253 = omega_i_dot_omega_i - t249 + omega_j_dot_omega_j;
-    /* h_j_dot_omega_i = h_j . omega_i */
-    const jg_real h_j_dot_omega_i = h_j_in_i_0 * omega_i[0] + h_j_in_i_1 * omega_i[1] + h_j_in_i_2 * omega_i[2];
-    const jg_real t255 = cosine_1 * g_star_in_joint_j_0;
-    /* g_star_dot_omega_i = g_star . omega_i */
-    const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
-        omega_i[2];
-    const jg_real t257 = f_star_in_joint_j_2 * g_j_dot_omega_j - f_star_in_joint_j_1 * h_j_dot_omega_j;
-    /* v_25_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_25_in_i_0 = s_j_in_i_0 * t253 + omega_j_in_i_0 * t250;
-    const jg_real v_25_in_i_1 = s_j_in_i_1 * t253 + omega_j_in_i_1 * t250;
-    const jg_real v_25_in_i_2 = s_j_in_i_2 * t253 + omega_j_in_i_2 * t250;
-    const jg_real t261 = f_star_in_joint_j_2 * g_j_dot_omega_i - f_star_in_joint_j_1 * h_j_dot_omega_i;
-    /* v_27_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_27_in_i_0 = v_25_in_i_0 + v_23_in_i_0 - v_26_in_i_0;
-    const jg_real v_27_in_i_1 = v_25_in_i_1 + v_23_in_i_1 - v_26_in_i_1;
-    const jg_real v_27_in_i_2 = v_25_in_i_2 + v_23_in_i_2 - v_26_in_i_2;
-    /* v_28_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_28_in_i_0 = v_27_in_i_0 + v_22_in_i_0;
-    const jg_real v_28_in_i_1 = v_27_in_i_1 + v_22_in_i_1;
-    const jg_real v_28_in_i_2 = v_27_in_i_2 + v_22_in_i_2;
-    phi_q_t_lambda_q[92] = t227;
-    phi_q_t_lambda_q[108] = t227;
-    phi_q_t_lambda_q[100] = -(t82 * v_4_in_joint_j_2 + t81 * v_4_in_joint_j_0 + t162 * t84 + t162 * t83);
-    phi_q_t_lambda_q[90] = -(cosine_2 * (sine_2 * (cosine_1 * (t152 + v_19_in_star_2) + sine_1 * (t155 +
-        v_19_in_star_1)) + cosine_2 * (cosine_1 * (cosine_1 * (t156 + t162) - sine_1 * (t166 + t168)) + (t153 +
-        t162) * t83)) + sine_2 * sine_2 * t181);
-    phi_q_t_lambda_q[99] = t225 + cosine_2 * (cosine_1 * (sine_1 * (t156 - t153) + lambda[3] * t173) + t168 *
-        (JG_REAL(1.0) - t83) - t166);
-    gamma[0] = v_28_in_i_0;
-    gamma[1] = v_28_in_i_1;
-    gamma[2] = v_28_in_i_2;
-    const jg_real t268 = g_star_in_joint_j_2 * g_j_dot_omega_i - g_star_in_joint_j_1 * h_j_dot_omega_i -
-        (g_star_in_joint_j_2 * g_j_dot_omega_j - g_star_in_joint_j_1 * h_j_dot_omega_j);
-    const jg_real t269 = g_star_in_joint_j_0 * h_j_dot_omega_j - g_star_in_joint_j_2 * f_j_dot_omega_j;
+    const jg_real t249 = h_star_in_joint_j_2 * g_star_dot_omega_j - g_star_in_joint_j_2 * h_star_dot_omega_j;
+    const jg_real t250 = sine_1 * h_star_in_joint_j_2;
+    const jg_real t251 = cosine_2 * alphadot[0];
+    const jg_real t252 = sine_1 * JG_REAL(2.0);
     /* h_star_dot_omega_i = h_star . omega_i */
-    const jg_real h_star_dot_omega_i = h_star_in_i_0 * omega_i[0] + h_star_in_i_1 * omega_i[1] + h_star_in_i_2 *
-        omega_i[2];
-    const jg_real t271 = g_star_in_joint_j_0 * h_j_dot_omega_i - g_star_in_joint_j_2 * f_j_dot_omega_i;
-    const jg_real t272 = h_star_in_joint_j_0 * h_j_dot_omega_j - h_star_in_joint_j_2 * f_j_dot_omega_j;
-    const jg_real t273 = h_star_in_joint_j_0 * h_j_dot_omega_i - h_star_in_joint_j_2 * f_j_dot_omega_i;
+    const jg_real h_star_dot_omega_i = h_star_in_joint_j_1 * g_j_dot_omega_i + h_star_in_joint_j_0 * f_j_dot_omega_i
+        + h_star_in_joint_j_2 * h_j_dot_omega_i;
+    /* g_star_dot_omega_i = g_star . omega_i */
+    const jg_real g_star_dot_omega_i = g_star_in_joint_j_1 * g_j_dot_omega_i + g_star_in_joint_j_0 * f_j_dot_omega_i
+        + g_star_in_joint_j_2 * h_j_dot_omega_i;
+    const jg_real t255 = JG_REAL(2.0) * alphadot[2];
+    /* omega_j_dot_omega_j = omega_j . omega_j */
+    const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
+        h_j_dot_omega_j * h_j_dot_omega_j;
+    /* omega_j_in_i = omega_j, axes of body i */
+    const jg_real omega_j_in_i_0 = f_j_in_i_0 * f_j_dot_omega_j + g_j_in_i_0 * g_j_dot_omega_j + h_j_in_i_0 *
+        h_j_dot_omega_j;
+    const jg_real t258 = sine_2 * alphadot[0] - t255;
+    const jg_real omega_j_in_i_1 = f_j_in_i_1 * f_j_dot_omega_j + g_j_in_i_1 * g_j_dot_omega_j + h_j_in_i_1 *
+        h_j_dot_omega_j;
+    const jg_real omega_j_in_i_2 = f_j_in_i_2 * f_j_dot_omega_j + g_j_in_i_2 * g_j_dot_omega_j + h_j_in_i_2 *
+        h_j_dot_omega_j;
+    const jg_real t261 = g_star_in_joint_j_2 * h_star_dot_omega_i - h_star_in_joint_j_2 * g_star_dot_omega_i;
+    /* v_32_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_32_in_i_0 = v_25_in_i_0 - omega_j_in_i_0;
+    const jg_real v_32_in_i_1 = v_25_in_i_1 - omega_j_in_i_1;
+    const jg_real v_32_in_i_2 = v_25_in_i_2 - omega_j_in_i_2;
+    const jg_real t265 = cosine_1 * JG_REAL(2.0);
     /* f_star_dot_omega_i = f_star . omega_i */
     const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
         omega_i[2];
-    gamma[3] = alphadot[0] * (cosine_2 * (cosine_1 * ((cosine_1 * g_star_in_joint_j_2 - t230) * t108 - (t173 +
-        g_star_in_joint_j_2 * t232) * alphadot[1] + JG_REAL(2.0) * (t238 - t248)) + sine_1 * (f_star_in_joint_j_2 *
-        t240 + t230 * alphadot[1]) + h_star_in_joint_j_2 * alphadot[1]) + sine_2 * (JG_REAL(2.0) * t251 +
-        g_star_in_joint_j_2 * t240)) + g_star_in_joint_j_2 * (omega_i_dot_omega_i + t83 * alphadot[1] * alphadot[1]
-        - t249 + omega_j_dot_omega_j + t72) + alphadot[1] * (sine_1 * (JG_REAL(2.0) * t248 + t173 * alphadot[1] -
-        JG_REAL(2.0) * t238) - f_star_in_joint_j_2 * t246 * alphadot[2]) + g_star_dot_omega_j * (JG_REAL(2.0) *
-        h_j_dot_omega_i - h_j_dot_omega_j) - t70 * t251 - h_j_dot_omega_i * g_star_dot_omega_i;
-    gamma[4] = -(alphadot[0] * (cosine_2 * (sine_1 * (t108 * (t255 - sine_1 * h_star_in_joint_j_0) - alphadot[1] *
-        (t179 + h_star_in_joint_j_0 * t246) + JG_REAL(2.0) * (t261 - t257)) + cosine_1 * (alphadot[1] * t255 -
-        f_star_in_joint_j_0 * t240) + g_star_in_joint_j_0 * alphadot[1]) + sine_2 * (JG_REAL(2.0) * t268 -
-        h_star_in_joint_j_0 * t240)) + h_star_in_joint_j_0 * (t249 - (omega_i_dot_omega_i + t84 * alphadot[1] *
-        alphadot[1]) - omega_j_dot_omega_j - t72) + alphadot[1] * (cosine_1 * (JG_REAL(2.0) * t261 - (JG_REAL(2.0) *
-        t257 + t179 * alphadot[1])) - f_star_in_joint_j_0 * t232 * alphadot[2]) - t70 * t268 + h_star_dot_omega_j *
-        (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) + f_j_dot_omega_i * h_star_dot_omega_i);
-    gamma[5] = alphadot[0] * (cosine_2 * (cosine_1 * (JG_REAL(2.0) * (t269 - t271) + alphadot[0] * (H_22 *
-        f_star_in_joint_j_1 + sine_2 * h_star_in_joint_j_1)) + sine_1 * (JG_REAL(2.0) * (t273 - t272) + alphadot[0]
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
+    const jg_real t268 = omega_i_dot_omega_j * JG_REAL(2.0);
+    const jg_real t269 = s_j_in_i_0 * v_32_in_i_0 + s_j_in_i_1 * v_32_in_i_1 + s_j_in_i_2 * v_32_in_i_2;
+    const jg_real t270 = cosine_1 * g_star_in_joint_j_0;
+    const jg_real t271 = h_star_in_joint_j_0 * g_star_dot_omega_j - g_star_in_joint_j_0 * h_star_dot_omega_j;
+    const jg_real t272 = g_star_in_joint_j_0 * h_star_dot_omega_i - h_star_in_joint_j_0 * g_star_dot_omega_i;
+    const jg_real t273 = g_star_in_joint_j_2 * f_star_dot_omega_j - f_star_in_joint_j_2 * g_star_dot_omega_j +
+        (f_star_in_joint_j_2 * g_star_dot_omega_i - g_star_in_joint_j_2 * f_star_dot_omega_i);
+    const jg_real t274 = omega_i_dot_omega_i - t268 + omega_j_dot_omega_j;
+    /* v_33_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
+    const jg_real v_33_in_i_0 = s_j_in_i_0 * t274 + omega_j_in_i_0 * t269;
+    const jg_real v_33_in_i_1 = s_j_in_i_1 * t274 + omega_j_in_i_1 * t269;
+    const jg_real v_33_in_i_2 = s_j_in_i_2 * t274 + omega_j_in_i_2 * t269;
+    /* v_34_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_34_in_i_0 = v_33_in_i_0 + v_31_in_i_0;
+    const jg_real v_34_in_i_1 = v_33_in_i_1 + v_31_in_i_1;
+    const jg_real v_34_in_i_2 = v_33_in_i_2 + v_31_in_i_2;
+    const jg_real t281 = f_star_in_joint_j_0 * h_star_dot_omega_j - h_star_in_joint_j_0 * f_star_dot_omega_j +
+        (h_star_in_joint_j_0 * f_star_dot_omega_i - f_star_in_joint_j_0 * h_star_dot_omega_i);
+    const jg_real t282 = f_star_in_joint_j_1 * h_star_dot_omega_j - h_star_in_joint_j_1 * f_star_dot_omega_j;
+    const jg_real t283 = h_star_in_joint_j_1 * f_star_dot_omega_i - f_star_in_joint_j_1 * h_star_dot_omega_i;
+    const jg_real t284 = g_star_in_joint_j_1 * f_star_dot_omega_j - f_star_in_joint_j_1 * g_star_dot_omega_j;
+    const jg_real t285 = f_star_in_joint_j_1 * g_star_dot_omega_i - g_star_in_joint_j_1 * f_star_dot_omega_i;
+    phi_q_t_lambda_q[91] = t232 + v_14_in_joint_j_2 * (g_star_in_joint_j_2 * H_22 - H_21 * h_star_in_joint_j_2) +
+        v_14_in_joint_j_0 * (H_22 * g_star_in_joint_j_0 - H_21 * h_star_in_joint_j_0);
+    phi_q_t_lambda_q[100] = -(v_14_in_joint_j_2 * v_4_in_joint_j_2 + v_14_in_joint_j_0 * v_4_in_joint_j_0 + t140 *
+        t83 + t140 * t82);
+    phi_q_t_lambda_q[90] = -(cosine_2 * (sine_2 * (cosine_1 * (t150 + v_19_in_star_2) + sine_1 * (v_19_in_star_1 +
+        t151)) + cosine_2 * (cosine_1 * (cosine_1 * (t140 + t152) - sine_1 * (t149 + t173)) + (t140 + t148) * t82))
+        + sine_2 * sine_2 * t184);
+    phi_q_t_lambda_q[99] = t232 + cosine_2 * (cosine_1 * (sine_1 * (t152 - t148) + lambda[3] * t179) + t173 *
+        (JG_REAL(1.0) - t82) - t149);
+    gamma[0] = v_34_in_i_0;
+    gamma[1] = v_34_in_i_1;
+    gamma[2] = v_34_in_i_2;
+    gamma[3] = g_star_in_joint_j_2 * (omega_i_dot_omega_i + t82 * alphadot[1] * alphadot[1] - t268 +
+        omega_j_dot_omega_j + t69) + alphadot[0] * (cosine_2 * (cosine_1 * ((cosine_1 * g_star_in_joint_j_2 - t250)
+        * t251 - alphadot[1] * (t179 + g_star_in_joint_j_2 * t252) + JG_REAL(2.0) * (t249 + t261)) + sine_1 *
+        (f_star_in_joint_j_2 * t258 + alphadot[1] * t250) + h_star_in_joint_j_2 * alphadot[1]) + sine_2 *
+        (JG_REAL(2.0) * t273 + g_star_in_joint_j_2 * t258)) + alphadot[1] * (sine_1 * (t179 * alphadot[1] -
+        JG_REAL(2.0) * t249 - JG_REAL(2.0) * t261) - f_star_in_joint_j_2 * t265 * alphadot[2]) + g_star_dot_omega_j
+        * (JG_REAL(2.0) * h_j_dot_omega_i - h_j_dot_omega_j) - t255 * t273 - h_j_dot_omega_i * g_star_dot_omega_i;
+    gamma[4] = -(h_star_in_joint_j_0 * (t268 - (omega_i_dot_omega_i + t83 * alphadot[1] * alphadot[1]) -
+        omega_j_dot_omega_j - t69) + alphadot[0] * (cosine_2 * (sine_1 * (t251 * (t270 - sine_1 *
+        h_star_in_joint_j_0) - alphadot[1] * (t180 + h_star_in_joint_j_0 * t265) + JG_REAL(2.0) * (t271 + t272)) +
+        cosine_1 * (alphadot[1] * t270 - f_star_in_joint_j_0 * t258) + g_star_in_joint_j_0 * alphadot[1]) + sine_2 *
+        (JG_REAL(2.0) * t281 - h_star_in_joint_j_0 * t258)) + alphadot[1] * (cosine_1 * (JG_REAL(2.0) * t271 - t180
+        * alphadot[1] + JG_REAL(2.0) * t272) - f_star_in_joint_j_0 * t252 * alphadot[2]) - t255 * t281 +
+        h_star_dot_omega_j * (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) + f_j_dot_omega_i *
+        h_star_dot_omega_i);
+    gamma[5] = alphadot[0] * (cosine_2 * (cosine_1 * (alphadot[0] * (H_22 * f_star_in_joint_j_1 + sine_2 *
+        h_star_in_joint_j_1) - JG_REAL(2.0) * (t282 + t283)) + sine_1 * (JG_REAL(2.0) * (t284 + t285) + alphadot[0]
         * (H_21 * f_star_in_joint_j_1 + sine_2 * g_star_in_joint_j_1))) - sine_2 * JG_REAL(2.0) * alphadot[1] *
-        t224) + alphadot[1] * (cosine_1 * (cosine_1 * f_star_in_joint_j_1 * alphadot[1] - JG_REAL(2.0) * t272 +
-        JG_REAL(2.0) * t273) + sine_1 * (sine_1 * f_star_in_joint_j_1 * alphadot[1] - JG_REAL(2.0) * t269 +
-        JG_REAL(2.0) * t271)) + f_star_in_joint_j_1 * t253 + f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i -
+        t230) + alphadot[1] * (cosine_1 * (JG_REAL(2.0) * t284 + cosine_1 * f_star_in_joint_j_1 * alphadot[1] +
+        JG_REAL(2.0) * t285) + sine_1 * (JG_REAL(2.0) * t282 + sine_1 * f_star_in_joint_j_1 * alphadot[1] +
+        JG_REAL(2.0) * t283)) + f_star_in_joint_j_1 * t274 + f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i -
         g_j_dot_omega_j) - g_j_dot_omega_i * f_star_dot_omega_i;
 }
 

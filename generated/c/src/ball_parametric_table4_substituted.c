@@ -213,13 +213,13 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *al
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[0], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
     jg_real sine_2;
     jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jg_sincos(alpha[0], &sine_2, &cosine_2);
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
-    const jg_real lambda_0_1_2_in_joint_i_1 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
     const jg_real lambda_0_1_2_in_joint_i_0 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real lambda_0_1_2_in_joint_i_1 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
     const jg_real lambda_0_1_2_in_joint_i_2 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
     /* s_j_dot_h_j = s_j . h_j */
     const jg_real s_j_dot_h_j = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
@@ -227,69 +227,68 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *al
     const jg_real s_j_dot_g_j = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
     /* s_j_dot_f_j = s_j . f_j */
     const jg_real s_j_dot_f_j = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
-    /* H_10 =  */
-    const jg_real H_10 = cosine_0 * sine_1;
-    /* H_21 =  */
-    const jg_real H_21 = cosine_0 * sine_2;
-    const jg_real t14 = sine_1 * sine_0;
     /* H_22 =  */
-    const jg_real H_22 = cosine_0 * cosine_2;
-    const jg_real t16 = sine_0 * lambda[5];
+    const jg_real H_22 = cosine_0 * cosine_1;
+    const jg_real t13 = sine_0 * lambda[5];
+    const jg_real t14 = cosine_2 * sine_1;
+    const jg_real t15 = cosine_1 * sine_2;
+    const jg_real t16 = cosine_1 * cosine_2;
+    /* H_21 =  */
+    const jg_real H_21 = cosine_0 * sine_1;
     /* H_00 =  */
-    const jg_real H_00 = cosine_0 * cosine_1;
-    const jg_real t18 = H_21 * lambda[4];
-    const jg_real t19 = H_21 * lambda[3];
-    const jg_real t20 = H_21 * lambda[5];
-    const jg_real t21 = lambda[4] * H_22;
-    const jg_real t22 = H_22 * lambda[3];
-    /* H_11 =  */
-    const jg_real H_11 = cosine_2 * cosine_1 + sine_2 * t14;
+    const jg_real H_00 = cosine_0 * cosine_2;
+    const jg_real t19 = H_22 * lambda[4];
+    const jg_real t20 = H_22 * lambda[3];
+    const jg_real t21 = sine_0 * sine_2;
+    /* H_10 =  */
+    const jg_real H_10 = cosine_0 * sine_2;
+    const jg_real t23 = lambda[4] * H_21;
+    const jg_real t24 = lambda[5] * H_21;
+    const jg_real t25 = t19 + t13;
+    const jg_real t26 = H_21 * lambda[3];
+    /* H_01 =  */
+    const jg_real H_01 = sine_0 * t14 - t15;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
-    const jg_real h_j_cross_f_i_in_joint_i_2 = sine_2 * cosine_1 - cosine_2 * t14;
-    const jg_real t25 = t21 + t16;
-    const jg_real t26 = lambda[3] * H_00;
-    const jg_real t27 = H_22 * lambda[5];
+    const jg_real h_j_cross_f_i_in_joint_i_2 = t14 - sine_0 * t15;
+    /* H_02 =  */
+    const jg_real H_02 = sine_1 * sine_2 + sine_0 * t16;
+    /* H_11 =  */
+    const jg_real H_11 = t16 + sine_1 * t21;
+    const jg_real t31 = H_00 * lambda[3];
+    /* v_1_in_joint_i = cos(alpha_1) cos(alpha_2) lambda_3 g_j x f_i - cos(alpha_1) sin(alpha_2) lambda_3 h_j x ...
+        */
+    const jg_real v_1_in_joint_i_1 = H_21 * t20 - H_22 * t26;
+    const jg_real t33 = H_22 * lambda[5];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
         sine_0 * lambda_0_1_2_in_joint_i_2;
-    const jg_real t29 = sine_0 * s_j_dot_f_j - H_21 * s_j_dot_g_j - H_22 * s_j_dot_h_j;
-    const jg_real t30 = t26 - sine_0 * lambda[4];
-    const jg_real t31 = -(t14 * lambda[3]);
-    /* H_02 =  */
-    const jg_real H_02 = H_10 * H_21 + sine_0 * H_11;
-    const jg_real t33 = sine_2 * lambda[4];
-    /* g_j_cross_h_i_in_joint_i = g_j x h_i, axes of joint i */
-    const jg_real g_j_cross_h_i_in_joint_i_1 = H_10 * H_22 - sine_0 * h_j_cross_f_i_in_joint_i_2;
-    const jg_real t35 = sine_2 * lambda[3];
-    const jg_real t36 = H_11 * t22 + h_j_cross_f_i_in_joint_i_2 * t19;
-    const jg_real t37 = cosine_2 * lambda[3];
-    const jg_real t38 = cosine_2 * lambda[4];
-    /* v_0_in_joint_i = cos(alpha_1) cos(alpha_2) lambda_3 g_j x f_i + (cos(alpha_1) cos(alpha_2) lambda_4 + ... */
-    const jg_real v_0_in_joint_i_0 = H_11 * t25 + t18 * h_j_cross_f_i_in_joint_i_2 + H_10 * t20;
-    const jg_real t40 = lambda_0_1_2_in_joint_j_0 * s_j_dot_f_j;
-    const jg_real t41 = t30 + t27;
+    const jg_real t35 = sine_0 * s_j_dot_f_j - H_21 * s_j_dot_g_j - H_22 * s_j_dot_h_j;
+    const jg_real t36 = t20 * H_11 + t26 * h_j_cross_f_i_in_joint_i_2;
+    const jg_real t37 = t31 - lambda[4] * sine_0;
+    const jg_real t38 = lambda[4] * sine_1;
+    /* v_0_in_joint_i = (cos(alpha_1) cos(alpha_2) lambda_4 + sin(alpha_1) lambda_5) g_j x h_i - cos(alpha_1) ... */
+    const jg_real v_0_in_joint_i_1 = H_02 * t23 - t25 * H_01 - t24 * H_00;
+    const jg_real t40 = t23 + H_01 * lambda[3];
     const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - h_j_cross_f_i_in_joint_i_2 *
         lambda_0_1_2_in_joint_i_1 + H_22 * lambda_0_1_2_in_joint_i_2;
-    const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - g_j_cross_h_i_in_joint_i_1 *
-        lambda_0_1_2_in_joint_i_0 + H_21 * lambda_0_1_2_in_joint_i_2;
-    const jg_real t44 = cosine_2 * lambda[5];
-    const jg_real t45 = t18 - g_j_cross_h_i_in_joint_i_1 * lambda[3];
-    const jg_real t46 = t21 + H_02 * lambda[3];
-    const jg_real v_0_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * t25 + H_21 * t22 - H_22 * t19 + H_02 * t18 - H_00
-        * t20;
-    /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
-    const jg_real f_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[6] - lambda_0_1_2_in_joint_j_2 *
-        C_j[3];
+    const jg_real v_0_in_joint_i_0 = t25 * H_11 + t23 * h_j_cross_f_i_in_joint_i_2 + t24 * H_10;
+    const jg_real lambda_0_1_2_in_joint_j_1 = H_01 * lambda_0_1_2_in_joint_i_0 + H_11 * lambda_0_1_2_in_joint_i_1 +
+        H_21 * lambda_0_1_2_in_joint_i_2;
+    /* v_2_in_joint_i = cos(alpha_1) cos(alpha_2) lambda_3 g_j x f_i + (cos(alpha_1) cos(alpha_2) lambda_4 + ... */
+    const jg_real v_2_in_joint_i_1 = v_0_in_joint_i_1 + v_1_in_joint_i_1;
     /* g_j_cross_lambda_0_1_2_in_j = g_j x lambda_0_1_2, axes of body j */
     const jg_real g_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_2 * C_j[0] - C_j[6] *
         lambda_0_1_2_in_joint_j_0;
+    const jg_real g_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_2 * C_j[1] - lambda_0_1_2_in_joint_j_0 *
+        C_j[7];
+    /* f_j_cross_lambda_0_1_2_in_j = f_j x lambda_0_1_2, axes of body j */
+    const jg_real f_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_1 * C_j[6] - lambda_0_1_2_in_joint_j_2 *
+        C_j[3];
     /* h_j_cross_lambda_0_1_2_in_j = h_j x lambda_0_1_2, axes of body j */
     const jg_real h_j_cross_lambda_0_1_2_in_j_0 = C_j[3] * lambda_0_1_2_in_joint_j_0 - lambda_0_1_2_in_joint_j_1 *
         C_j[0];
     const jg_real f_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_1 * C_j[7] - lambda_0_1_2_in_joint_j_2 *
         C_j[4];
-    const jg_real g_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_2 * C_j[1] - lambda_0_1_2_in_joint_j_0 *
-        C_j[7];
     const jg_real h_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[4] - lambda_0_1_2_in_joint_j_1 *
         C_j[1];
     const jg_real f_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_1 * C_j[8] - lambda_0_1_2_in_joint_j_2 *
@@ -298,94 +297,112 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *al
         C_j[8];
     const jg_real h_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[5] - lambda_0_1_2_in_joint_j_1 *
         C_j[2];
-    phi_q_t_lambda_q[9] = t26;
-    phi_q_t_lambda_q[33] = t27;
-    phi_q_t_lambda_q[10] = t31;
-    phi_q_t_lambda_q[20] = t31;
-    phi_q_t_lambda_q[21] = t41;
-    phi_q_t_lambda_q[0] = t36 * C_i[6] - (v_0_in_joint_i_1 * C_i[3] + v_0_in_joint_i_0 * C_i[0]);
-    phi_q_t_lambda_q[1] = t36 * C_i[7] - (v_0_in_joint_i_1 * C_i[4] + v_0_in_joint_i_0 * C_i[1]);
-    phi_q_t_lambda_q[2] = t36 * C_i[8] - (v_0_in_joint_i_1 * C_i[5] + v_0_in_joint_i_0 * C_i[2]);
-    /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
-    const jg_real s_j_dot_lambda_0_1_2 = lambda_0_1_2_in_joint_j_1 * s_j_dot_g_j + t40 + lambda_0_1_2_in_joint_j_2 *
-        s_j_dot_h_j;
-    /* v_3_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
-    const jg_real v_3_in_j_0 = sine_0 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
+    const jg_real t54 = lambda_0_1_2_in_joint_j_0 * s_j_dot_f_j;
+    const jg_real t55 = t37 + t33;
+    const jg_real t56 = t19 + H_02 * lambda[3];
+    const jg_real t57 = -(lambda[3] * t21);
+    phi_q_t_lambda_q[9] = t31;
+    phi_q_t_lambda_q[33] = t33;
+    phi_q_t_lambda_q[0] = t36 * C_i[6] - (v_2_in_joint_i_1 * C_i[3] + v_0_in_joint_i_0 * C_i[0]);
+    phi_q_t_lambda_q[1] = t36 * C_i[7] - (v_2_in_joint_i_1 * C_i[4] + v_0_in_joint_i_0 * C_i[1]);
+    phi_q_t_lambda_q[2] = t36 * C_i[8] - (v_2_in_joint_i_1 * C_i[5] + v_0_in_joint_i_0 * C_i[2]);
+    phi_q_t_lambda_q[21] = t55;
+    phi_q_t_lambda_q[10] = t57;
+    phi_q_t_lambda_q[20] = t57;
+    /* v_7_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
+    const jg_real v_7_in_j_0 = sine_0 * f_j_cross_lambda_0_1_2_in_j_0 - H_21 * g_j_cross_lambda_0_1_2_in_j_0 - H_22
         * h_j_cross_lambda_0_1_2_in_j_0;
-    const jg_real v_3_in_j_1 = sine_0 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
+    const jg_real t59 = cosine_1 * lambda[4];
+    const jg_real t60 = cosine_1 * lambda[5];
+    const jg_real t61 = sine_1 * lambda[3];
+    const jg_real v_7_in_j_1 = sine_0 * f_j_cross_lambda_0_1_2_in_j_1 - H_21 * g_j_cross_lambda_0_1_2_in_j_1 - H_22
         * h_j_cross_lambda_0_1_2_in_j_1;
-    /* v_1_in_joint_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3
-        ... */
-    const jg_real v_1_in_joint_i_2 = h_j_cross_f_i_in_joint_i_2 * t37 - H_11 * t35;
-    const jg_real v_3_in_j_2 = sine_0 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
+    const jg_real t63 = cosine_1 * lambda[3];
+    const jg_real v_7_in_j_2 = sine_0 * f_j_cross_lambda_0_1_2_in_j_2 - H_21 * g_j_cross_lambda_0_1_2_in_j_2 - H_22
         * h_j_cross_lambda_0_1_2_in_j_2;
-    const jg_real t62 = s_j_dot_lambda_0_1_2 + t41;
-    const jg_real t63 = s_j_dot_lambda_0_1_2 + t30;
-    const jg_real v_1_in_joint_i_0 = H_11 * t33 - h_j_cross_f_i_in_joint_i_2 * t38 - H_10 * t44;
-    const jg_real v_1_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * t33 + H_21 * t35 + H_22 * t37 - H_02 * t38 + H_00
-        * t44;
-    /* v_6_in_joint_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
-    const jg_real v_6_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t29 - sine_0 * s_j_dot_lambda_0_1_2;
-    const jg_real t67 = sine_2 * t16;
-    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_2_in_joint_i_1 = g_j_cross_h_i_in_joint_i_1 * lambda[5];
-    const jg_real v_6_in_joint_j_2 = H_22 * t63 + sine_0 * t46 + lambda_0_1_2_in_joint_j_2 * t29;
-    const jg_real v_2_in_joint_i_0 = H_11 * lambda[5];
-    const jg_real t71 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
-    phi_q_t_lambda_q[3] = v_3_in_j_0;
-    phi_q_t_lambda_q[4] = v_3_in_j_1;
-    phi_q_t_lambda_q[5] = v_3_in_j_2;
-    phi_q_t_lambda_q[14] = sine_2 * h_j_cross_lambda_0_1_2_in_j_0 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[15] = sine_2 * h_j_cross_lambda_0_1_2_in_j_1 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[16] = sine_2 * h_j_cross_lambda_0_1_2_in_j_2 - cosine_2 * g_j_cross_lambda_0_1_2_in_j_2;
+    /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
+    const jg_real s_j_dot_lambda_0_1_2 = lambda_0_1_2_in_joint_j_1 * s_j_dot_g_j + t54 + lambda_0_1_2_in_joint_j_2 *
+        s_j_dot_h_j;
+    const jg_real t66 = s_j_dot_lambda_0_1_2 + t55;
+    const jg_real t67 = s_j_dot_lambda_0_1_2 + t37;
+    /* v_4_in_joint_i = sin(alpha_2) lambda_3 g_j x f_i + cos(alpha_2) lambda_3 h_j x f_i, axes of joint i */
+    const jg_real v_4_in_joint_i_1 = H_21 * t61 + H_22 * t63;
+    const jg_real v_4_in_joint_i_2 = h_j_cross_f_i_in_joint_i_2 * t63 - H_11 * t61;
+    /* v_10_in_joint_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
+    const jg_real v_10_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t35 - sine_0 * s_j_dot_lambda_0_1_2;
+    /* v_3_in_joint_i = sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_4 h_j x h_i - cos(alpha_2) lambda_5
+        ... */
+    const jg_real v_3_in_joint_i_1 = H_00 * t60 - (H_01 * t38 + H_02 * t59);
+    const jg_real v_3_in_joint_i_0 = H_11 * t38 - h_j_cross_f_i_in_joint_i_2 * t59 - H_10 * t60;
+    /* v_5_in_joint_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3
+        ... */
+    const jg_real v_5_in_joint_i_1 = v_3_in_joint_i_1 + v_4_in_joint_i_1;
+    const jg_real t74 = cosine_1 * s_j_dot_g_j - sine_1 * s_j_dot_h_j;
+    const jg_real t75 = t13 * sine_1;
+    /* v_6_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_6_in_joint_i = lambda[5] * H_11;
+    const jg_real v_10_in_joint_j_2 = H_22 * t67 + sine_0 * t56 + lambda_0_1_2_in_joint_j_2 * t35;
+    const jg_real t78 = lambda[5] * H_01;
+    phi_q_t_lambda_q[3] = v_7_in_j_0;
+    phi_q_t_lambda_q[4] = v_7_in_j_1;
+    phi_q_t_lambda_q[5] = v_7_in_j_2;
+    phi_q_t_lambda_q[14] = sine_1 * h_j_cross_lambda_0_1_2_in_j_0 - cosine_1 * g_j_cross_lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[15] = sine_1 * h_j_cross_lambda_0_1_2_in_j_1 - cosine_1 * g_j_cross_lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[16] = sine_1 * h_j_cross_lambda_0_1_2_in_j_2 - cosine_1 * g_j_cross_lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[26] = -f_j_cross_lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[27] = -f_j_cross_lambda_0_1_2_in_j_1;
-    /* v_1_in_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3 ... */
-    const jg_real v_1_in_i_0 = C_i[3] * v_1_in_joint_i_1 + C_i[0] * v_1_in_joint_i_0 + C_i[6] * v_1_in_joint_i_2;
-    const jg_real v_1_in_i_1 = C_i[4] * v_1_in_joint_i_1 + C_i[1] * v_1_in_joint_i_0 + C_i[7] * v_1_in_joint_i_2;
-    const jg_real v_1_in_i_2 = C_i[5] * v_1_in_joint_i_1 + C_i[2] * v_1_in_joint_i_0 + C_i[8] * v_1_in_joint_i_2;
-    const jg_real t75 = -t67;
-    const jg_real v_6_in_joint_j_1 = cosine_0 * (sine_2 * t62 - cosine_2 * t20) + sine_0 * t45 +
-        lambda_0_1_2_in_joint_j_1 * t29;
-    /* v_7_in_joint_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
-    const jg_real v_7_in_joint_j_2 = sine_2 * t63 + lambda_0_1_2_in_joint_j_2 * t71;
-    const jg_real v_7_in_joint_j_1 = lambda_0_1_2_in_joint_j_1 * t71 - (cosine_2 * t62 + sine_2 * t20);
-    const jg_real v_7_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t71 + t67;
-    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_2_in_i_0 = C_i[3] * v_2_in_joint_i_1 + C_i[0] * v_2_in_joint_i_0;
-    const jg_real v_2_in_i_1 = C_i[4] * v_2_in_joint_i_1 + C_i[1] * v_2_in_joint_i_0;
-    phi_q_t_lambda_q[11] = v_1_in_i_0;
-    phi_q_t_lambda_q[12] = v_1_in_i_1;
-    phi_q_t_lambda_q[13] = v_1_in_i_2;
-    phi_q_t_lambda_q[22] = t75;
-    phi_q_t_lambda_q[32] = t75;
-    phi_q_t_lambda_q[28] = -f_j_cross_lambda_0_1_2_in_j_2;
-    phi_q_t_lambda_q[23] = v_2_in_i_0;
-    phi_q_t_lambda_q[24] = v_2_in_i_1;
-    const jg_real v_2_in_i_2 = C_i[5] * v_2_in_joint_i_1 + C_i[2] * v_2_in_joint_i_0;
-    /* v_8_in_joint_j = (H_22 lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_3 - H_21 lambda_4) g_j + (-H_02
+    const jg_real t79 = -t75;
+    /* v_11_in_joint_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
+    const jg_real v_11_in_joint_j_2 = sine_1 * t67 + lambda_0_1_2_in_joint_j_2 * t74;
+    const jg_real v_11_in_joint_j_1 = lambda_0_1_2_in_joint_j_1 * t74 - (cosine_1 * t66 + sine_1 * t24);
+    const jg_real v_11_in_joint_j_0 = lambda_0_1_2_in_joint_j_0 * t74 + t75;
+    const jg_real v_10_in_joint_j_1 = cosine_0 * (sine_1 * t66 - cosine_1 * t24) + sine_0 * t40 +
+        lambda_0_1_2_in_joint_j_1 * t35;
+    /* v_5_in_i = sin(alpha_2) lambda_3 g_j x f_i + sin(alpha_2) lambda_4 g_j x h_i + cos(alpha_2) lambda_3 ... */
+    const jg_real v_5_in_i_0 = C_i[3] * v_5_in_joint_i_1 + C_i[0] * v_3_in_joint_i_0 + C_i[6] * v_4_in_joint_i_2;
+    const jg_real v_5_in_i_1 = C_i[4] * v_5_in_joint_i_1 + C_i[1] * v_3_in_joint_i_0 + C_i[7] * v_4_in_joint_i_2;
+    const jg_real v_5_in_i_2 = C_i[5] * v_5_in_joint_i_1 + C_i[2] * v_3_in_joint_i_0 + C_i[8] * v_4_in_joint_i_2;
+    /* v_6_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_6_in_i_0 = C_i[0] * v_6_in_joint_i - C_i[3] * t78;
+    const jg_real v_6_in_i_1 = C_i[1] * v_6_in_joint_i - C_i[4] * t78;
+    const jg_real v_6_in_i_2 = C_i[2] * v_6_in_joint_i - C_i[5] * t78;
+    phi_q_t_lambda_q[22] = t79;
+    phi_q_t_lambda_q[32] = t79;
+    phi_q_t_lambda_q[11] = v_5_in_i_0;
+    phi_q_t_lambda_q[12] = v_5_in_i_1;
+    phi_q_t_lambda_q[13] = v_5_in_i_2;
+    phi_q_t_lambda_q[23] = v_6_in_i_0;
+    phi_q_t_lambda_q[24] = v_6_in_i_1;
+    phi_q_t_lambda_q[25] = v_6_in_i_2;
+    /* v_11_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
+    const jg_real v_11_in_j_0 = C_j[3] * v_11_in_joint_j_1 + C_j[0] * v_11_in_joint_j_0 + C_j[6] *
+        v_11_in_joint_j_2;
+    /* v_10_in_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
+    const jg_real v_10_in_j_0 = C_j[0] * v_10_in_joint_j_0 + C_j[3] * v_10_in_joint_j_1 + C_j[6] *
+        v_10_in_joint_j_2;
+    const jg_real v_10_in_j_1 = C_j[1] * v_10_in_joint_j_0 + C_j[4] * v_10_in_joint_j_1 + C_j[7] *
+        v_10_in_joint_j_2;
+    const jg_real v_10_in_j_2 = C_j[2] * v_10_in_joint_j_0 + C_j[5] * v_10_in_joint_j_1 + C_j[8] *
+        v_10_in_joint_j_2;
+    const jg_real v_11_in_j_1 = C_j[4] * v_11_in_joint_j_1 + C_j[1] * v_11_in_joint_j_0 + C_j[7] *
+        v_11_in_joint_j_2;
+    /* v_13_in_joint_j = (H_22 lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_3 - H_21 lambda_4) g_j + (-H_02
         ... */
-    const jg_real v_8_in_joint_j = s_j_dot_lambda_0_1_2 + t27 - t40;
-    const jg_real t84 = t45 + lambda_0_1_2_in_joint_j_1 * s_j_dot_f_j;
-    const jg_real t85 = t46 + lambda_0_1_2_in_joint_j_2 * s_j_dot_f_j;
-    /* v_6_in_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
-    const jg_real v_6_in_j_0 = C_j[0] * v_6_in_joint_j_0 + C_j[3] * v_6_in_joint_j_1 + C_j[6] * v_6_in_joint_j_2;
-    const jg_real v_6_in_j_1 = C_j[1] * v_6_in_joint_j_0 + C_j[4] * v_6_in_joint_j_1 + C_j[7] * v_6_in_joint_j_2;
-    const jg_real v_6_in_j_2 = C_j[2] * v_6_in_joint_j_0 + C_j[5] * v_6_in_joint_j_1 + C_j[8] * v_6_in_joint_j_2;
-    /* v_7_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
-    const jg_real v_7_in_j_0 = C_j[3] * v_7_in_joint_j_1 + C_j[0] * v_7_in_joint_j_0 + C_j[6] * v_7_in_joint_j_2;
-    const jg_real v_7_in_j_1 = C_j[4] * v_7_in_joint_j_1 + C_j[1] * v_7_in_joint_j_0 + C_j[7] * v_7_in_joint_j_2;
-    const jg_real v_7_in_j_2 = C_j[5] * v_7_in_joint_j_1 + C_j[2] * v_7_in_joint_j_0 + C_j[8] * v_7_in_joint_j_2;
-    phi_q_t_lambda_q[25] = v_2_in_i_2;
-    phi_q_t_lambda_q[17] = v_7_in_j_0;
-    phi_q_t_lambda_q[18] = v_7_in_j_1;
-    phi_q_t_lambda_q[6] = -v_6_in_j_0;
-    phi_q_t_lambda_q[7] = -v_6_in_j_1;
-    phi_q_t_lambda_q[8] = -v_6_in_j_2;
-    phi_q_t_lambda_q[19] = v_7_in_j_2;
-    phi_q_t_lambda_q[29] = C_j[6] * t85 - (C_j[0] * v_8_in_joint_j - C_j[3] * t84);
-    phi_q_t_lambda_q[30] = C_j[7] * t85 - (C_j[1] * v_8_in_joint_j - C_j[4] * t84);
-    phi_q_t_lambda_q[31] = C_j[8] * t85 - (C_j[2] * v_8_in_joint_j - C_j[5] * t84);
+    const jg_real v_13_in_joint_j = s_j_dot_lambda_0_1_2 + t33 - t54;
+    const jg_real t96 = t40 + lambda_0_1_2_in_joint_j_1 * s_j_dot_f_j;
+    const jg_real v_11_in_j_2 = C_j[5] * v_11_in_joint_j_1 + C_j[2] * v_11_in_joint_j_0 + C_j[8] *
+        v_11_in_joint_j_2;
+    const jg_real t98 = t56 + lambda_0_1_2_in_joint_j_2 * s_j_dot_f_j;
+    phi_q_t_lambda_q[28] = -f_j_cross_lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[17] = v_11_in_j_0;
+    phi_q_t_lambda_q[18] = v_11_in_j_1;
+    phi_q_t_lambda_q[19] = v_11_in_j_2;
+    phi_q_t_lambda_q[6] = -v_10_in_j_0;
+    phi_q_t_lambda_q[7] = -v_10_in_j_1;
+    phi_q_t_lambda_q[8] = -v_10_in_j_2;
+    phi_q_t_lambda_q[29] = C_j[6] * t98 - (C_j[0] * v_13_in_joint_j - C_j[3] * t96);
+    phi_q_t_lambda_q[30] = C_j[7] * t98 - (C_j[1] * v_13_in_joint_j - C_j[4] * t96);
+    phi_q_t_lambda_q[31] = C_j[8] * t98 - (C_j[2] * v_13_in_joint_j - C_j[5] * t96);
 }
 
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -418,8 +435,8 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_
     jg_sincos(alpha[0], &sine_2, &cosine_2);
     /* s_j_in_joint_j = s_j, axes of joint j */
     const jg_real s_j_in_joint_j_1 = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
-    const jg_real s_j_in_joint_j_0 = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
-    const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
+    const jg_real s_j_in_joint_j_0 = s_j[0] * C_j[0] + s_j[1] * C_j[1] + s_j[2] * C_j[2];
+    const jg_real s_j_in_joint_j_2 = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
     /* f_j_dot_omega_j = f_j . omega_j */
     const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* g_j_dot_omega_j = g_j . omega_j */
@@ -427,101 +444,104 @@ void jg_ball_parametric_table4_substituted_gamma(const jg_real *alpha, const jg_
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
+    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
-    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - omega_i[0] * v_i[2];
-    const jg_real omega_i_cross_v_i_in_i_2 = omega_i[0] * v_i[1] - omega_i[1] * v_i[0];
-    const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
+    const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
+    const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
+    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
-    const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
-    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
+    const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
+    const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
+    const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + omega_i[1] * C_i[1] + omega_i[2] * C_i[2];
     /* H_21 =  */
     const jg_real H_21 = cosine_0 * sine_1;
-    const jg_real t22 = sine_0 * alphadot[0];
+    const jg_real t22 = alphadot[0] * sine_0;
     /* H_22 =  */
     const jg_real H_22 = cosine_0 * cosine_1;
     const jg_real t24 = H_21 * g_j_dot_omega_j;
-    /* v_2_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_2_in_joint_j = t22 - alphadot[2];
+    /* v_0_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_0_in_joint_j = t22 - alphadot[2];
     const jg_real t26 = H_22 * h_j_dot_omega_j;
     const jg_real t27 = cosine_1 * h_j_dot_omega_j + sine_1 * g_j_dot_omega_j;
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_2;
-    const jg_real t29 = sine_0 * cosine_2;
-    const jg_real t30 = alphadot[0] * H_21 + cosine_1 * alphadot[1];
-    const jg_real t31 = alphadot[0] * H_22 - sine_1 * alphadot[1];
+    const jg_real t29 = sine_1 * cosine_2;
+    const jg_real t30 = H_21 * alphadot[0] + cosine_1 * alphadot[1];
+    const jg_real t31 = cosine_1 * sine_2;
+    const jg_real t32 = cosine_1 * cosine_2;
+    const jg_real t33 = alphadot[0] * H_22 - sine_1 * alphadot[1];
+    const jg_real t34 = sine_1 * sine_2;
     /* H_10 =  */
     const jg_real H_10 = cosine_0 * sine_2;
-    /* v_0_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_0_in_joint_j_0 = v_2_in_joint_j + f_j_dot_omega_j;
-    const jg_real v_0_in_joint_j_1 = g_j_dot_omega_j - t30;
-    const jg_real v_0_in_joint_j_2 = h_j_dot_omega_j - t31;
+    /* v_1_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_1_in_joint_j_0 = v_0_in_joint_j + f_j_dot_omega_j;
+    const jg_real v_1_in_joint_j_1 = g_j_dot_omega_j - t30;
+    const jg_real v_1_in_joint_j_2 = h_j_dot_omega_j - t33;
     /* H_01 =  */
-    const jg_real H_01 = sine_1 * t29 - cosine_1 * sine_2;
-    /* H_02 =  */
-    const jg_real H_02 = cosine_1 * t29 + sine_1 * sine_2;
-    const jg_real t38 = sine_1 * h_j_dot_omega_j - cosine_1 * g_j_dot_omega_j;
-    const jg_real t39 = v_2_in_joint_j * s_j_in_joint_j_0 - t30 * s_j_in_joint_j_1 - t31 * s_j_in_joint_j_2;
-    const jg_real t40 = v_2_in_joint_j * f_j_dot_omega_j - t30 * g_j_dot_omega_j - t31 * h_j_dot_omega_j;
-    const jg_real t41 = h_j_dot_omega_j * H_02;
-    const jg_real t42 = g_j_dot_omega_j * H_01;
-    /* v_1_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
-        ... */
-    const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_1 * v_0_in_joint_j_0 - v_j_in_joint_j_0 * v_0_in_joint_j_1;
-    const jg_real v_1_in_joint_j_0 = v_j_in_joint_j_2 * v_0_in_joint_j_1 - v_j_in_joint_j_1 * v_0_in_joint_j_2;
-    const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_0 * v_0_in_joint_j_2 - v_j_in_joint_j_2 * v_0_in_joint_j_0;
+    const jg_real H_01 = sine_0 * t29 - t31;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
-    const jg_real h_j_cross_f_i_in_joint_i_2 = H_21 * H_00 + sine_0 * H_01;
+    const jg_real h_j_cross_f_i_in_joint_i_2 = t29 - sine_0 * t31;
+    /* H_02 =  */
+    const jg_real H_02 = sine_0 * t32 + t34;
     /* H_11 =  */
-    const jg_real H_11 = H_22 * H_00 + sine_0 * H_02;
-    /* v_3_in_joint_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_3_in_joint_j_0 = f_j_dot_omega_j * t39 - t40 * s_j_in_joint_j_0;
-    const jg_real v_3_in_joint_j_1 = g_j_dot_omega_j * t39 - t40 * s_j_in_joint_j_1;
-    const jg_real v_3_in_joint_j_2 = h_j_dot_omega_j * t39 - t40 * s_j_in_joint_j_2;
-    /* v_1_in_joint_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
+    const jg_real H_11 = t32 + sine_0 * t34;
+    const jg_real t43 = g_j_dot_omega_j * H_01;
+    const jg_real t44 = s_j_in_joint_j_0 * v_0_in_joint_j - t30 * s_j_in_joint_j_1 - t33 * s_j_in_joint_j_2;
+    const jg_real t45 = v_0_in_joint_j * f_j_dot_omega_j - t30 * g_j_dot_omega_j - t33 * h_j_dot_omega_j;
+    const jg_real t46 = h_j_dot_omega_j * H_02;
+    const jg_real t47 = sine_1 * h_j_dot_omega_j - cosine_1 * g_j_dot_omega_j;
+    /* v_2_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
         ... */
-    const jg_real v_1_in_joint_i_0 = v_1_in_joint_j_0 * H_00 + v_1_in_joint_j_1 * H_01 + v_1_in_joint_j_2 * H_02;
-    const jg_real t52 = H_11 * omega_i_in_joint_i_2 - H_21 * omega_i_in_joint_i_1;
-    const jg_real t53 = H_22 * omega_i_in_joint_i_1 + h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2;
-    const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_0 * H_10 + v_1_in_joint_j_1 * H_11 - v_1_in_joint_j_2 *
-        h_j_cross_f_i_in_joint_i_2;
-    const jg_real v_1_in_joint_i_2 = H_21 * v_1_in_joint_j_1 - sine_0 * v_1_in_joint_j_0 + H_22 * v_1_in_joint_j_2;
+    const jg_real v_2_in_joint_j_2 = v_j_in_joint_j_1 * v_1_in_joint_j_0 - v_1_in_joint_j_1 * v_j_in_joint_j_0;
+    const jg_real v_2_in_joint_j_0 = v_1_in_joint_j_1 * v_j_in_joint_j_2 - v_1_in_joint_j_2 * v_j_in_joint_j_1;
+    const jg_real v_2_in_joint_j_1 = v_1_in_joint_j_2 * v_j_in_joint_j_0 - v_j_in_joint_j_2 * v_1_in_joint_j_0;
+    /* v_3_in_joint_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
+    const jg_real v_3_in_joint_j_0 = t44 * f_j_dot_omega_j - s_j_in_joint_j_0 * t45;
+    const jg_real v_3_in_joint_j_1 = t44 * g_j_dot_omega_j - s_j_in_joint_j_1 * t45;
+    const jg_real v_3_in_joint_j_2 = t44 * h_j_dot_omega_j - s_j_in_joint_j_2 * t45;
+    const jg_real t54 = H_11 * omega_i_in_joint_i_2 - H_21 * omega_i_in_joint_i_1;
+    const jg_real t55 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2 + H_22 * omega_i_in_joint_i_1;
+    /* v_2_in_joint_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 -
+        ... */
+    const jg_real v_2_in_joint_i_0 = H_00 * v_2_in_joint_j_0 + H_01 * v_2_in_joint_j_1 + H_02 * v_2_in_joint_j_2;
+    const jg_real v_2_in_joint_i_1 = H_10 * v_2_in_joint_j_0 + H_11 * v_2_in_joint_j_1 - h_j_cross_f_i_in_joint_i_2
+        * v_2_in_joint_j_2;
+    const jg_real v_2_in_joint_i_2 = H_21 * v_2_in_joint_j_1 - sine_0 * v_2_in_joint_j_0 + H_22 * v_2_in_joint_j_2;
     /* v_3_in_joint_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_3_in_joint_i_0 = H_00 * v_3_in_joint_j_0 + H_01 * v_3_in_joint_j_1 + H_02 * v_3_in_joint_j_2;
-    const jg_real v_3_in_joint_i_1 = H_10 * v_3_in_joint_j_0 + H_11 * v_3_in_joint_j_1 - h_j_cross_f_i_in_joint_i_2
-        * v_3_in_joint_j_2;
+    const jg_real v_3_in_joint_i_0 = v_3_in_joint_j_0 * H_00 + v_3_in_joint_j_1 * H_01 + v_3_in_joint_j_2 * H_02;
+    const jg_real v_3_in_joint_i_1 = v_3_in_joint_j_0 * H_10 + v_3_in_joint_j_1 * H_11 - v_3_in_joint_j_2 *
+        h_j_cross_f_i_in_joint_i_2;
     const jg_real v_3_in_joint_i_2 = H_21 * v_3_in_joint_j_1 - sine_0 * v_3_in_joint_j_0 + H_22 * v_3_in_joint_j_2;
-    const jg_real t59 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
-    /* v_1_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + v_1_in_joint_i_1 * C_i[3] + v_1_in_joint_i_2 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + v_1_in_joint_i_1 * C_i[4] + v_1_in_joint_i_2 * C_i[7];
+    /* v_2_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
+    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i_0 + C_i[3] * v_2_in_joint_i_1 + C_i[6] * v_2_in_joint_i_2;
+    const jg_real v_2_in_i_1 = v_2_in_joint_i_0 * C_i[1] + v_2_in_joint_i_1 * C_i[4] + v_2_in_joint_i_2 * C_i[7];
+    const jg_real v_2_in_i_2 = v_2_in_joint_i_0 * C_i[2] + v_2_in_joint_i_1 * C_i[5] + v_2_in_joint_i_2 * C_i[8];
     /* v_3_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1 + C_i[6] * v_3_in_joint_i_2;
-    const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1 + C_i[7] * v_3_in_joint_i_2;
-    const jg_real t64 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
-    const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1 + C_i[8] * v_3_in_joint_i_2;
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_i_2 * C_i[8];
+    const jg_real v_3_in_i_0 = v_3_in_joint_i_0 * C_i[0] + v_3_in_joint_i_1 * C_i[3] + v_3_in_joint_i_2 * C_i[6];
+    const jg_real v_3_in_i_1 = v_3_in_joint_i_0 * C_i[1] + v_3_in_joint_i_1 * C_i[4] + v_3_in_joint_i_2 * C_i[7];
+    const jg_real v_3_in_i_2 = v_3_in_joint_i_0 * C_i[2] + v_3_in_joint_i_1 * C_i[5] + v_3_in_joint_i_2 * C_i[8];
+    const jg_real t68 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
     /* v_4_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_4_in_i_0 = v_1_in_i_0 - omega_i_cross_v_i_in_i_0 + v_3_in_i_0;
-    const jg_real v_4_in_i_1 = v_1_in_i_1 - omega_i_cross_v_i_in_i_1 + v_3_in_i_1;
-    const jg_real v_4_in_i_2 = v_1_in_i_2 - omega_i_cross_v_i_in_i_2 + v_3_in_i_2;
-    const jg_real t70 = t59 - H_22 * f_j_dot_omega_j;
-    const jg_real t71 = H_22 * g_j_dot_omega_j - (H_00 * omega_i_in_joint_i_1 - H_10 * omega_i_in_joint_i_0);
+    const jg_real v_4_in_i_0 = v_2_in_i_0 - omega_i_cross_v_i_in_i_0 + v_3_in_i_0;
+    const jg_real v_4_in_i_1 = v_2_in_i_1 - omega_i_cross_v_i_in_i_1 + v_3_in_i_1;
+    const jg_real t71 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
+    const jg_real v_4_in_i_2 = v_2_in_i_2 - omega_i_cross_v_i_in_i_2 + v_3_in_i_2;
+    const jg_real t73 = H_22 * g_j_dot_omega_j - (H_00 * omega_i_in_joint_i_1 - H_10 * omega_i_in_joint_i_0);
+    const jg_real t74 = t68 - H_22 * f_j_dot_omega_j;
     gamma[0] = v_4_in_i_0;
     gamma[1] = v_4_in_i_1;
     gamma[2] = v_4_in_i_2;
-    gamma[3] = -(alphadot[0] * (cosine_0 * (alphadot[0] * cosine_2 - H_00 * t27 + cosine_1 * t52 + sine_1 * t53) -
-        sine_0 * (sine_2 * JG_REAL(2.0) * alphadot[1] + t42 + t41)) + alphadot[1] * (H_00 * t38 + alphadot[1] * H_00
-        + cosine_1 * t53 - sine_1 * t52) + alphadot[2] * (t42 + t41));
-    gamma[4] = -(sine_0 * (alphadot[0] * (cosine_0 * t27 - t24 - t26) - alphadot[1] * (alphadot[1] + t38)) -
-        (cosine_1 * t59 + sine_1 * t64) * (alphadot[0] * cosine_0) + alphadot[1] * (sine_1 * t59 - cosine_1 * t64) +
+    gamma[3] = -(alphadot[0] * (cosine_0 * (alphadot[0] * cosine_2 - H_00 * t27 + cosine_1 * t54 + sine_1 * t55) -
+        sine_0 * (t43 + sine_2 * JG_REAL(2.0) * alphadot[1] + t46)) + alphadot[1] * (H_00 * t47 + alphadot[1] * H_00
+        + cosine_1 * t55 - sine_1 * t54) + alphadot[2] * (t46 + t43));
+    gamma[4] = -(sine_0 * (alphadot[0] * (cosine_0 * t27 - t24 - t26) - alphadot[1] * (alphadot[1] + t47)) -
+        (cosine_1 * t68 + sine_1 * t71) * (cosine_0 * alphadot[0]) + alphadot[1] * (sine_1 * t68 - cosine_1 * t71) +
         alphadot[2] * (t24 + t26));
     gamma[5] = cosine_0 * (cosine_1 * (alphadot[0] * (sine_0 * f_j_dot_omega_j - t24) - alphadot[1] * alphadot[1] -
-        alphadot[2] * alphadot[2]) + alphadot[0] * sine_1 * t71) + alphadot[1] * (sine_1 * (t24 + sine_0 *
-        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_1 * t71) + t22 * t70 - alphadot[2] * t70;
+        alphadot[2] * alphadot[2]) + sine_1 * alphadot[0] * t73) + alphadot[1] * (sine_1 * (t24 + sine_0 *
+        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_1 * t73) + t22 * t74 - alphadot[2] * t74;
 }
 
 void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
@@ -637,13 +657,13 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, 
     const jg_real *const C_j = geometry + 15;
     jg_real sine_0;
     jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[0], &sine_1, &cosine_1);
+    jg_sincos(alpha[2], &sine_1, &cosine_1);
     jg_real sine_2;
     jg_real cosine_2;
-    jg_sincos(alpha[2], &sine_2, &cosine_2);
+    jg_sincos(alpha[1], &sine_2, &cosine_2);
     /* s_i_cross_lambda_0_1_2_in_i = s_i x lambda_0_1_2, axes of body i */
     const jg_real s_i_cross_lambda_0_1_2_in_i_0 = lambda[2] * s_i[1] - lambda[1] * s_i[2];
     const jg_real s_i_cross_lambda_0_1_2_in_i_1 = lambda[0] * s_i[2] - lambda[2] * s_i[0];
@@ -652,56 +672,58 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, 
     const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
     const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
     const jg_real lambda_0_1_2_in_joint_i_2 = lambda[0] * C_i[6] + lambda[1] * C_i[7] + lambda[2] * C_i[8];
-    /* H_10 =  */
-    const jg_real H_10 = cosine_0 * sine_1;
-    /* H_21 =  */
-    const jg_real H_21 = cosine_0 * sine_2;
-    const jg_real t14 = sine_1 * sine_0;
+    const jg_real t12 = cosine_0 * sine_1;
+    const jg_real t13 = sine_0 * cosine_1;
+    const jg_real t14 = sine_0 * sine_1;
+    const jg_real t15 = cosine_0 * cosine_1;
     /* H_00 =  */
-    const jg_real H_00 = cosine_1 * cosine_0;
+    const jg_real H_00 = cosine_0 * cosine_2;
+    /* H_10 =  */
+    const jg_real H_10 = cosine_2 * sine_0;
     /* H_22 =  */
-    const jg_real H_22 = cosine_0 * cosine_2;
-    /* v_1_in_joint_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint i */
-    const jg_real v_1_in_joint_i = H_10 * lambda[4];
-    const jg_real t18 = H_10 * lambda[3];
-    const jg_real t19 = lambda[5] * H_21;
-    /* H_11 =  */
-    const jg_real H_11 = cosine_1 * cosine_2 + sine_2 * t14;
-    const jg_real t21 = cosine_1 * sine_2 - cosine_2 * t14;
-    const jg_real t22 = sine_0 * lambda[3] + H_00 * lambda[4];
-    const jg_real t23 = sine_0 * lambda[5];
-    const jg_real t24 = lambda[5] * t21;
-    /* H_02 =  */
-    const jg_real H_02 = H_10 * H_21 + sine_0 * H_11;
+    const jg_real H_22 = cosine_2 * cosine_1;
+    /* H_21 =  */
+    const jg_real H_21 = cosine_2 * sine_1;
+    const jg_real t20 = sine_2 * lambda[5];
+    /* v_0_in_joint_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint i */
+    const jg_real v_0_in_joint_i = H_10 * lambda[4];
+    const jg_real t22 = lambda[3] * H_10;
     /* H_01 =  */
-    const jg_real H_01 = sine_0 * t21 - H_10 * H_22;
+    const jg_real H_01 = sine_2 * t12 - t13;
+    const jg_real t24 = t12 - sine_2 * t13;
+    /* H_11 =  */
+    const jg_real H_11 = t15 + sine_2 * t14;
+    /* H_02 =  */
+    const jg_real H_02 = t14 + sine_2 * t15;
+    const jg_real t27 = lambda[3] * sine_2 + H_00 * lambda[4];
+    const jg_real t28 = lambda[5] * t24;
+    const jg_real t29 = lambda[5] * H_02;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = H_00 * lambda_0_1_2_in_joint_i_0 + H_10 * lambda_0_1_2_in_joint_i_1 -
-        sine_0 * lambda_0_1_2_in_joint_i_2;
-    const jg_real t28 = lambda[5] * H_02;
-    /* v_1_in_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body i */
-    const jg_real v_1_in_i_0 = v_1_in_joint_i * C_i[0] - t22 * C_i[3] - t18 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i * C_i[1] - t22 * C_i[4] - t18 * C_i[7];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i * C_i[2] - t22 * C_i[5] - t18 * C_i[8];
-    const jg_real t32 = lambda[3] * H_02 + lambda[4] * H_22;
-    /* v_1_in_joint_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint j */
-    const jg_real v_1_in_joint_j_2 = lambda[3] * H_01 + lambda[4] * H_21;
-    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - t21 * lambda_0_1_2_in_joint_i_1 +
+        sine_2 * lambda_0_1_2_in_joint_i_2;
+    /* v_0_in_joint_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of joint j */
+    const jg_real v_0_in_joint_j_2 = lambda[3] * H_01 + lambda[4] * H_21;
+    /* v_0_in_i = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body i */
+    const jg_real v_0_in_i_0 = v_0_in_joint_i * C_i[0] - t27 * C_i[3] - t22 * C_i[6];
+    const jg_real v_0_in_i_1 = v_0_in_joint_i * C_i[1] - t27 * C_i[4] - t22 * C_i[7];
+    const jg_real v_0_in_i_2 = v_0_in_joint_i * C_i[2] - t27 * C_i[5] - t22 * C_i[8];
+    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - t24 * lambda_0_1_2_in_joint_i_1 +
         H_22 * lambda_0_1_2_in_joint_i_2;
-    const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_0 * H_01 + H_11 * lambda_0_1_2_in_joint_i_1 +
-        H_21 * lambda_0_1_2_in_joint_i_2;
+    const jg_real lambda_0_1_2_in_joint_j_1 = lambda_0_1_2_in_joint_i_0 * H_01 + lambda_0_1_2_in_joint_i_1 * H_11 +
+        lambda_0_1_2_in_joint_i_2 * H_21;
+    const jg_real t37 = lambda[3] * H_02 + lambda[4] * H_22;
+    const jg_real t38 = lambda[5] * H_21;
     phi_q_t_lambda[0] = -lambda[0];
     phi_q_t_lambda[1] = -lambda[1];
     phi_q_t_lambda[2] = -lambda[2];
-    phi_q_t_lambda[12] = t18;
-    phi_q_t_lambda[14] = t19;
-    phi_q_t_lambda[3] = C_i[0] * t24 + C_i[3] * t28 - (v_1_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
-    phi_q_t_lambda[4] = C_i[1] * t24 + C_i[4] * t28 - (v_1_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
-    phi_q_t_lambda[5] = C_i[2] * t24 + C_i[5] * t28 - (v_1_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
-    /* v_1_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body j */
-    const jg_real v_1_in_j_0 = C_j[6] * v_1_in_joint_j_2 - C_j[3] * t32;
-    const jg_real v_1_in_j_1 = C_j[7] * v_1_in_joint_j_2 - C_j[4] * t32;
-    const jg_real v_1_in_j_2 = C_j[8] * v_1_in_joint_j_2 - C_j[5] * t32;
+    phi_q_t_lambda[12] = t22;
+    phi_q_t_lambda[14] = t38;
+    phi_q_t_lambda[3] = C_i[0] * t28 + C_i[3] * t29 - (v_0_in_i_0 + s_i_cross_lambda_0_1_2_in_i_0);
+    phi_q_t_lambda[4] = C_i[1] * t28 + C_i[4] * t29 - (v_0_in_i_1 + s_i_cross_lambda_0_1_2_in_i_1);
+    phi_q_t_lambda[5] = C_i[2] * t28 + C_i[5] * t29 - (v_0_in_i_2 + s_i_cross_lambda_0_1_2_in_i_2);
+    /* v_0_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i, axes of body j */
+    const jg_real v_0_in_j_0 = C_j[6] * v_0_in_joint_j_2 - C_j[3] * t37;
+    const jg_real v_0_in_j_1 = C_j[7] * v_0_in_joint_j_2 - C_j[4] * t37;
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
         lambda_0_1_2_in_joint_j_2 * C_j[6];
@@ -709,21 +731,22 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *alpha, 
         lambda_0_1_2_in_joint_j_2 * C_j[7];
     const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
         lambda_0_1_2_in_joint_j_2 * C_j[8];
+    const jg_real v_0_in_j_2 = C_j[8] * v_0_in_joint_j_2 - C_j[5] * t37;
     /* s_j_cross_lambda_0_1_2_in_j = s_j x lambda_0_1_2, axes of body j */
+    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
     const jg_real s_j_cross_lambda_0_1_2_in_j_0 = lambda_0_1_2_in_j_2 * s_j[1] - lambda_0_1_2_in_j_1 * s_j[2];
     const jg_real s_j_cross_lambda_0_1_2_in_j_1 = lambda_0_1_2_in_j_0 * s_j[2] - lambda_0_1_2_in_j_2 * s_j[0];
-    const jg_real s_j_cross_lambda_0_1_2_in_j_2 = lambda_0_1_2_in_j_1 * s_j[0] - lambda_0_1_2_in_j_0 * s_j[1];
-    /* v_5_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i + lambda_5 h_j x h_i + s_j x lambda_0_1_2, axes of ... */
-    const jg_real v_5_in_j_0 = v_1_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 - (C_j[0] * t19 + C_j[3] * t23);
-    const jg_real v_5_in_j_1 = v_1_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 - (C_j[1] * t19 + C_j[4] * t23);
-    const jg_real v_5_in_j_2 = v_1_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - (C_j[2] * t19 + C_j[5] * t23);
-    phi_q_t_lambda[13] = sine_0 * (cosine_1 * lambda[3] + lambda[5] * cosine_2) + cosine_0 * lambda[4];
+    /* v_3_in_j = lambda_3 f_j x f_i + lambda_4 f_j x h_i + lambda_5 h_j x h_i + s_j x lambda_0_1_2, axes of ... */
+    const jg_real v_3_in_j_2 = v_0_in_j_2 + s_j_cross_lambda_0_1_2_in_j_2 - (C_j[2] * t38 + C_j[5] * t20);
+    const jg_real v_3_in_j_0 = v_0_in_j_0 + s_j_cross_lambda_0_1_2_in_j_0 - (C_j[0] * t38 + C_j[3] * t20);
+    const jg_real v_3_in_j_1 = v_0_in_j_1 + s_j_cross_lambda_0_1_2_in_j_1 - (C_j[1] * t38 + C_j[4] * t20);
     phi_q_t_lambda[6] = lambda_0_1_2_in_j_0;
     phi_q_t_lambda[7] = lambda_0_1_2_in_j_1;
     phi_q_t_lambda[8] = lambda_0_1_2_in_j_2;
-    phi_q_t_lambda[9] = v_5_in_j_0;
-    phi_q_t_lambda[10] = v_5_in_j_1;
-    phi_q_t_lambda[11] = v_5_in_j_2;
+    phi_q_t_lambda[13] = sine_2 * (lambda[3] * cosine_0 + lambda[5] * cosine_1) + cosine_2 * lambda[4];
+    phi_q_t_lambda[11] = v_3_in_j_2;
+    phi_q_t_lambda[9] = v_3_in_j_0;
+    phi_q_t_lambda[10] = v_3_in_j_1;
 }
 
 void jg_ball_parametric_table4_substituted_all(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
@@ -824,8 +847,9 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *r_i, const jg_real
     /* H_10 =  */
     const jg_real H_10 = cosine_1 * sine_0;
     const jg_real t50 = cosine_0 * sine_1;
-    const jg_real t51 = C_j[1] * sine_1;
-    const jg_real t52 = C_j[2] * sine_1;
+    const jg_real t51 = sine_1 * sine_0;
+    const jg_real t52 = C_j[1] * sine_1;
+    const jg_real t53 = C_j[2] * sine_1;
     phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[14] = -s_i[0];
@@ -834,256 +858,265 @@ void jg_ball_parametric_table4_substituted_all(const jg_real *r_i, const jg_real
     phi_q[45] = H_10;
     phi_q[46] = t50;
     phi[3] = f_i_dot_f_j - H_00;
-    const jg_real t53 = sine_1 * lambda[5];
-    const jg_real t54 = C_j[0] * sine_1;
-    const jg_real t55 = H_00 * lambda[3];
-    const jg_real t56 = sine_1 * alphadot[0];
-    const jg_real t57 = t55 - sine_1 * lambda[4];
-    /* v_12_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
-        */
-    const jg_real v_12_in_joint_j = t56 - alphadot[2];
-    const jg_real t59 = -(sine_1 * sine_0 * lambda[3]);
+    const jg_real t54 = sine_1 * lambda[5];
+    const jg_real t55 = C_j[0] * sine_1;
+    const jg_real t56 = H_00 * lambda[3];
+    const jg_real t57 = sine_1 * alphadot[0];
+    const jg_real t58 = t56 - sine_1 * lambda[4];
+    const jg_real t59 = -(t51 * lambda[3]);
     phi_q[5] = sine_1 * C_i[3] + C_i[6] * H_10;
     phi_q[6] = H_00 * C_i[3] - C_i[0] * H_10;
     phi_q[10] = sine_1 * C_i[4] + C_i[7] * H_10;
     phi_q[11] = H_00 * C_i[4] - C_i[1] * H_10;
     phi_q[15] = sine_1 * C_i[5] + C_i[8] * H_10;
     phi_q[16] = H_00 * C_i[5] - C_i[2] * H_10;
-    phi_q_t_lambda_q[9] = t55;
+    phi_q_t_lambda_q[9] = t56;
     phi_q_t_lambda_q[10] = t59;
     phi_q_t_lambda_q[20] = t59;
+    /* v_12_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
+        */
+    const jg_real v_12_in_joint_j = t57 - alphadot[2];
+    /* v_10_in_joint_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
+        */
+    const jg_real v_10_in_joint_j_0 = v_12_in_joint_j + f_j_dot_omega_j;
     /* H_22 =  */
     const jg_real H_22 = cosine_1 * cosine_2;
+    const jg_real t63 = sine_1 * cosine_2;
     /* H_21 =  */
     const jg_real H_21 = cosine_1 * sine_2;
-    const jg_real t62 = sine_2 * lambda[3];
-    const jg_real t63 = cosine_2 * lambda[3];
-    const jg_real t64 = cosine_2 * lambda[4];
     const jg_real t65 = cosine_2 * lambda[5];
-    /* H_01 =  */
-    const jg_real H_01 = t50 * sine_2 - cosine_2 * sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_2 + cosine_2 * t50;
+    /* H_01 =  */
+    const jg_real H_01 = sine_2 * t50 - cosine_2 * sine_0;
+    /* H_11 =  */
+    const jg_real H_11 = cosine_0 * cosine_2 + sine_2 * t51;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
-    const jg_real h_j_cross_f_i_in_joint_i_2 = sine_1 * H_01 + H_00 * H_21;
+    const jg_real h_j_cross_f_i_in_joint_i_2 = cosine_0 * sine_2 - sine_0 * t63;
     /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_5 = H_21 * C_j[4] - t51 + C_j[7] * H_22;
+    const jg_real A_joint_i_j_5 = C_j[4] * H_21 - t52 + C_j[7] * H_22;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[6] * H_21 - H_22 * C_j[3];
-    /* H_11 =  */
-    const jg_real H_11 = H_00 * H_22 + sine_1 * H_02;
-    const jg_real A_joint_i_j_8 = H_21 * C_j[5] - t52 + C_j[8] * H_22;
-    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * H_21 - H_22 * C_j[4];
+    const jg_real A_joint_i_j_8 = H_21 * C_j[5] - t53 + C_j[8] * H_22;
     const jg_real A_joint_i_j_3 = H_01 * C_j[4] + C_j[1] * H_00 + C_j[7] * H_02;
+    const jg_real A_joint_i_j_4 = C_j[4] * H_11 + C_j[1] * H_10 - C_j[7] * h_j_cross_f_i_in_joint_i_2;
     const jg_real A_joint_i_j_6 = H_01 * C_j[5] + C_j[2] * H_00 + C_j[8] * H_02;
+    const jg_real A_joint_i_j_7 = H_11 * C_j[5] + C_j[2] * H_10 - C_j[8] * h_j_cross_f_i_in_joint_i_2;
+    /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
+    const jg_real f_j_cross_f_i_in_j_0 = C_j[6] * H_01 - H_02 * C_j[3];
+    phi_q[48] = t63;
     phi_q[49] = H_21;
-    phi_q[48] = sine_1 * cosine_2;
     phi[5] = h_i_dot_h_j - H_22;
-    phi_q[31] = f_j_cross_h_i_in_j_0;
-    phi_q[37] = f_j_cross_h_i_in_j_1;
     phi_q[7] = C_i[0] * h_j_cross_f_i_in_joint_i_2 + C_i[3] * H_02;
     phi_q[12] = C_i[1] * h_j_cross_f_i_in_joint_i_2 + H_02 * C_i[4];
     phi_q[17] = C_i[2] * h_j_cross_f_i_in_joint_i_2 + H_02 * C_i[5];
-    /* f_j_cross_f_i_in_j = f_j x f_i, axes of body j */
-    const jg_real f_j_cross_f_i_in_j_0 = C_j[6] * H_01 - H_02 * C_j[3];
-    const jg_real f_j_cross_f_i_in_j_1 = C_j[7] * H_01 - H_02 * C_j[4];
-    const jg_real A_joint_i_j_4 = H_11 * C_j[4] + C_j[1] * H_10 - C_j[7] * h_j_cross_f_i_in_joint_i_2;
-    const jg_real A_joint_i_j_7 = H_11 * C_j[5] + C_j[2] * H_10 - C_j[8] * h_j_cross_f_i_in_joint_i_2;
-    const jg_real t80 = H_22 * lambda[4];
-    const jg_real t81 = H_21 * lambda[4];
-    const jg_real t82 = H_21 * lambda[5];
-    const jg_real t83 = H_22 * lambda[3];
-    const jg_real f_j_cross_f_i_in_j_2 = C_j[8] * H_01 - H_02 * C_j[5];
-    const jg_real f_j_cross_h_i_in_j_2 = C_j[8] * H_21 - H_22 * C_j[5];
-    const jg_real t86 = t80 + t53;
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = C_i[4] * A_joint_i_j_4 + C_i[1] * A_joint_i_j_3 + C_i[7] * A_joint_i_j_5;
+    phi_q[31] = f_j_cross_h_i_in_j_0;
     phi_q[30] = f_j_cross_f_i_in_j_0;
+    const jg_real f_j_cross_f_i_in_j_1 = C_j[7] * H_01 - H_02 * C_j[4];
+    const jg_real f_j_cross_h_i_in_j_1 = C_j[7] * H_21 - H_22 * C_j[4];
+    /* A_ij = turns j axes to i axes */
+    const jg_real A_ij_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * A_joint_i_j_5;
+    const jg_real A_ij_5 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * A_joint_i_j_5;
+    const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * A_joint_i_j_8;
+    const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * A_joint_i_j_8;
+    const jg_real t84 = H_22 * lambda[4];
     phi_q[32] = -(C_j[0] * H_21 + sine_1 * C_j[3]);
     phi_q[36] = f_j_cross_f_i_in_j_1;
-    phi_q[38] = -(C_j[1] * H_21 + sine_1 * C_j[4]);
-    phi_q[42] = f_j_cross_f_i_in_j_2;
-    phi_q[43] = f_j_cross_h_i_in_j_2;
-    phi_q[44] = -(C_j[2] * H_21 + sine_1 * C_j[5]);
+    phi_q[37] = f_j_cross_h_i_in_j_1;
     phi_q[22] = A_ij_4;
-    const jg_real A_ij_8 = C_i[5] * A_joint_i_j_7 + C_i[2] * A_joint_i_j_6 + C_i[8] * A_joint_i_j_8;
-    const jg_real A_ij_5 = C_i[5] * A_joint_i_j_4 + C_i[2] * A_joint_i_j_3 + C_i[8] * A_joint_i_j_5;
-    const jg_real A_ij_7 = C_i[4] * A_joint_i_j_7 + C_i[1] * A_joint_i_j_6 + C_i[7] * A_joint_i_j_8;
-    const jg_real A_ij_6 = C_i[3] * A_joint_i_j_7 + C_i[0] * A_joint_i_j_6 + C_i[6] * A_joint_i_j_8;
-    const jg_real A_ij_3 = C_i[3] * A_joint_i_j_4 + C_i[0] * A_joint_i_j_3 + C_i[6] * A_joint_i_j_5;
-    const jg_real t93 = H_21 * lambda[3];
-    /* v_0_in_joint_i = cos(alpha_1) sin(alpha_2) lambda_5 f_j x h_i - cos(alpha_1) sin(alpha_2) lambda_4 h_j x h_i
-        ... */
-    const jg_real v_0_in_joint_i_0 = h_j_cross_f_i_in_joint_i_2 * t81 + H_10 * t82 + H_11 * t86;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
-    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
-    phi_q[26] = A_ij_8;
     phi_q[23] = A_ij_5;
+    phi_q[26] = A_ij_8;
     phi_q[25] = A_ij_7;
+    phi_q[38] = -(C_j[1] * H_21 + sine_1 * C_j[4]);
+    const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * A_joint_i_j_8;
+    const jg_real t86 = H_21 * lambda[5];
+    const jg_real f_j_cross_f_i_in_j_2 = C_j[8] * H_01 - H_02 * C_j[5];
+    const jg_real A_ij_3 = C_i[0] * A_joint_i_j_3 + C_i[3] * A_joint_i_j_4 + C_i[6] * A_joint_i_j_5;
+    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
+    const jg_real f_j_cross_h_i_in_j_2 = C_j[8] * H_21 - H_22 * C_j[5];
+    const jg_real t91 = t84 + t54;
+    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
     phi_q[24] = A_ij_6;
+    phi_q[42] = f_j_cross_f_i_in_j_2;
     phi_q[21] = A_ij_3;
+    phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
     phi_q[18] = A_ij_0;
+    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    phi_q[43] = f_j_cross_h_i_in_j_2;
     phi_q[19] = A_ij_1;
+    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
+    const jg_real t94 = H_21 * lambda[4];
+    const jg_real t95 = H_22 * lambda[3];
+    const jg_real t96 = H_21 * lambda[3];
     phi_q[20] = A_ij_2;
     phi_q[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    phi_q[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    phi_q[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    phi_q[44] = -(C_j[2] * H_21 + sine_1 * C_j[5]);
     phi_q[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
     phi_q[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     phi_q[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
     phi_q[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    const jg_real t98 = H_11 * t83 + h_j_cross_f_i_in_joint_i_2 * t93;
-    const jg_real v_0_in_joint_i_1 = H_02 * t81 - H_00 * t82 + H_21 * t83 - H_01 * t86 - H_22 * t93;
+    phi_q[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    /* v_0_in_joint_i = cos(alpha_1) sin(alpha_2) lambda_5 f_j x h_i - cos(alpha_1) sin(alpha_2) lambda_4 h_j x h_i
+        ... */
+    const jg_real v_0_in_joint_i_0 = H_10 * t86 + h_j_cross_f_i_in_joint_i_2 * t94 + H_11 * t91;
+    const jg_real t98 = H_11 * t95 + h_j_cross_f_i_in_joint_i_2 * t96;
+    const jg_real t99 = H_22 * lambda[5];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ij_3 * lambda[0] + A_ij_4 * lambda[1] + A_ij_5 * lambda[2];
-    const jg_real t101 = H_22 * lambda[5];
-    /* v_3_in_j = sin(alpha_1) f_j - cos(alpha_1) sin(alpha_2) g_j - cos(alpha_1) cos(alpha_2) h_j, axes of body j
-        */
-    const jg_real v_3_in_j = t54 - H_21 * C_j[3] - C_j[6] * H_22;
     const jg_real lambda_0_1_2_in_j_2 = A_ij_6 * lambda[0] + A_ij_7 * lambda[1] + A_ij_8 * lambda[2];
     const jg_real lambda_0_1_2_in_j_0 = A_ij_0 * lambda[0] + A_ij_1 * lambda[1] + A_ij_2 * lambda[2];
-    const jg_real t105 = t57 + t101;
-    const jg_real t106 = t81 + H_01 * lambda[3];
-    const jg_real t107 = t80 + H_02 * lambda[3];
+    const jg_real t103 = t58 + t99;
+    const jg_real t104 = t94 + H_01 * lambda[3];
+    const jg_real t105 = t84 + H_02 * lambda[3];
+    const jg_real v_0_in_joint_i_1 = H_02 * t94 - H_00 * t86 + H_21 * t95 - H_01 * t91 - H_22 * t96;
+    const jg_real t107 = cosine_2 * lambda[4];
+    /* v_3_in_j = sin(alpha_1) f_j - cos(alpha_1) sin(alpha_2) g_j - cos(alpha_1) cos(alpha_2) h_j, axes of body j
+        */
+    const jg_real v_3_in_j = t55 - H_21 * C_j[3] - C_j[6] * H_22;
     /* v_4_in_j = sin(alpha_1) f_j x lambda_0_1_2 - cos(alpha_1) sin(alpha_2) g_j x lambda_0_1_2 - ... */
     const jg_real v_4_in_j_0 = A_joint_i_j_8 * lambda_0_1_2_in_j_1 - A_joint_i_j_5 * lambda_0_1_2_in_j_2;
-    const jg_real v_4_in_j_2 = A_joint_i_j_5 * lambda_0_1_2_in_j_0 + lambda_0_1_2_in_j_1 * v_3_in_j;
-    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    phi_q_t_lambda_q[33] = t101;
-    phi_q_t_lambda_q[21] = t105;
-    phi_q_t_lambda_q[0] = C_i[6] * t98 - (C_i[0] * v_0_in_joint_i_0 + C_i[3] * v_0_in_joint_i_1);
-    phi_q_t_lambda_q[1] = C_i[7] * t98 - (C_i[1] * v_0_in_joint_i_0 + C_i[4] * v_0_in_joint_i_1);
-    phi_q_t_lambda_q[2] = C_i[8] * t98 - (C_i[2] * v_0_in_joint_i_0 + C_i[5] * v_0_in_joint_i_1);
-    phi_q_t_lambda_q[3] = v_4_in_j_0;
-    phi_q_t_lambda_q[5] = v_4_in_j_2;
     const jg_real t110 = sine_2 * lambda[4];
-    const jg_real t111 = s_j[0] * v_3_in_j - s_j[1] * A_joint_i_j_5 - s_j[2] * A_joint_i_j_8;
-    /* v_1_in_joint_i = cos(alpha_2) lambda_5 f_j x h_i - cos(alpha_2) lambda_4 h_j x h_i - sin(alpha_2) lambda_3
-        ... */
-    const jg_real v_1_in_joint_i_2 = H_11 * t62 - h_j_cross_f_i_in_joint_i_2 * t63;
-    const jg_real t113 = C_j[8] * sine_2;
+    const jg_real t111 = sine_2 * lambda[3];
+    const jg_real v_4_in_j_2 = A_joint_i_j_5 * lambda_0_1_2_in_j_0 + lambda_0_1_2_in_j_1 * v_3_in_j;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
-    const jg_real t115 = s_j_dot_lambda_0_1_2 + t105;
-    const jg_real t116 = s_j_dot_lambda_0_1_2 + t57;
-    const jg_real v_1_in_joint_i_0 = h_j_cross_f_i_in_joint_i_2 * t64 + H_10 * t65 - H_11 * t110;
+    phi_q[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    phi_q_t_lambda_q[33] = t99;
+    phi_q_t_lambda_q[21] = t103;
+    phi_q_t_lambda_q[3] = v_4_in_j_0;
+    phi_q_t_lambda_q[5] = v_4_in_j_2;
+    phi_q_t_lambda_q[0] = C_i[6] * t98 - (C_i[0] * v_0_in_joint_i_0 + C_i[3] * v_0_in_joint_i_1);
+    phi_q_t_lambda_q[1] = C_i[7] * t98 - (C_i[1] * v_0_in_joint_i_0 + C_i[4] * v_0_in_joint_i_1);
+    phi_q_t_lambda_q[2] = C_i[8] * t98 - (C_i[2] * v_0_in_joint_i_0 + C_i[5] * v_0_in_joint_i_1);
+    const jg_real t114 = cosine_2 * lambda[3];
+    const jg_real t115 = s_j[0] * v_3_in_j - s_j[1] * A_joint_i_j_5 - s_j[2] * A_joint_i_j_8;
+    const jg_real t116 = s_j_dot_lambda_0_1_2 + t103;
+    const jg_real t117 = s_j_dot_lambda_0_1_2 + t58;
+    /* v_1_in_joint_i = cos(alpha_2) lambda_5 f_j x h_i - cos(alpha_2) lambda_4 h_j x h_i - sin(alpha_2) lambda_3
+        ... */
+    const jg_real v_1_in_joint_i_0 = H_10 * t65 + h_j_cross_f_i_in_joint_i_2 * t107 - H_11 * t110;
+    const jg_real t119 = C_j[8] * sine_2;
     /* v_5_in_j = cos(alpha_2) g_j - sin(alpha_2) h_j, axes of body j */
-    const jg_real v_5_in_j_2 = cosine_2 * C_j[5] - t113;
-    const jg_real t119 = C_j[7] * sine_2;
-    const jg_real t120 = C_j[6] * sine_2;
-    const jg_real t121 = sine_2 * t53;
-    const jg_real v_5_in_j_1 = cosine_2 * C_j[4] - t119;
-    const jg_real v_5_in_j_0 = cosine_2 * C_j[3] - t120;
-    const jg_real t124 = H_22 * t116 + sine_1 * t107;
-    const jg_real t125 = cosine_2 * t115 + sine_2 * t82;
-    const jg_real v_1_in_joint_i_1 = H_02 * t64 - H_00 * t65 - H_21 * t62 + H_01 * t110 - H_22 * t63;
-    const jg_real t127 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
-    const jg_real t128 = cosine_1 * (sine_2 * t115 - cosine_2 * t82) + sine_1 * t106;
+    const jg_real v_5_in_j_2 = cosine_2 * C_j[5] - t119;
+    const jg_real t121 = C_j[7] * sine_2;
+    const jg_real t122 = C_j[6] * sine_2;
+    const jg_real t123 = H_22 * t117 + sine_1 * t105;
+    const jg_real v_1_in_joint_i_2 = H_11 * t111 - h_j_cross_f_i_in_joint_i_2 * t114;
+    const jg_real t125 = sine_2 * t54;
+    const jg_real v_1_in_joint_i_1 = H_02 * t107 - H_00 * t65 - H_21 * t111 + H_01 * t110 - H_22 * t114;
+    const jg_real v_5_in_j_1 = cosine_2 * C_j[4] - t121;
+    const jg_real v_5_in_j_0 = cosine_2 * C_j[3] - t122;
+    const jg_real t129 = cosine_1 * (sine_2 * t116 - cosine_2 * t86) + sine_1 * t104;
+    const jg_real t130 = cosine_2 * t116 + sine_2 * t86;
     /* v_1_in_i = cos(alpha_2) lambda_5 f_j x h_i - cos(alpha_2) lambda_4 h_j x h_i - sin(alpha_2) lambda_3 ... */
     const jg_real v_1_in_i_0 = C_i[0] * v_1_in_joint_i_0 + C_i[3] * v_1_in_joint_i_1 + C_i[6] * v_1_in_joint_i_2;
     const jg_real v_1_in_i_1 = C_i[1] * v_1_in_joint_i_0 + C_i[4] * v_1_in_joint_i_1 + C_i[7] * v_1_in_joint_i_2;
     const jg_real v_1_in_i_2 = C_i[2] * v_1_in_joint_i_0 + C_i[5] * v_1_in_joint_i_1 + C_i[8] * v_1_in_joint_i_2;
-    const jg_real t132 = -t121;
-    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_2_in_joint_i = H_11 * lambda[5];
-    const jg_real t134 = H_01 * lambda[5];
+    const jg_real t134 = cosine_2 * s_j_dot_g_j - sine_2 * s_j_dot_h_j;
+    const jg_real t135 = -t125;
     phi_q_t_lambda_q[4] = -(A_joint_i_j_8 * lambda_0_1_2_in_j_0 + lambda_0_1_2_in_j_2 * v_3_in_j);
     phi_q_t_lambda_q[14] = lambda_0_1_2_in_j_1 * v_5_in_j_2 - lambda_0_1_2_in_j_2 * v_5_in_j_1;
     phi_q_t_lambda_q[15] = lambda_0_1_2_in_j_2 * v_5_in_j_0 - lambda_0_1_2_in_j_0 * v_5_in_j_2;
     phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * v_5_in_j_1 - lambda_0_1_2_in_j_1 * v_5_in_j_0;
-    phi_q_t_lambda_q[22] = t132;
-    phi_q_t_lambda_q[32] = t132;
     phi_q_t_lambda_q[11] = -v_1_in_i_0;
     phi_q_t_lambda_q[12] = -v_1_in_i_1;
-    /* v_8_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
-    const jg_real v_8_in_j_0 = C_j[0] * t121 - C_j[3] * t125 + t116 * t120 + lambda_0_1_2_in_j_0 * t127;
-    const jg_real v_8_in_j_1 = C_j[1] * t121 - C_j[4] * t125 + t116 * t119 + lambda_0_1_2_in_j_1 * t127;
-    const jg_real v_8_in_j_2 = C_j[2] * t121 - C_j[5] * t125 + t116 * t113 + lambda_0_1_2_in_j_2 * t127;
-    /* v_7_in_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
-    const jg_real v_7_in_j_0 = C_j[3] * t128 - t54 * s_j_dot_lambda_0_1_2 + C_j[6] * t124 + lambda_0_1_2_in_j_0 *
-        t111;
-    const jg_real v_7_in_j_1 = C_j[4] * t128 - t51 * s_j_dot_lambda_0_1_2 + C_j[7] * t124 + lambda_0_1_2_in_j_1 *
-        t111;
-    const jg_real v_7_in_j_2 = C_j[5] * t128 - t52 * s_j_dot_lambda_0_1_2 + C_j[8] * t124 + lambda_0_1_2_in_j_2 *
-        t111;
-    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i - C_i[3] * t134;
-    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i - C_i[4] * t134;
-    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i - C_i[5] * t134;
     phi_q_t_lambda_q[13] = -v_1_in_i_2;
+    phi_q_t_lambda_q[22] = t135;
+    phi_q_t_lambda_q[32] = t135;
+    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_2_in_joint_i = H_11 * lambda[5];
+    const jg_real t137 = H_01 * lambda[5];
+    /* v_7_in_j = (cos(alpha_1) sin(alpha_1) cos(alpha_2) lambda_5 - sin(alpha_1) H_22 lambda_5 - ... */
+    const jg_real v_7_in_j_0 = C_j[3] * t129 - t55 * s_j_dot_lambda_0_1_2 + C_j[6] * t123 + lambda_0_1_2_in_j_0 *
+        t115;
+    const jg_real v_7_in_j_1 = C_j[4] * t129 - t52 * s_j_dot_lambda_0_1_2 + C_j[7] * t123 + lambda_0_1_2_in_j_1 *
+        t115;
+    const jg_real v_7_in_j_2 = C_j[5] * t129 - t53 * s_j_dot_lambda_0_1_2 + C_j[8] * t123 + lambda_0_1_2_in_j_2 *
+        t115;
+    /* v_8_in_j = sin(alpha_1) sin(alpha_2) lambda_5 f_j + (-H_00 cos(alpha_2) lambda_3 + sin(alpha_1) ... */
+    const jg_real v_8_in_j_0 = C_j[0] * t125 - C_j[3] * t130 + t117 * t122 + lambda_0_1_2_in_j_0 * t134;
+    const jg_real v_8_in_j_1 = C_j[1] * t125 - C_j[4] * t130 + t117 * t121 + lambda_0_1_2_in_j_1 * t134;
+    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i - C_i[3] * t137;
     phi_q_t_lambda_q[17] = v_8_in_j_0;
-    phi_q_t_lambda_q[18] = v_8_in_j_1;
-    phi_q_t_lambda_q[19] = v_8_in_j_2;
-    phi_q_t_lambda_q[23] = v_2_in_i_0;
-    phi_q_t_lambda_q[24] = v_2_in_i_1;
-    phi_q_t_lambda_q[25] = v_2_in_i_2;
-    phi_q_t_lambda_q[26] = C_j[2] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_2;
-    const jg_real t144 = s_j_dot_lambda_0_1_2 + t101;
-    const jg_real t145 = H_21 * alphadot[0] + cosine_2 * alphadot[1];
-    const jg_real t146 = H_02 * h_j_dot_omega_j;
-    const jg_real t147 = H_22 * alphadot[0] - sine_2 * alphadot[1];
-    const jg_real t148 = H_01 * g_j_dot_omega_j;
-    const jg_real t149 = cosine_2 * h_j_dot_omega_j + sine_2 * g_j_dot_omega_j;
-    const jg_real t150 = H_21 * omega_i_in_joint_i_1 - H_11 * omega_i_in_joint_i_2;
-    const jg_real t151 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2 + H_22 * omega_i_in_joint_i_1;
     phi_q_t_lambda_q[6] = -v_7_in_j_0;
     phi_q_t_lambda_q[7] = -v_7_in_j_1;
     phi_q_t_lambda_q[8] = -v_7_in_j_2;
+    phi_q_t_lambda_q[18] = v_8_in_j_1;
+    phi_q_t_lambda_q[26] = C_j[2] * lambda_0_1_2_in_j_1 - C_j[1] * lambda_0_1_2_in_j_2;
     phi_q_t_lambda_q[27] = C_j[0] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_0;
-    phi_q_t_lambda_q[28] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[29] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t144 - C_j[3] * t106 - C_j[6] * t107);
-    phi_q_t_lambda_q[30] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t144 - C_j[4] * t106 - C_j[7] * t107);
-    phi_q_t_lambda_q[31] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t144 - C_j[5] * t106 - C_j[8] * t107);
-    const jg_real t152 = sine_2 * h_j_dot_omega_j - cosine_2 * g_j_dot_omega_j;
-    const jg_real t153 = s_j_dot_f_j * v_12_in_joint_j - s_j_dot_g_j * t145 - s_j_dot_h_j * t147;
-    const jg_real t154 = v_12_in_joint_j * f_j_dot_omega_j - t145 * g_j_dot_omega_j - t147 * h_j_dot_omega_j;
+    phi_q_t_lambda_q[23] = v_2_in_i_0;
+    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i - C_i[4] * t137;
+    const jg_real t145 = s_j_dot_lambda_0_1_2 + t99;
+    const jg_real v_8_in_j_2 = C_j[2] * t125 - C_j[5] * t130 + t117 * t119 + lambda_0_1_2_in_j_2 * t134;
+    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i - C_i[5] * t137;
+    const jg_real t148 = H_21 * alphadot[0] + cosine_2 * alphadot[1];
+    const jg_real t149 = H_22 * alphadot[0] - sine_2 * alphadot[1];
+    const jg_real t150 = H_02 * h_j_dot_omega_j;
+    const jg_real t151 = H_01 * g_j_dot_omega_j;
+    const jg_real t152 = cosine_2 * h_j_dot_omega_j + sine_2 * g_j_dot_omega_j;
+    const jg_real v_10_in_joint_j_2 = h_j_dot_omega_j - t149;
+    const jg_real v_10_in_joint_j_1 = g_j_dot_omega_j - t148;
+    const jg_real t155 = H_21 * omega_i_in_joint_i_1 - H_11 * omega_i_in_joint_i_2;
+    const jg_real t156 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_2 + H_22 * omega_i_in_joint_i_1;
+    const jg_real t157 = s_j_dot_f_j * v_12_in_joint_j - s_j_dot_g_j * t148 - s_j_dot_h_j * t149;
+    const jg_real t158 = v_12_in_joint_j * f_j_dot_omega_j - t148 * g_j_dot_omega_j - t149 * h_j_dot_omega_j;
+    const jg_real t159 = sine_2 * h_j_dot_omega_j - cosine_2 * g_j_dot_omega_j;
     /* v_10_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ... */
-    const jg_real v_10_in_j_1 = C_j[1] * v_12_in_joint_j - C_j[4] * t145 - C_j[7] * t147 + omega_j[1];
-    const jg_real v_10_in_j_2 = C_j[2] * v_12_in_joint_j - C_j[5] * t145 - C_j[8] * t147 + omega_j[2];
-    const jg_real v_10_in_j_0 = C_j[0] * v_12_in_joint_j - C_j[3] * t145 - C_j[6] * t147 + omega_j[0];
+    const jg_real v_10_in_j_1 = C_j[4] * v_10_in_joint_j_1 + C_j[1] * v_10_in_joint_j_0 + C_j[7] *
+        v_10_in_joint_j_2;
+    const jg_real v_10_in_j_2 = C_j[5] * v_10_in_joint_j_1 + C_j[2] * v_10_in_joint_j_0 + C_j[8] *
+        v_10_in_joint_j_2;
+    const jg_real v_10_in_j_0 = C_j[3] * v_10_in_joint_j_1 + C_j[0] * v_10_in_joint_j_0 + C_j[6] *
+        v_10_in_joint_j_2;
     /* v_13_in_j = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
-    const jg_real v_13_in_j_0 = t153 * omega_j[0] - s_j[0] * t154;
-    const jg_real t159 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
-    const jg_real v_13_in_j_1 = t153 * omega_j[1] - s_j[1] * t154;
-    const jg_real v_13_in_j_2 = t153 * omega_j[2] - s_j[2] * t154;
+    const jg_real v_13_in_j_0 = t157 * omega_j[0] - s_j[0] * t158;
+    const jg_real v_13_in_j_1 = t157 * omega_j[1] - s_j[1] * t158;
+    const jg_real v_13_in_j_2 = t157 * omega_j[2] - s_j[2] * t158;
     /* v_11_in_j = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
     const jg_real v_11_in_j_0 = v_10_in_j_1 * v_j[2] - v_10_in_j_2 * v_j[1];
     const jg_real v_11_in_j_1 = v_10_in_j_2 * v_j[0] - v_j[2] * v_10_in_j_0;
     const jg_real v_11_in_j_2 = v_j[1] * v_10_in_j_0 - v_10_in_j_1 * v_j[0];
+    const jg_real t169 = H_11 * omega_i_in_joint_i_0 - H_01 * omega_i_in_joint_i_1;
     /* v_13_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_13_in_i_0 = A_ij_0 * v_13_in_j_0 + A_ij_3 * v_13_in_j_1 + A_ij_6 * v_13_in_j_2;
     const jg_real v_13_in_i_1 = A_ij_1 * v_13_in_j_0 + A_ij_4 * v_13_in_j_1 + A_ij_7 * v_13_in_j_2;
-    const jg_real t167 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
     const jg_real v_13_in_i_2 = A_ij_2 * v_13_in_j_0 + A_ij_5 * v_13_in_j_1 + A_ij_8 * v_13_in_j_2;
-    const jg_real t169 = H_21 * g_j_dot_omega_j;
-    const jg_real t170 = H_22 * h_j_dot_omega_j;
+    const jg_real t173 = H_21 * g_j_dot_omega_j;
+    const jg_real t174 = H_22 * h_j_dot_omega_j;
     /* v_11_in_i = (sin(alpha_1) alphadot_0 - alphadot_2) f_j x v_j + (-cos(alpha_1) sin(alpha_2) alphadot_0 - ...
         */
     const jg_real v_11_in_i_0 = A_ij_0 * v_11_in_j_0 + A_ij_3 * v_11_in_j_1 + A_ij_6 * v_11_in_j_2;
     const jg_real v_11_in_i_1 = A_ij_1 * v_11_in_j_0 + A_ij_4 * v_11_in_j_1 + A_ij_7 * v_11_in_j_2;
+    const jg_real t177 = h_j_cross_f_i_in_joint_i_2 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1;
     const jg_real v_11_in_i_2 = A_ij_2 * v_11_in_j_0 + A_ij_5 * v_11_in_j_1 + A_ij_8 * v_11_in_j_2;
-    const jg_real t174 = H_10 * omega_i_in_joint_i_0 - H_00 * omega_i_in_joint_i_1 + H_22 * g_j_dot_omega_j;
+    const jg_real t179 = H_10 * omega_i_in_joint_i_0 - H_00 * omega_i_in_joint_i_1 + H_22 * g_j_dot_omega_j;
+    const jg_real t180 = t169 - H_22 * f_j_dot_omega_j;
     /* v_14_in_i = (cos(alpha_1) cos(alpha_2) alphadot_0 (h_j . omega_j) + cos(alpha_1) sin(alpha_2) ... */
     const jg_real v_14_in_i_0 = v_11_in_i_0 - omega_i_cross_v_i_in_i_0 + v_13_in_i_0;
+    phi_q_t_lambda_q[24] = v_2_in_i_1;
+    phi_q_t_lambda_q[19] = v_8_in_j_2;
+    phi_q_t_lambda_q[25] = v_2_in_i_2;
+    phi_q_t_lambda_q[28] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[29] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t145 - C_j[3] * t104 - C_j[6] * t105);
+    phi_q_t_lambda_q[30] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t145 - C_j[4] * t104 - C_j[7] * t105);
+    phi_q_t_lambda_q[31] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t145 - C_j[5] * t104 - C_j[8] * t105);
+    gamma[0] = v_14_in_i_0;
     const jg_real v_14_in_i_1 = v_11_in_i_1 - omega_i_cross_v_i_in_i_1 + v_13_in_i_1;
     const jg_real v_14_in_i_2 = v_11_in_i_2 - omega_i_cross_v_i_in_i_2 + v_13_in_i_2;
-    const jg_real t178 = t159 - H_22 * f_j_dot_omega_j;
-    gamma[0] = v_14_in_i_0;
     gamma[1] = v_14_in_i_1;
     gamma[2] = v_14_in_i_2;
-    gamma[3] = -(alphadot[0] * (cosine_1 * (cosine_0 * alphadot[0] - H_00 * t149 - cosine_2 * t150 + sine_2 * t151)
-        - sine_1 * (t148 + sine_0 * JG_REAL(2.0) * alphadot[1] + t146)) + alphadot[1] * (H_00 * t152 + H_00 *
-        alphadot[1] + cosine_2 * t151 + sine_2 * t150) + alphadot[2] * (t146 + t148));
-    gamma[4] = -(sine_1 * (alphadot[0] * (cosine_1 * t149 - t169 - t170) - alphadot[1] * (alphadot[1] + t152)) -
-        (cosine_2 * t159 + sine_2 * t167) * (cosine_1 * alphadot[0]) + alphadot[1] * (sine_2 * t159 - cosine_2 *
-        t167) + alphadot[2] * (t169 + t170));
-    gamma[5] = cosine_1 * (cosine_2 * (alphadot[0] * (sine_1 * f_j_dot_omega_j - t169) - alphadot[1] * alphadot[1] -
-        alphadot[2] * alphadot[2]) + sine_2 * alphadot[0] * t174) + alphadot[1] * (sine_2 * (t169 + sine_1 *
-        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_2 * t174) + t56 * t178 - alphadot[2] * t178;
+    gamma[3] = -(alphadot[0] * (cosine_1 * (cosine_0 * alphadot[0] - H_00 * t152 - cosine_2 * t155 + sine_2 * t156)
+        - sine_1 * (t151 + sine_0 * JG_REAL(2.0) * alphadot[1] + t150)) + alphadot[1] * (H_00 * t159 + H_00 *
+        alphadot[1] + cosine_2 * t156 + sine_2 * t155) + alphadot[2] * (t150 + t151));
+    gamma[4] = -(sine_1 * (alphadot[0] * (cosine_1 * t152 - t173 - t174) - alphadot[1] * (alphadot[1] + t159)) -
+        (cosine_2 * t169 + sine_2 * t177) * (cosine_1 * alphadot[0]) + alphadot[1] * (sine_2 * t169 - cosine_2 *
+        t177) + alphadot[2] * (t173 + t174));
+    gamma[5] = cosine_1 * (cosine_2 * (alphadot[0] * (sine_1 * f_j_dot_omega_j - t173) - alphadot[1] * alphadot[1] -
+        alphadot[2] * alphadot[2]) + sine_2 * alphadot[0] * t179) + alphadot[1] * (sine_2 * (t173 + sine_1 *
+        (alphadot[2] * JG_REAL(2.0) - f_j_dot_omega_j)) + cosine_2 * t179) + t57 * t180 - alphadot[2] * t180;
 }
 
 void jg_ball_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

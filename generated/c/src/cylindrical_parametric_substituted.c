@@ -191,8 +191,8 @@ void jg_cylindrical_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRIC
     jg_scatter(jg_cylindrical_parametric_substituted_phi_q_sparsity(), phi_q_nz, phi_q);
 }
 
-void jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, const jg_real *geometry,
-    const jg_real *lambda, jg_real *phi_q_t_lambda_q)
+void jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT lambda, jg_real *JG_RESTRICT phi_q_t_lambda_q)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -200,26 +200,27 @@ void jg_cylindrical_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *al
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
-    /* lambda_0_1_2_cross_h_j_in_joint_i = lambda_0_1_2 x h_j, axes of joint i */
-    const jg_real lambda_0_1_2_cross_h_j_in_joint_i = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
-    const jg_real t3 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
+    /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
+    const jg_real lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
+    const jg_real lambda_0_1_2_in_joint_i_0 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] * C_i[2];
     /* v_0_in_joint_i = lambda_4 f_j - lambda_3 g_j, axes of joint i */
-    const jg_real v_0_in_joint_i_0 = lambda[4] * cosine_0 + sine_0 * lambda[3];
-    const jg_real v_0_in_joint_i_1 = lambda[4] * sine_0 - cosine_0 * lambda[3];
+    const jg_real v_0_in_joint_i_0 = lambda[4] * cosine_0 + lambda[3] * sine_0;
+    const jg_real v_0_in_joint_i_1 = lambda[4] * sine_0 - lambda[3] * cosine_0;
     /* lambda_0_1_2_cross_h_j_in_joint_j = lambda_0_1_2 x h_j, axes of joint j */
-    const jg_real lambda_0_1_2_cross_h_j_in_joint_j = cosine_0 * lambda_0_1_2_cross_h_j_in_joint_i - sine_0 * t3;
-    const jg_real t7 = sine_0 * lambda_0_1_2_cross_h_j_in_joint_i + cosine_0 * t3;
+    const jg_real lambda_0_1_2_cross_h_j_in_joint_j = lambda_0_1_2_in_joint_i_1 * cosine_0 -
+        lambda_0_1_2_in_joint_i_0 * sine_0;
+    const jg_real t7 = lambda_0_1_2_in_joint_i_1 * sine_0 + lambda_0_1_2_in_joint_i_0 * cosine_0;
     /* v_0_in_i = lambda_4 f_j - lambda_3 g_j, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3];
-    const jg_real v_0_in_i_1 = v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4];
-    const jg_real v_0_in_i_2 = v_0_in_joint_i_0 * C_i[2] + v_0_in_joint_i_1 * C_i[5];
+    const jg_real v_0_in_i_0 = C_i[0] * v_0_in_joint_i_0 + C_i[3] * v_0_in_joint_i_1;
+    const jg_real v_0_in_i_1 = C_i[1] * v_0_in_joint_i_0 + C_i[4] * v_0_in_joint_i_1;
+    const jg_real v_0_in_i_2 = C_i[2] * v_0_in_joint_i_0 + C_i[5] * v_0_in_joint_i_1;
     /* lambda_0_1_2_cross_h_j_in_j = lambda_0_1_2 x h_j, axes of body j */
     const jg_real lambda_0_1_2_cross_h_j_in_j_0 = lambda_0_1_2_cross_h_j_in_joint_j * C_j[0] - t7 * C_j[3];
     const jg_real lambda_0_1_2_cross_h_j_in_j_1 = lambda_0_1_2_cross_h_j_in_joint_j * C_j[1] - t7 * C_j[4];
     const jg_real lambda_0_1_2_cross_h_j_in_j_2 = lambda_0_1_2_cross_h_j_in_joint_j * C_j[2] - t7 * C_j[5];
-    phi_q_t_lambda_q[0] = C_i[8] * lambda[1] - C_i[7] * lambda[2];
-    phi_q_t_lambda_q[1] = C_i[6] * lambda[2] - C_i[8] * lambda[0];
-    phi_q_t_lambda_q[2] = C_i[7] * lambda[0] - C_i[6] * lambda[1];
+    phi_q_t_lambda_q[0] = C_i[0] * lambda_0_1_2_in_joint_i_1 - C_i[3] * lambda_0_1_2_in_joint_i_0;
+    phi_q_t_lambda_q[1] = C_i[1] * lambda_0_1_2_in_joint_i_1 - C_i[4] * lambda_0_1_2_in_joint_i_0;
+    phi_q_t_lambda_q[2] = C_i[2] * lambda_0_1_2_in_joint_i_1 - C_i[5] * lambda_0_1_2_in_joint_i_0;
     phi_q_t_lambda_q[6] = lambda_0_1_2_cross_h_j_in_j_0;
     phi_q_t_lambda_q[7] = lambda_0_1_2_cross_h_j_in_j_1;
     phi_q_t_lambda_q[8] = lambda_0_1_2_cross_h_j_in_j_2;

@@ -273,68 +273,70 @@ void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *alpha, co
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* s_j_dot_f_j = s_j . f_j */
-    const jg_real s_j_dot_f_j = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    /* s_j_dot_h_j = s_j . h_j */
-    const jg_real s_j_dot_h_j = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
-    /* v_0_in_joint_j = alphadot_1 h_j - omega_j, axes of joint j */
-    const jg_real v_0_in_joint_j_2 = alphadot[1] - h_j_dot_omega_j;
-    /* s_j_dot_g_j = s_j . g_j */
-    const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
+    /* v_3_in_i = alphadot_0 h_i - v_i, axes of body i */
+    const jg_real v_3_in_i_1 = C_i[7] * alphadot[0] - v_i[1];
+    const jg_real v_3_in_i_2 = alphadot[0] * C_i[8] - v_i[2];
+    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
     /* g_j_dot_omega_j = g_j . omega_j */
     const jg_real g_j_dot_omega_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
-    /* v_2_in_i = alphadot_0 h_i - v_i, axes of body i */
-    const jg_real v_2_in_i_1 = C_i[7] * alphadot[0] - v_i[1];
-    const jg_real v_2_in_i_2 = alphadot[0] * C_i[8] - v_i[2];
-    /* v_4_in_joint_j = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of joint j */
-    const jg_real v_4_in_joint_j_0 = h_j_dot_omega_j * s_j_dot_f_j - f_j_dot_omega_j * s_j_dot_h_j;
-    const jg_real v_2_in_i_0 = C_i[6] * alphadot[0] - v_i[0];
-    const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
-    const jg_real v_4_in_joint_j_1 = h_j_dot_omega_j * s_j_dot_g_j - s_j_dot_h_j * g_j_dot_omega_j;
-    /* v_1_in_joint_j = alphadot_1 h_j x v_j + v_j x omega_j, axes of joint j */
-    const jg_real v_1_in_joint_j_1 = f_j_dot_omega_j * v_j_in_joint_j_2 + v_j_in_joint_j_0 * v_0_in_joint_j_2;
-    /* v_3_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
-    const jg_real v_3_in_i_0 = v_2_in_i_1 * omega_i[2] - v_2_in_i_2 * omega_i[1];
-    const jg_real v_3_in_i_1 = v_2_in_i_2 * omega_i[0] - omega_i[2] * v_2_in_i_0;
-    const jg_real t20 = v_0_in_joint_j_2 * v_j_in_joint_j_1 + g_j_dot_omega_j * v_j_in_joint_j_2;
-    const jg_real v_1_in_joint_j_2 = g_j_dot_omega_j * v_j_in_joint_j_0 - f_j_dot_omega_j * v_j_in_joint_j_1;
-    const jg_real v_3_in_i_2 = omega_i[1] * v_2_in_i_0 - v_2_in_i_1 * omega_i[0];
+    const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
+    /* v_1_in_joint_j = alphadot_1 h_j - omega_j, axes of joint j */
+    const jg_real v_1_in_joint_j_2 = alphadot[1] - h_j_dot_omega_j;
+    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
+    const jg_real v_3_in_i_0 = C_i[6] * alphadot[0] - v_i[0];
+    /* v_4_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
+    const jg_real v_4_in_i_0 = v_3_in_i_1 * omega_i[2] - v_3_in_i_2 * omega_i[1];
+    /* v_2_in_joint_j = alphadot_1 h_j x v_j + v_j x omega_j, axes of joint j */
+    const jg_real v_2_in_joint_j_2 = v_j_in_joint_j_0 * g_j_dot_omega_j - f_j_dot_omega_j * v_j_in_joint_j_1;
+    const jg_real v_2_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_1_in_joint_j_2;
+    const jg_real t18 = v_1_in_joint_j_2 * v_j_in_joint_j_1 + v_j_in_joint_j_2 * g_j_dot_omega_j;
+    const jg_real v_4_in_i_1 = v_3_in_i_2 * omega_i[0] - omega_i[2] * v_3_in_i_0;
+    const jg_real v_4_in_i_2 = omega_i[1] * v_3_in_i_0 - v_3_in_i_1 * omega_i[0];
+    /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
+    const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
+        s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
+        s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
     /* v_8_in_joint_j = cos(alpha_1) alphadot_1 f_j - sin(alpha_1) alphadot_1 g_j, axes of joint j */
     const jg_real v_8_in_joint_j = alphadot[1] * cosine_0;
     /* v_9_in_joint_j = sin(alpha_1) alphadot_1 f_j + cos(alpha_1) alphadot_1 g_j, axes of joint j */
     const jg_real v_9_in_joint_j = alphadot[1] * sine_0;
-    /* v_1_in_joint_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of joint i */
-    const jg_real v_1_in_joint_i_1 = cosine_0 * v_1_in_joint_j_1 - sine_0 * t20;
-    const jg_real t26 = cosine_0 * t20 + sine_0 * v_1_in_joint_j_1;
-    /* v_5_in_joint_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of joint i */
-    const jg_real v_5_in_joint_i_0 = v_4_in_joint_j_0 * v_8_in_joint_j - v_4_in_joint_j_1 * v_9_in_joint_j;
-    const jg_real v_5_in_joint_i_1 = v_4_in_joint_j_0 * v_9_in_joint_j + v_8_in_joint_j * v_4_in_joint_j_1;
-    /* v_5_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_5_in_i_0 = v_5_in_joint_i_0 * C_i[0] + v_5_in_joint_i_1 * C_i[3];
-    const jg_real v_5_in_i_1 = v_5_in_joint_i_0 * C_i[1] + v_5_in_joint_i_1 * C_i[4];
-    /* v_1_in_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of body i */
-    const jg_real v_1_in_i_0 = C_i[3] * v_1_in_joint_i_1 - C_i[0] * t26 + v_1_in_joint_j_2 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i_1 * C_i[4] - t26 * C_i[1] + v_1_in_joint_j_2 * C_i[7];
-    const jg_real v_5_in_i_2 = v_5_in_joint_i_0 * C_i[2] + v_5_in_joint_i_1 * C_i[5];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_1 * C_i[5] - t26 * C_i[2] + v_1_in_joint_j_2 * C_i[8];
-    /* v_6_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 h_j x v_j - alphadot_0 h_i x omega_i - ... */
-    const jg_real v_6_in_i_0 = v_5_in_i_0 - (v_1_in_i_0 + v_3_in_i_0);
-    const jg_real v_6_in_i_1 = v_5_in_i_1 - (v_1_in_i_1 + v_3_in_i_1);
-    const jg_real v_6_in_i_2 = v_5_in_i_2 - (v_1_in_i_2 + v_3_in_i_2);
+    /* v_2_in_joint_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of joint i */
+    const jg_real v_2_in_joint_i_1 = v_2_in_joint_j_1 * cosine_0 - t18 * sine_0;
+    const jg_real t26 = cosine_0 * t18 + v_2_in_joint_j_1 * sine_0;
+    /* v_6_in_joint_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of joint i */
+    const jg_real v_6_in_joint_i_1 = s_j_cross_omega_j_in_joint_j_0 * v_8_in_joint_j -
+        s_j_cross_omega_j_in_joint_j_1 * v_9_in_joint_j;
+    const jg_real t28 = v_8_in_joint_j * s_j_cross_omega_j_in_joint_j_1 + s_j_cross_omega_j_in_joint_j_0 *
+        v_9_in_joint_j;
+    /* v_2_in_i = alphadot_1 h_j x v_j + v_j x omega_j, axes of body i */
+    const jg_real v_2_in_i_0 = v_2_in_joint_i_1 * C_i[3] - t26 * C_i[0] + v_2_in_joint_j_2 * C_i[6];
+    const jg_real v_2_in_i_1 = v_2_in_joint_i_1 * C_i[4] - t26 * C_i[1] + v_2_in_joint_j_2 * C_i[7];
+    /* v_6_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 (s_j . h_j) omega_j, axes of body i */
+    const jg_real v_6_in_i_0 = C_i[3] * v_6_in_joint_i_1 - C_i[0] * t28;
+    const jg_real v_6_in_i_1 = v_6_in_joint_i_1 * C_i[4] - t28 * C_i[1];
+    const jg_real v_2_in_i_2 = v_2_in_joint_i_1 * C_i[5] - t26 * C_i[2] + v_2_in_joint_j_2 * C_i[8];
+    const jg_real v_6_in_i_2 = v_6_in_joint_i_1 * C_i[5] - t28 * C_i[2];
+    /* v_7_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 h_j x v_j - alphadot_0 h_i x omega_i - ... */
+    const jg_real v_7_in_i_0 = v_6_in_i_0 - (v_2_in_i_0 + v_4_in_i_0);
+    const jg_real v_7_in_i_1 = v_6_in_i_1 - (v_2_in_i_1 + v_4_in_i_1);
+    const jg_real v_7_in_i_2 = v_6_in_i_2 - (v_2_in_i_2 + v_4_in_i_2);
     gamma[3] = g_j_dot_omega_j * v_9_in_joint_j - f_j_dot_omega_j * v_8_in_joint_j;
-    gamma[4] = -(f_j_dot_omega_j * v_9_in_joint_j + v_8_in_joint_j * g_j_dot_omega_j);
-    gamma[0] = v_6_in_i_0;
-    gamma[1] = v_6_in_i_1;
-    gamma[2] = v_6_in_i_2;
+    gamma[4] = -(f_j_dot_omega_j * v_9_in_joint_j + g_j_dot_omega_j * v_8_in_joint_j);
+    gamma[0] = v_7_in_i_0;
+    gamma[1] = v_7_in_i_1;
+    gamma[2] = v_7_in_i_2;
     gamma[5] = -(alphadot[1] * (cosine_0 * C_i[6] * omega_i[0] + cosine_0 * C_i[7] * omega_i[1] + cosine_0 * C_i[8]
-        * omega_i[2] + cosine_0 * v_0_in_joint_j_2));
+        * omega_i[2] + v_1_in_joint_j_2 * cosine_0));
 }
 
 void jg_cylindrical_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,
@@ -612,8 +614,8 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     const jg_real t50 = alphadot[1] * h_j_dot_omega_j;
     /* v_4_in_j = alphadot_1 h_j x v_j + v_j x omega_j, axes of body j */
     const jg_real v_4_in_j_0 = v_j[2] * v_3_in_j_1 - v_j[1] * v_3_in_j_2;
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     const jg_real v_4_in_j_1 = v_j[0] * v_3_in_j_2 - v_j[2] * v_3_in_j_0;
     const jg_real v_4_in_j_2 = v_j[1] * v_3_in_j_0 - v_j[0] * v_3_in_j_1;
     /* v_6_in_i = alphadot_0 h_i x omega_i + omega_i x v_i, axes of body i */
@@ -624,8 +626,8 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     const jg_real v_7_in_j_0 = s_j[0] * t50 - omega_j[0] * t49;
     const jg_real v_7_in_j_1 = s_j[1] * t50 - omega_j[1] * t49;
     const jg_real v_7_in_j_2 = s_j[2] * t50 - omega_j[2] * t49;
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     /* f_i_cross_f_j_in_i = f_i x f_j, axes of body i */
     const jg_real f_i_cross_f_j_in_i_0 = C_i[6] * sine_0;
     const jg_real f_i_cross_f_j_in_i_1 = C_i[7] * sine_0;
@@ -638,20 +640,19 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     const jg_real A_joint_i_j_4 = C_j[1] * sine_0 + cosine_0 * C_j[4];
     const jg_real f_i_cross_f_j_in_j_2 = C_j[8] * sine_0;
     const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - sine_0 * C_j[5];
-    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
-    const jg_real f_i_cross_g_j_in_i_0 = C_i[6] * cosine_0;
+    /* v_1_in_joint_i = lambda_5 f_i x g_j, axes of joint i */
+    const jg_real v_1_in_joint_i_2 = cosine_0 * lambda[5];
     const jg_real A_joint_i_j_7 = C_j[2] * sine_0 + cosine_0 * C_j[5];
-    const jg_real f_i_cross_g_j_in_i_1 = C_i[7] * cosine_0;
-    const jg_real A_joint_i_j_0 = cosine_0 * C_j[0] - C_j[3] * sine_0;
-    const jg_real f_i_cross_g_j_in_i_2 = C_i[8] * cosine_0;
-    const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + cosine_0 * C_j[3];
     phi[5] = f_i_dot_f_j - cosine_0;
     phi_q[48] = sine_0;
     phi_q[7] = f_i_cross_f_j_in_i_0;
     phi_q[12] = f_i_cross_f_j_in_i_1;
     phi_q[17] = f_i_cross_f_j_in_i_2;
     phi_q[36] = A_joint_i_j_4;
+    phi_q_t_lambda_q[12] = v_1_in_joint_i_2;
     phi_q[42] = A_joint_i_j_7;
+    const jg_real A_joint_i_j_0 = cosine_0 * C_j[0] - C_j[3] * sine_0;
+    const jg_real A_joint_i_j_1 = C_j[0] * sine_0 + cosine_0 * C_j[3];
     phi_q[30] = A_joint_i_j_1;
     phi_q[32] = -f_i_cross_f_j_in_j_0;
     phi_q[31] = -A_joint_i_j_0;
@@ -659,24 +660,29 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     phi_q[38] = -f_i_cross_f_j_in_j_1;
     phi_q[43] = -A_joint_i_j_6;
     phi_q[44] = -f_i_cross_f_j_in_j_2;
-    phi_q_t_lambda_q[3] = lambda[5] * f_i_cross_g_j_in_i_0;
-    phi_q_t_lambda_q[4] = lambda[5] * f_i_cross_g_j_in_i_1;
+    phi_q_t_lambda_q[3] = C_i[6] * v_1_in_joint_i_2;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * C_j[7];
     const jg_real A_ji_7 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * C_j[7];
-    const jg_real t79 = cosine_0 * lambda[5];
+    const jg_real t77 = cosine_0 * lambda[3] + sine_0 * lambda[4];
     const jg_real A_ji_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * C_j[8];
     const jg_real A_ji_5 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * C_j[8];
+    /* v_10_in_joint_j = sin(alpha_1) alphadot_1 f_j + cos(alpha_1) alphadot_1 g_j, axes of joint j */
+    const jg_real v_10_in_joint_j = sine_0 * alphadot[1];
     const jg_real A_ji_3 = C_i[1] * A_joint_i_j_0 + C_i[4] * A_joint_i_j_1 + C_i[7] * C_j[6];
     const jg_real A_ji_6 = C_i[2] * A_joint_i_j_0 + C_i[5] * A_joint_i_j_1 + C_i[8] * C_j[6];
-    phi_q_t_lambda_q[5] = lambda[5] * f_i_cross_g_j_in_i_2;
+    phi_q_t_lambda_q[4] = C_i[7] * v_1_in_joint_i_2;
+    phi_q_t_lambda_q[5] = C_i[8] * v_1_in_joint_i_2;
     phi_q[22] = A_ji_4;
     phi_q[23] = A_ji_7;
-    phi_q_t_lambda_q[12] = t79;
     phi_q[26] = A_ji_8;
     phi_q[25] = A_ji_5;
     phi_q[19] = A_ji_3;
     phi_q[20] = A_ji_6;
+    /* v_9_in_joint_j = cos(alpha_1) alphadot_1 f_j - sin(alpha_1) alphadot_1 g_j, axes of joint j */
+    const jg_real v_9_in_joint_j = cosine_0 * alphadot[1];
+    /* f_i_cross_g_j_in_i = f_i x g_j, axes of body i */
+    const jg_real f_i_cross_g_j_in_i_0 = C_i[6] * cosine_0;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
     const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_3 * A_ji_8;
     const jg_real A_ji_2 = A_ji_3 * A_ji_7 - A_ji_4 * A_ji_6;
@@ -688,7 +694,6 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     phi_q[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     phi_q[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
     phi_q[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    const jg_real t87 = cosine_0 * lambda[3] + sine_0 * lambda[4];
     const jg_real t88 = cosine_0 * lambda[4] - sine_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
@@ -702,9 +707,6 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
-    const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
-    const jg_real t97 = s_j_dot_lambda_0_1_2 + t79;
-    const jg_real v_7_in_i_2 = A_ji_6 * v_7_in_j_0 + A_ji_7 * v_7_in_j_1 + A_ji_8 * v_7_in_j_2;
     /* v_8_in_i = alphadot_1 (h_j . omega_j) s_j - alphadot_1 h_j x v_j - alphadot_0 h_i x omega_i - (s_j . ... */
     const jg_real v_8_in_i_0 = v_7_in_i_0 - (v_4_in_i_0 + v_6_in_i_0);
     phi_q[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
@@ -715,22 +717,27 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *r_i, const 
     phi_q_t_lambda_q[7] = C_j[6] * lambda_0_1_2_in_j_2 - C_j[8] * lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[8] = C_j[7] * lambda_0_1_2_in_j_0 - C_j[6] * lambda_0_1_2_in_j_1;
     gamma[0] = v_8_in_i_0;
+    const jg_real f_i_cross_g_j_in_i_1 = C_i[7] * cosine_0;
+    const jg_real f_i_cross_g_j_in_i_2 = C_i[8] * cosine_0;
+    const jg_real v_4_in_i_1 = A_ji_3 * v_4_in_j_0 + A_ji_4 * v_4_in_j_1 + A_ji_5 * v_4_in_j_2;
+    const jg_real t100 = v_1_in_joint_i_2 + s_j_dot_lambda_0_1_2;
+    const jg_real v_7_in_i_2 = A_ji_6 * v_7_in_j_0 + A_ji_7 * v_7_in_j_1 + A_ji_8 * v_7_in_j_2;
     const jg_real v_4_in_i_2 = A_ji_6 * v_4_in_j_0 + A_ji_7 * v_4_in_j_1 + A_ji_8 * v_4_in_j_2;
     const jg_real v_8_in_i_1 = v_7_in_i_1 - (v_4_in_i_1 + v_6_in_i_1);
     const jg_real v_8_in_i_2 = v_7_in_i_2 - (v_4_in_i_2 + v_6_in_i_2);
     /* v_2_in_j = (cos(alpha_1) lambda_3 + sin(alpha_1) lambda_4) f_j + (cos(alpha_1) lambda_4 - sin(alpha_1) ... */
-    const jg_real v_2_in_j_0 = C_j[0] * t87 + C_j[3] * t88 - C_j[6] * t97 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
-    const jg_real v_2_in_j_1 = C_j[1] * t87 + C_j[4] * t88 - C_j[7] * t97 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
-    const jg_real v_2_in_j_2 = C_j[2] * t87 + C_j[5] * t88 - C_j[8] * t97 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
-    gamma[3] = -(alphadot[1] * (cosine_0 * f_j_dot_omega_j - sine_0 * g_j_dot_omega_j));
+    const jg_real v_2_in_j_0 = C_j[0] * t77 + C_j[3] * t88 - C_j[6] * t100 + lambda_0_1_2_in_j_0 * s_j_dot_h_j;
+    const jg_real v_2_in_j_1 = C_j[1] * t77 + C_j[4] * t88 - C_j[7] * t100 + lambda_0_1_2_in_j_1 * s_j_dot_h_j;
+    const jg_real v_2_in_j_2 = C_j[2] * t77 + C_j[5] * t88 - C_j[8] * t100 + lambda_0_1_2_in_j_2 * s_j_dot_h_j;
+    gamma[3] = g_j_dot_omega_j * v_10_in_joint_j - f_j_dot_omega_j * v_9_in_joint_j;
+    gamma[4] = -(f_j_dot_omega_j * v_10_in_joint_j + g_j_dot_omega_j * v_9_in_joint_j);
     gamma[1] = v_8_in_i_1;
-    gamma[4] = -(alphadot[1] * (cosine_0 * g_j_dot_omega_j + sine_0 * f_j_dot_omega_j));
     gamma[2] = v_8_in_i_2;
     phi_q_t_lambda_q[9] = v_2_in_j_0;
     phi_q_t_lambda_q[10] = v_2_in_j_1;
     phi_q_t_lambda_q[11] = v_2_in_j_2;
-    gamma[5] = -(alphadot[1] * (f_i_cross_g_j_in_i_0 * omega_i[0] + f_i_cross_g_j_in_i_1 * omega_i[1] +
-        f_i_cross_g_j_in_i_2 * omega_i[2] + cosine_0 * (alphadot[1] - h_j_dot_omega_j)));
+    gamma[5] = -(alphadot[1] * (omega_i[0] * f_i_cross_g_j_in_i_0 + omega_i[1] * f_i_cross_g_j_in_i_1 + omega_i[2] *
+        f_i_cross_g_j_in_i_2 + cosine_0 * (alphadot[1] - h_j_dot_omega_j)));
 }
 
 void jg_cylindrical_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

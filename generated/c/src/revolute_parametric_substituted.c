@@ -178,18 +178,17 @@ void jg_revolute_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RE
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* h_j_cross_lambda_0_1_2_in_joint_i = h_j x lambda_0_1_2, axes of joint i */
-    const jg_real h_j_cross_lambda_0_1_2_in_joint_i_1 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] *
-        lambda[2];
-    const jg_real t3 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
+    /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
+    const jg_real lambda_0_1_2_in_joint_i_0 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
+    const jg_real lambda_0_1_2_in_joint_i_1 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
     /* v_0_in_joint_i = lambda_4 f_j - lambda_3 g_j, axes of joint i */
-    const jg_real v_0_in_joint_i_0 = lambda[4] * cosine_0 + sine_0 * lambda[3];
-    const jg_real v_0_in_joint_i_1 = lambda[4] * sine_0 - cosine_0 * lambda[3];
+    const jg_real v_0_in_joint_i_0 = lambda[4] * cosine_0 + lambda[3] * sine_0;
+    const jg_real v_0_in_joint_i_1 = lambda[4] * sine_0 - lambda[3] * cosine_0;
     /* h_j_cross_lambda_0_1_2_in_joint_j = h_j x lambda_0_1_2, axes of joint j */
-    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_0 = sine_0 * h_j_cross_lambda_0_1_2_in_joint_i_1 - cosine_0 *
-        t3;
-    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_1 = sine_0 * t3 + cosine_0 *
-        h_j_cross_lambda_0_1_2_in_joint_i_1;
+    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_i_0 - cosine_0 *
+        lambda_0_1_2_in_joint_i_1;
+    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_1 = sine_0 * lambda_0_1_2_in_joint_i_1 + cosine_0 *
+        lambda_0_1_2_in_joint_i_0;
     /* v_0_in_i = lambda_4 f_j - lambda_3 g_j, axes of body i */
     const jg_real v_0_in_i_0 = v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3];
     const jg_real v_0_in_i_1 = v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4];

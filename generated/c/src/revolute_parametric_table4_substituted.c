@@ -236,64 +236,66 @@ void jg_revolute_parametric_table4_substituted_gamma(const jg_real *alpha, const
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
+    /* v_j_in_joint_j = v_j, axes of joint j */
+    const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
+    const jg_real v_j_in_joint_j_0 = v_j[0] * C_j[0] + v_j[1] * C_j[1] + v_j[2] * C_j[2];
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
-    /* s_j_dot_f_j = s_j . f_j */
-    const jg_real s_j_dot_f_j = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
-    /* s_j_dot_h_j = s_j . h_j */
-    const jg_real s_j_dot_h_j = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
-    /* v_0_in_joint_j = alphadot_0 h_j - omega_j, axes of joint j */
-    const jg_real v_0_in_joint_j_2 = alphadot - h_j_dot_omega_j;
-    /* s_j_dot_g_j = s_j . g_j */
-    const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    /* v_j_in_joint_j = v_j, axes of joint j */
-    const jg_real v_j_in_joint_j_2 = C_j[6] * v_j[0] + C_j[7] * v_j[1] + C_j[8] * v_j[2];
-    const jg_real v_j_in_joint_j_0 = C_j[0] * v_j[0] + C_j[1] * v_j[1] + C_j[2] * v_j[2];
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
-    /* v_2_in_joint_j = (h_j . omega_j) s_j - (s_j . h_j) omega_j, axes of joint j */
-    const jg_real v_2_in_joint_j_0 = h_j_dot_omega_j * s_j_dot_f_j - f_j_dot_omega_j * s_j_dot_h_j;
-    const jg_real v_j_in_joint_j_1 = C_j[3] * v_j[0] + C_j[4] * v_j[1] + C_j[5] * v_j[2];
+    const jg_real v_j_in_joint_j_1 = v_j[0] * C_j[3] + v_j[1] * C_j[4] + v_j[2] * C_j[5];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - omega_j[1] * s_j[2];
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    const jg_real s_j_cross_omega_j_in_j_1 = omega_j[0] * s_j[2] - omega_j[2] * s_j[0];
+    /* v_1_in_joint_j = alphadot_0 h_j - omega_j, axes of joint j */
+    const jg_real v_1_in_joint_j_2 = alphadot - h_j_dot_omega_j;
+    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - omega_j[0] * s_j[1];
     const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
     const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
-    const jg_real v_2_in_joint_j_1 = h_j_dot_omega_j * s_j_dot_g_j - s_j_dot_h_j * g_j_dot_omega_j;
-    /* v_1_in_joint_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint j */
-    const jg_real v_1_in_joint_j_1 = f_j_dot_omega_j * v_j_in_joint_j_2 + v_j_in_joint_j_0 * v_0_in_joint_j_2;
-    const jg_real t18 = v_0_in_joint_j_2 * v_j_in_joint_j_1 + g_j_dot_omega_j * v_j_in_joint_j_2;
-    const jg_real v_1_in_joint_j_2 = g_j_dot_omega_j * v_j_in_joint_j_0 - f_j_dot_omega_j * v_j_in_joint_j_1;
+    /* v_2_in_joint_j = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint j */
+    const jg_real v_2_in_joint_j_2 = v_j_in_joint_j_0 * g_j_dot_omega_j - f_j_dot_omega_j * v_j_in_joint_j_1;
+    const jg_real v_2_in_joint_j_1 = v_j_in_joint_j_2 * f_j_dot_omega_j + v_j_in_joint_j_0 * v_1_in_joint_j_2;
+    const jg_real t17 = v_1_in_joint_j_2 * v_j_in_joint_j_1 + v_j_in_joint_j_2 * g_j_dot_omega_j;
+    /* s_j_cross_omega_j_in_joint_j = s_j x omega_j, axes of joint j */
+    const jg_real s_j_cross_omega_j_in_joint_j_0 = C_j[0] * s_j_cross_omega_j_in_j_0 + C_j[1] *
+        s_j_cross_omega_j_in_j_1 + C_j[2] * s_j_cross_omega_j_in_j_2;
+    const jg_real s_j_cross_omega_j_in_joint_j_1 = C_j[3] * s_j_cross_omega_j_in_j_0 + C_j[4] *
+        s_j_cross_omega_j_in_j_1 + C_j[5] * s_j_cross_omega_j_in_j_2;
     /* v_6_in_joint_j = cos(alpha_0) alphadot_0 f_j - sin(alpha_0) alphadot_0 g_j, axes of joint j */
     const jg_real v_6_in_joint_j = alphadot * cosine_0;
     /* v_7_in_joint_j = sin(alpha_0) alphadot_0 f_j + cos(alpha_0) alphadot_0 g_j, axes of joint j */
     const jg_real v_7_in_joint_j = alphadot * sine_0;
-    /* v_1_in_joint_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint i */
-    const jg_real v_1_in_joint_i_1 = cosine_0 * v_1_in_joint_j_1 - sine_0 * t18;
-    const jg_real t23 = cosine_0 * t18 + sine_0 * v_1_in_joint_j_1;
-    /* v_3_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
-    const jg_real v_3_in_joint_i_0 = v_2_in_joint_j_0 * v_6_in_joint_j - v_2_in_joint_j_1 * v_7_in_joint_j;
-    const jg_real v_3_in_joint_i_1 = v_2_in_joint_j_0 * v_7_in_joint_j + v_6_in_joint_j * v_2_in_joint_j_1;
-    /* v_3_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of body i */
-    const jg_real v_3_in_i_0 = v_3_in_joint_i_0 * C_i[0] + v_3_in_joint_i_1 * C_i[3];
-    const jg_real v_3_in_i_1 = v_3_in_joint_i_0 * C_i[1] + v_3_in_joint_i_1 * C_i[4];
-    /* v_1_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
-    const jg_real v_1_in_i_0 = C_i[3] * v_1_in_joint_i_1 - C_i[0] * t23 + v_1_in_joint_j_2 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i_1 * C_i[4] - t23 * C_i[1] + v_1_in_joint_j_2 * C_i[7];
-    const jg_real v_3_in_i_2 = v_3_in_joint_i_0 * C_i[2] + v_3_in_joint_i_1 * C_i[5];
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_1 * C_i[5] - t23 * C_i[2] + v_1_in_joint_j_2 * C_i[8];
-    /* v_4_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - alphadot_0 (s_j . h_j) omega_j - ... */
-    const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_1_in_i_0 + omega_i_cross_v_i_in_i_0);
-    const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_1_in_i_1 + omega_i_cross_v_i_in_i_1);
-    const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_1_in_i_2 + omega_i_cross_v_i_in_i_2);
+    /* v_2_in_joint_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of joint i */
+    const jg_real v_2_in_joint_i_1 = v_2_in_joint_j_1 * cosine_0 - t17 * sine_0;
+    const jg_real t23 = cosine_0 * t17 + v_2_in_joint_j_1 * sine_0;
+    /* v_4_in_joint_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of joint i */
+    const jg_real v_4_in_joint_i_1 = s_j_cross_omega_j_in_joint_j_0 * v_6_in_joint_j -
+        s_j_cross_omega_j_in_joint_j_1 * v_7_in_joint_j;
+    const jg_real t25 = v_6_in_joint_j * s_j_cross_omega_j_in_joint_j_1 + s_j_cross_omega_j_in_joint_j_0 *
+        v_7_in_joint_j;
+    /* v_2_in_i = alphadot_0 h_j x v_j + v_j x omega_j, axes of body i */
+    const jg_real v_2_in_i_0 = v_2_in_joint_i_1 * C_i[3] - t23 * C_i[0] + v_2_in_joint_j_2 * C_i[6];
+    const jg_real v_2_in_i_1 = v_2_in_joint_i_1 * C_i[4] - t23 * C_i[1] + v_2_in_joint_j_2 * C_i[7];
+    /* v_4_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 (s_j . h_j) omega_j, axes of body i */
+    const jg_real v_4_in_i_0 = C_i[3] * v_4_in_joint_i_1 - C_i[0] * t25;
+    const jg_real v_4_in_i_1 = v_4_in_joint_i_1 * C_i[4] - t25 * C_i[1];
+    const jg_real v_2_in_i_2 = v_2_in_joint_i_1 * C_i[5] - t23 * C_i[2] + v_2_in_joint_j_2 * C_i[8];
+    const jg_real v_4_in_i_2 = v_4_in_joint_i_1 * C_i[5] - t25 * C_i[2];
+    /* v_5_in_i = alphadot_0 (h_j . omega_j) s_j - alphadot_0 h_j x v_j - alphadot_0 (s_j . h_j) omega_j - ... */
+    const jg_real v_5_in_i_0 = v_4_in_i_0 - (v_2_in_i_0 + omega_i_cross_v_i_in_i_0);
+    const jg_real v_5_in_i_1 = v_4_in_i_1 - (v_2_in_i_1 + omega_i_cross_v_i_in_i_1);
+    const jg_real v_5_in_i_2 = v_4_in_i_2 - (v_2_in_i_2 + omega_i_cross_v_i_in_i_2);
     gamma[3] = g_j_dot_omega_j * v_7_in_joint_j - f_j_dot_omega_j * v_6_in_joint_j;
-    gamma[4] = -(f_j_dot_omega_j * v_7_in_joint_j + v_6_in_joint_j * g_j_dot_omega_j);
-    gamma[0] = v_4_in_i_0;
-    gamma[1] = v_4_in_i_1;
-    gamma[2] = v_4_in_i_2;
+    gamma[4] = -(f_j_dot_omega_j * v_7_in_joint_j + g_j_dot_omega_j * v_6_in_joint_j);
+    gamma[0] = v_5_in_i_0;
+    gamma[1] = v_5_in_i_1;
+    gamma[2] = v_5_in_i_2;
     gamma[5] = -(alphadot * (cosine_0 * C_i[6] * omega_i[0] + cosine_0 * C_i[7] * omega_i[1] + cosine_0 * C_i[8] *
-        omega_i[2] + cosine_0 * v_0_in_joint_j_2));
+        omega_i[2] + v_1_in_joint_j_2 * cosine_0));
 }
 
 void jg_revolute_parametric_table4_substituted_phi_q_v(const jg_real *alpha, const jg_real *geometry,

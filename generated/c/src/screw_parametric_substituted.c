@@ -213,30 +213,30 @@ void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, c
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    /* vector_8_in_i = vector_8, axes of body i */
-    const jg_real vector_8_in_i_2 = pitch * lambda[2];
-    const jg_real vector_8_in_i_1 = pitch * lambda[1];
-    const jg_real vector_8_in_i_0 = lambda[0] * pitch;
-    /* h_i_cross_vector_8_in_i = h_i x vector_8, axes of body i */
-    const jg_real h_i_cross_vector_8_in_i_0 = C_i[7] * vector_8_in_i_2 - C_i[8] * vector_8_in_i_1;
-    const jg_real h_i_cross_vector_8_in_i_1 = C_i[8] * vector_8_in_i_0 - C_i[6] * vector_8_in_i_2;
-    const jg_real h_i_cross_vector_8_in_i_2 = C_i[6] * vector_8_in_i_1 - C_i[7] * vector_8_in_i_0;
-    /* h_j_cross_lambda_0_1_2_in_joint_i = h_j x lambda_0_1_2, axes of joint i */
-    const jg_real h_j_cross_lambda_0_1_2_in_joint_i_1 = lambda[0] * C_i[0] + lambda[1] * C_i[1] + lambda[2] *
-        C_i[2];
-    const jg_real t9 = lambda[0] * C_i[3] + lambda[1] * C_i[4] + lambda[2] * C_i[5];
+    const jg_real t2 = lambda[0] * C_i[3];
+    const jg_real t3 = lambda[1] * C_i[4];
+    const jg_real t4 = lambda[2] * C_i[5];
+    const jg_real t5 = lambda[0] * C_i[0];
+    const jg_real t6 = lambda[1] * C_i[1];
+    const jg_real t7 = lambda[2] * C_i[2];
+    /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
+    const jg_real lambda_0_1_2_in_joint_i_0 = t5 + t6 + t7;
+    const jg_real lambda_0_1_2_in_joint_i_1 = t2 + t3 + t4;
+    /* g_i_dot_vector_8 = g_i . vector_8 */
+    const jg_real g_i_dot_vector_8 = pitch * t2 + pitch * t3 + pitch * t4;
+    /* f_i_dot_vector_8 = f_i . vector_8 */
+    const jg_real f_i_dot_vector_8 = pitch * t5 + pitch * t6 + pitch * t7;
     /* v_0_in_joint_i = lambda_4 f_j - lambda_3 g_j, axes of joint i */
-    const jg_real v_0_in_joint_i_0 = lambda[4] * cosine_0 + sine_0 * lambda[3];
+    const jg_real v_0_in_joint_i_0 = lambda[4] * cosine_0 + lambda[3] * sine_0;
     const jg_real v_0_in_joint_i_1 = lambda[4] * sine_0 - cosine_0 * lambda[3];
     /* h_j_cross_lambda_0_1_2_in_joint_j = h_j x lambda_0_1_2, axes of joint j */
-    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_0 = sine_0 * h_j_cross_lambda_0_1_2_in_joint_i_1 - cosine_0 *
-        t9;
-    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_1 = sine_0 * t9 + cosine_0 *
-        h_j_cross_lambda_0_1_2_in_joint_i_1;
-    /* v_0_in_i = lambda_4 f_j - lambda_3 g_j, axes of body i */
-    const jg_real v_0_in_i_0 = v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3];
-    const jg_real v_0_in_i_1 = v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4];
-    const jg_real v_0_in_i_2 = v_0_in_joint_i_0 * C_i[2] + v_0_in_joint_i_1 * C_i[5];
+    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_i_0 - cosine_0 *
+        lambda_0_1_2_in_joint_i_1;
+    const jg_real h_j_cross_lambda_0_1_2_in_joint_j_1 = sine_0 * lambda_0_1_2_in_joint_i_1 + cosine_0 *
+        lambda_0_1_2_in_joint_i_0;
+    /* v_1_in_joint_i = lambda_4 f_j - lambda_3 g_j + h_i x vector_8, axes of joint i */
+    const jg_real v_1_in_joint_i_0 = v_0_in_joint_i_0 - g_i_dot_vector_8;
+    const jg_real v_1_in_joint_i_1 = f_i_dot_vector_8 + v_0_in_joint_i_1;
     /* h_j_cross_lambda_0_1_2_in_j = h_j x lambda_0_1_2, axes of body j */
     const jg_real h_j_cross_lambda_0_1_2_in_j_0 = h_j_cross_lambda_0_1_2_in_joint_j_0 * C_j[0] +
         h_j_cross_lambda_0_1_2_in_joint_j_1 * C_j[3];
@@ -245,9 +245,9 @@ void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *alpha, c
     const jg_real h_j_cross_lambda_0_1_2_in_j_2 = h_j_cross_lambda_0_1_2_in_joint_j_0 * C_j[2] +
         h_j_cross_lambda_0_1_2_in_joint_j_1 * C_j[5];
     /* v_1_in_i = lambda_4 f_j - lambda_3 g_j + h_i x vector_8, axes of body i */
-    const jg_real v_1_in_i_0 = h_i_cross_vector_8_in_i_0 + v_0_in_i_0;
-    const jg_real v_1_in_i_1 = h_i_cross_vector_8_in_i_1 + v_0_in_i_1;
-    const jg_real v_1_in_i_2 = h_i_cross_vector_8_in_i_2 + v_0_in_i_2;
+    const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + C_i[3] * v_1_in_joint_i_1;
+    const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + C_i[4] * v_1_in_joint_i_1;
+    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + C_i[5] * v_1_in_joint_i_1;
     phi_q_t_lambda_q[3] = -h_j_cross_lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[4] = -h_j_cross_lambda_0_1_2_in_j_1;
     phi_q_t_lambda_q[5] = -h_j_cross_lambda_0_1_2_in_j_2;

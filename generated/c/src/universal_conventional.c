@@ -296,10 +296,10 @@ void jg_universal_conventional_gamma(const jg_real *A_i, const jg_real *A_j, con
     const jg_real omega_i_world_2 = omega_i[0] * A_i[2] + omega_i[1] * A_i[5] + omega_i[2] * A_i[8];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    /* v_1_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
-    const jg_real v_1_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_j_world_0 * s_j_dot_omega_j;
-    const jg_real v_1_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_j_world_1 * s_j_dot_omega_j;
-    const jg_real v_1_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_j_world_2 * s_j_dot_omega_j;
+    /* v_0_world = (omega_j . omega_j) s_j - (s_j . omega_j) omega_j, world axes */
+    const jg_real v_0_world_0 = omega_j_dot_omega_j * s_j_world_0 - omega_j_world_0 * s_j_dot_omega_j;
+    const jg_real v_0_world_1 = omega_j_dot_omega_j * s_j_world_1 - omega_j_world_1 * s_j_dot_omega_j;
+    const jg_real v_0_world_2 = omega_j_dot_omega_j * s_j_world_2 - omega_j_world_2 * s_j_dot_omega_j;
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_0 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
     /* h_j_world = h_j, world axes */
@@ -310,18 +310,18 @@ void jg_universal_conventional_gamma(const jg_real *A_i, const jg_real *A_j, con
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_i_world_2 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    /* v_0_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
-    const jg_real v_0_world_0 = omega_i_dot_omega_i * s_i_world_0 - omega_i_world_0 * s_i_dot_omega_i;
-    const jg_real v_0_world_1 = omega_i_dot_omega_i * s_i_world_1 - omega_i_world_1 * s_i_dot_omega_i;
-    const jg_real v_0_world_2 = omega_i_dot_omega_i * s_i_world_2 - omega_i_world_2 * s_i_dot_omega_i;
+    /* v_1_world = (omega_i . omega_i) s_i - (s_i . omega_i) omega_i, world axes */
+    const jg_real v_1_world_0 = omega_i_dot_omega_i * s_i_world_0 - omega_i_world_0 * s_i_dot_omega_i;
+    const jg_real v_1_world_1 = omega_i_dot_omega_i * s_i_world_1 - omega_i_world_1 * s_i_dot_omega_i;
+    const jg_real v_1_world_2 = omega_i_dot_omega_i * s_i_world_2 - omega_i_world_2 * s_i_dot_omega_i;
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* omega_j_dot_omega_i = omega_j . omega_i */
-    const jg_real omega_j_dot_omega_i = omega_i_world_0 * omega_j_world_0 + omega_i_world_1 * omega_j_world_1 +
-        omega_i_world_2 * omega_j_world_2;
+    const jg_real omega_j_dot_omega_i = omega_j_world_0 * omega_i_world_0 + omega_j_world_1 * omega_i_world_1 +
+        omega_j_world_2 * omega_i_world_2;
     /* v_2_world = (omega_j . omega_j) s_j - (omega_i . omega_i) s_i - (s_j . omega_j) omega_j + (s_i . ... */
-    const jg_real v_2_world_0 = v_1_world_0 - v_0_world_0;
-    const jg_real v_2_world_1 = v_1_world_1 - v_0_world_1;
-    const jg_real v_2_world_2 = v_1_world_2 - v_0_world_2;
+    const jg_real v_2_world_0 = v_0_world_0 - v_1_world_0;
+    const jg_real v_2_world_1 = v_0_world_1 - v_1_world_1;
+    const jg_real v_2_world_2 = v_0_world_2 - v_1_world_2;
     /* omega_j_dot_h_i = omega_j . h_i */
     const jg_real omega_j_dot_h_i = omega_j_world_0 * h_i_world_0 + omega_j_world_1 * h_i_world_1 + omega_j_world_2
         * h_i_world_2;
@@ -337,7 +337,7 @@ void jg_universal_conventional_gamma(const jg_real *A_i, const jg_real *A_j, con
     gamma[0] = v_2_world_0;
     gamma[1] = v_2_world_1;
     gamma[2] = v_2_world_2;
-    gamma[3] = h_i_dot_h_j * (omega_i_dot_omega_i + omega_j_dot_omega_j - omega_j_dot_omega_i * JG_REAL(2.0)) +
+    gamma[3] = h_i_dot_h_j * (omega_j_dot_omega_j + omega_i_dot_omega_i - omega_j_dot_omega_i * JG_REAL(2.0)) +
         omega_j_dot_h_i * (omega_i_dot_h_j * JG_REAL(2.0) - omega_j_dot_h_j) - omega_i_dot_h_j * omega_i_dot_h_i;
 }
 
@@ -353,9 +353,9 @@ void jg_universal_conventional_phi_q_v(const jg_real *A_i, const jg_real *A_j, c
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
-    const jg_real s_i_cross_omega_i_in_i_0 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
-    const jg_real s_i_cross_omega_i_in_i_1 = omega_i[0] * s_i[2] - omega_i[2] * s_i[0];
-    const jg_real s_i_cross_omega_i_in_i_2 = omega_i[1] * s_i[0] - omega_i[0] * s_i[1];
+    const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
+    const jg_real s_i_cross_omega_i_in_i_1 = s_i[2] * omega_i[0] - s_i[0] * omega_i[2];
+    const jg_real s_i_cross_omega_i_in_i_2 = s_i[0] * omega_i[1] - s_i[1] * omega_i[0];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];

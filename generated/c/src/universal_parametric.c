@@ -350,10 +350,10 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_re
     const jg_real t50 = cosine_0 * sine_1;
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    const jg_real t52 = cosine_1 * lambda[3];
-    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
     /* v_5_in_joint_j = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of joint j */
     const jg_real v_5_in_joint_j = sine_1 * lambda[4];
+    const jg_real f_star_in_i_0 = cosine_0 * C_i[0] + sine_0 * C_i[3];
+    const jg_real t54 = cosine_1 * lambda[3];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
     /* v_2_in_i = lambda_5 f_star, axes of body i */
     const jg_real v_2_in_i_1 = f_star_in_i_1 * lambda[5];
@@ -422,10 +422,10 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_re
         v_4_in_j_1;
     const jg_real M_1_j_j_7 = C_j[2] * v_1_in_j_1 + s_j[2] * lambda_0_1_2_in_j_1 + v_2_in_j_1 * C_j[5] + C_j[8] *
         v_4_in_j_1;
-    /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
+    /* f_star_dot_f_j = f_star . f_j */
+    const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     const jg_real M_1_j_j_8 = C_j[2] * v_1_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + v_2_in_j_2 * C_j[5] + C_j[8] *
         v_4_in_j_2;
     const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_1_in_j_0 + C_j[4] * v_2_in_j_0 + C_j[7] *
@@ -445,130 +445,131 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *r_i, const jg_re
     const jg_real t104 = M_1_j_j_8 + M_1_j_j_0;
     const jg_real t105 = M_1_j_j_4 + M_1_j_j_0;
     /* v_6_in_joint_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j, axes of joint j */
-    const jg_real v_6_in_joint_j_1 = f_star_dot_f_j * t52 + f_star_dot_h_j * v_5_in_joint_j;
-    /* v_10_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
-    const jg_real v_10_in_star_1 = lambda[3] * f_star_dot_h_j;
+    const jg_real v_6_in_joint_j_1 = f_star_dot_h_j * v_5_in_joint_j + f_star_dot_f_j * t54;
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
-    const jg_real t109 = A_ij_6 * t105 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
+    const jg_real t108 = A_ij_6 * t105 - (A_ij_0 * M_1_j_j_2 + A_ij_3 * M_1_j_j_5);
     phi_q_t_lambda_q[54] = M_1_j_j_1;
     phi_q_t_lambda_q[74] = M_1_j_j_7;
     phi_q_t_lambda_q[63] = M_1_j_j_3;
     phi_q_t_lambda_q[73] = M_1_j_j_6;
     phi_q_t_lambda_q[55] = M_1_j_j_2;
     phi_q_t_lambda_q[65] = M_1_j_j_5;
-    phi_q_t_lambda_q[14] = t109;
-    phi_q_t_lambda_q[68] = t109;
+    phi_q_t_lambda_q[14] = t108;
+    phi_q_t_lambda_q[68] = t108;
     /* h_star_dot_h_j = h_star . h_j */
     const jg_real h_star_dot_h_j = C_j[6] * h_star_in_j_0 + C_j[7] * h_star_in_j_1 + C_j[8] * h_star_in_j_2;
-    const jg_real t111 = lambda[3] * g_star_dot_h_j + lambda[4] * h_star_dot_f_j;
+    const jg_real t110 = lambda[3] * g_star_dot_h_j + lambda[4] * h_star_dot_f_j;
     /* v_7_in_joint_j = cos(alpha_1) g_star x g_j - sin(alpha_1) h_star x g_j, axes of joint j */
     const jg_real v_7_in_joint_j_2 = cosine_1 * g_star_dot_f_j - sine_1 * h_star_dot_f_j;
-    const jg_real t113 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t103 + A_ij_6 * M_1_j_j_6);
-    const jg_real t114 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t104 + A_ij_6 * M_1_j_j_7);
+    const jg_real t112 = -(A_ij_3 * M_1_j_j_3 - A_ij_0 * t103 + A_ij_6 * M_1_j_j_6);
+    const jg_real t113 = -(A_ij_0 * M_1_j_j_1 - A_ij_3 * t104 + A_ij_6 * M_1_j_j_7);
     /* v_8_in_joint_j = cos(alpha_1) lambda_5 g_star x g_j - sin(alpha_1) lambda_5 h_star x g_j, axes of joint j */
     const jg_real v_8_in_joint_j_2 = lambda[5] * v_7_in_joint_j_2;
     /* g_j_in_star = g_j, axes of body star */
     const jg_real g_j_in_star = g_star_dot_h_j * h_star_dot_f_j - g_star_dot_f_j * h_star_dot_h_j;
-    const jg_real t117 = cosine_1 * g_star_dot_h_j - sine_1 * h_star_dot_h_j;
+    const jg_real t116 = cosine_1 * g_star_dot_h_j - sine_1 * h_star_dot_h_j;
     const jg_real M_0_i_i_1 = lambda[1] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_1 + v_2_in_i_1 * g_j_in_i_0 +
         g_star_in_i_1 * v_3_in_i_0;
+    /* v_11_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
+    const jg_real v_11_in_j_0 = v_4_in_j_0 * f_star_dot_h_j - f_star_in_j_0 * t110 + v_1_in_j_0 * f_star_dot_f_j;
+    const jg_real v_11_in_j_1 = v_4_in_j_1 * f_star_dot_h_j - f_star_in_j_1 * t110 + v_1_in_j_1 * f_star_dot_f_j;
+    const jg_real v_11_in_j_2 = v_4_in_j_2 * f_star_dot_h_j - f_star_in_j_2 * t110 + v_1_in_j_2 * f_star_dot_f_j;
     const jg_real M_0_i_i_0 = lambda[0] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_0 + v_2_in_i_0 * g_j_in_i_0 +
         g_star_in_i_0 * v_3_in_i_0;
-    /* v_10_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_10_in_i_0 = g_star_in_i_0 * v_10_in_star_1 - f_star_in_i_0 * t111 + v_1_in_i_0 * f_star_dot_f_j;
     const jg_real M_0_i_i_7 = lambda[1] * e_ij_in_i_2 + f_j_in_i_2 * v_1_in_i_1 + v_2_in_i_1 * g_j_in_i_2 +
         g_star_in_i_1 * v_3_in_i_2;
-    phi_q_t_lambda_q[12] = t113;
-    phi_q_t_lambda_q[48] = t113;
-    phi_q_t_lambda_q[13] = t114;
-    phi_q_t_lambda_q[58] = t114;
-    phi_q_t_lambda_q[17] = M_0_i_i_1;
-    phi_q_t_lambda_q[16] = v_10_in_i_0;
-    phi_q_t_lambda_q[86] = v_10_in_i_0;
-    phi_q_t_lambda_q[19] = M_0_i_i_7;
-    const jg_real t122 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t103 + A_ij_7 * M_1_j_j_6);
-    const jg_real t123 = t52 * g_j_in_star + lambda[5] * t117;
+    const jg_real t123 = t54 * g_j_in_star + lambda[5] * t116;
     /* v_9_in_joint_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ...
         */
     const jg_real v_9_in_joint_j_2 = v_8_in_joint_j_2 - v_5_in_joint_j * g_j_in_star;
-    const jg_real t125 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t104 + A_ij_7 * M_1_j_j_7);
-    const jg_real t126 = A_ij_7 * t105 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
-    phi_q_t_lambda_q[23] = t122;
-    phi_q_t_lambda_q[49] = t122;
+    const jg_real t125 = -(A_ij_4 * M_1_j_j_3 - A_ij_1 * t103 + A_ij_7 * M_1_j_j_6);
+    phi_q_t_lambda_q[12] = t112;
+    phi_q_t_lambda_q[48] = t112;
+    phi_q_t_lambda_q[13] = t113;
+    phi_q_t_lambda_q[58] = t113;
+    phi_q_t_lambda_q[17] = M_0_i_i_1;
+    phi_q_t_lambda_q[19] = M_0_i_i_7;
+    phi_q_t_lambda_q[23] = t125;
+    phi_q_t_lambda_q[49] = t125;
+    const jg_real t126 = -(A_ij_1 * M_1_j_j_1 - A_ij_4 * t104 + A_ij_7 * M_1_j_j_7);
+    const jg_real t127 = A_ij_7 * t105 - (A_ij_1 * M_1_j_j_2 + A_ij_4 * M_1_j_j_5);
+    /* v_11_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
+    const jg_real v_11_in_i_0 = A_ij_0 * v_11_in_j_0 + A_ij_3 * v_11_in_j_1 + A_ij_6 * v_11_in_j_2;
+    const jg_real v_11_in_i_1 = A_ij_1 * v_11_in_j_0 + A_ij_4 * v_11_in_j_1 + A_ij_7 * v_11_in_j_2;
     phi_q_t_lambda_q[18] = -(M_0_i_i_8 + M_0_i_i_0);
-    phi_q_t_lambda_q[24] = t125;
-    phi_q_t_lambda_q[59] = t125;
-    phi_q_t_lambda_q[25] = t126;
-    phi_q_t_lambda_q[69] = t126;
-    phi_q_t_lambda_q[30] = -(M_0_i_i_4 + M_0_i_i_0);
-    const jg_real v_10_in_i_1 = g_star_in_i_1 * v_10_in_star_1 - f_star_in_i_1 * t111 + v_1_in_i_1 * f_star_dot_f_j;
-    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_2 + v_2_in_i_2 * g_j_in_i_0 +
-        g_star_in_i_2 * v_3_in_i_0;
+    phi_q_t_lambda_q[24] = t126;
+    phi_q_t_lambda_q[59] = t126;
+    phi_q_t_lambda_q[25] = t127;
+    phi_q_t_lambda_q[69] = t127;
+    phi_q_t_lambda_q[16] = v_11_in_i_0;
+    phi_q_t_lambda_q[86] = v_11_in_i_0;
+    phi_q_t_lambda_q[27] = v_11_in_i_1;
+    phi_q_t_lambda_q[87] = v_11_in_i_1;
     /* v_9_in_i = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
     const jg_real v_9_in_i_0 = v_6_in_joint_j_1 * g_j_in_i_0 - f_j_in_i_0 * t123 + h_j_in_i_0 * v_9_in_joint_j_2;
     const jg_real v_9_in_i_1 = g_j_in_i_1 * v_6_in_joint_j_1 - f_j_in_i_1 * t123 + h_j_in_i_1 * v_9_in_joint_j_2;
+    const jg_real M_0_i_i_2 = lambda[2] * e_ij_in_i_0 + f_j_in_i_0 * v_1_in_i_2 + v_2_in_i_2 * g_j_in_i_0 +
+        g_star_in_i_2 * v_3_in_i_0;
     const jg_real M_0_i_i_5 = lambda[2] * e_ij_in_i_1 + f_j_in_i_1 * v_1_in_i_2 + g_j_in_i_1 * v_2_in_i_2 +
         v_3_in_i_1 * g_star_in_i_2;
-    phi_q_t_lambda_q[27] = v_10_in_i_1;
-    phi_q_t_lambda_q[87] = v_10_in_i_1;
-    phi_q_t_lambda_q[28] = M_0_i_i_2;
     phi_q_t_lambda_q[15] = v_9_in_i_0;
     phi_q_t_lambda_q[78] = v_9_in_i_0;
     phi_q_t_lambda_q[26] = v_9_in_i_1;
     phi_q_t_lambda_q[79] = v_9_in_i_1;
-    phi_q_t_lambda_q[29] = M_0_i_i_5;
-    const jg_real t132 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t103 + A_ij_8 * M_1_j_j_6);
-    const jg_real t133 = A_ij_8 * t105 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
-    const jg_real t134 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t104 + A_ij_8 * M_1_j_j_7);
+    phi_q_t_lambda_q[30] = -(M_0_i_i_4 + M_0_i_i_0);
+    phi_q_t_lambda_q[28] = M_0_i_i_2;
     phi_q_t_lambda_q[53] = -t103;
+    phi_q_t_lambda_q[29] = M_0_i_i_5;
+    const jg_real t134 = -v_11_in_j_0;
+    const jg_real t135 = -(A_ij_5 * M_1_j_j_3 - A_ij_2 * t103 + A_ij_8 * M_1_j_j_6);
+    const jg_real t136 = A_ij_8 * t105 - (A_ij_2 * M_1_j_j_2 + A_ij_5 * M_1_j_j_5);
+    const jg_real t137 = -v_11_in_j_1;
+    phi_q_t_lambda_q[57] = t134;
+    phi_q_t_lambda_q[89] = t134;
     phi_q_t_lambda_q[64] = -t104;
-    phi_q_t_lambda_q[34] = t132;
-    phi_q_t_lambda_q[50] = t132;
-    phi_q_t_lambda_q[36] = t133;
-    phi_q_t_lambda_q[70] = t133;
-    phi_q_t_lambda_q[35] = t134;
-    phi_q_t_lambda_q[60] = t134;
+    phi_q_t_lambda_q[34] = t135;
+    phi_q_t_lambda_q[50] = t135;
+    phi_q_t_lambda_q[36] = t136;
+    phi_q_t_lambda_q[70] = t136;
+    phi_q_t_lambda_q[67] = t137;
+    phi_q_t_lambda_q[90] = t137;
     const jg_real v_9_in_i_2 = g_j_in_i_2 * v_6_in_joint_j_1 - f_j_in_i_2 * t123 + h_j_in_i_2 * v_9_in_joint_j_2;
-    const jg_real v_10_in_i_2 = g_star_in_i_2 * v_10_in_star_1 - f_star_in_i_2 * t111 + v_1_in_i_2 * f_star_dot_f_j;
-    /* v_10_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_10_in_j_0 = g_star_in_j_0 * v_10_in_star_1 - f_star_in_j_0 * t111 + v_1_in_j_0 * f_star_dot_f_j;
-    /* v_9_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_9_in_j_0 = A_ij_0 * v_9_in_i_0 + A_ij_1 * v_9_in_i_1 + A_ij_2 * v_9_in_i_2;
-    const jg_real v_9_in_j_1 = A_ij_3 * v_9_in_i_0 + A_ij_4 * v_9_in_i_1 + A_ij_5 * v_9_in_i_2;
-    const jg_real v_10_in_star_2 = lambda[4] * f_star_dot_f_j;
-    const jg_real t141 = -v_10_in_j_0;
-    const jg_real v_10_in_j_1 = g_star_in_j_1 * v_10_in_star_1 - f_star_in_j_1 * t111 + v_1_in_j_1 * f_star_dot_f_j;
+    const jg_real t139 = -(A_ij_2 * M_1_j_j_1 - A_ij_5 * t104 + A_ij_8 * M_1_j_j_7);
+    const jg_real v_11_in_i_2 = A_ij_2 * v_11_in_j_0 + A_ij_5 * v_11_in_j_1 + A_ij_8 * v_11_in_j_2;
+    const jg_real t141 = -v_11_in_j_2;
     phi_q_t_lambda_q[37] = v_9_in_i_2;
     phi_q_t_lambda_q[80] = v_9_in_i_2;
     phi_q_t_lambda_q[75] = -t105;
-    phi_q_t_lambda_q[38] = v_10_in_i_2;
-    phi_q_t_lambda_q[88] = v_10_in_i_2;
-    phi_q_t_lambda_q[57] = t141;
-    phi_q_t_lambda_q[89] = t141;
-    phi_q_t_lambda_q[93] = -t111;
+    phi_q_t_lambda_q[35] = t139;
+    phi_q_t_lambda_q[60] = t139;
+    phi_q_t_lambda_q[38] = v_11_in_i_2;
+    phi_q_t_lambda_q[88] = v_11_in_i_2;
+    phi_q_t_lambda_q[77] = t141;
+    phi_q_t_lambda_q[91] = t141;
+    const jg_real t142 = lambda[5] * g_j_in_star;
+    /* v_11_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
+    const jg_real v_11_in_star_1 = lambda[3] * f_star_dot_h_j;
+    const jg_real v_11_in_star_2 = lambda[4] * f_star_dot_f_j;
+    /* v_9_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_9_in_j_0 = A_ij_0 * v_9_in_i_0 + A_ij_1 * v_9_in_i_1 + A_ij_2 * v_9_in_i_2;
+    const jg_real v_9_in_j_1 = A_ij_3 * v_9_in_i_0 + A_ij_4 * v_9_in_i_1 + A_ij_5 * v_9_in_i_2;
     const jg_real v_9_in_j_2 = A_ij_6 * v_9_in_i_0 + A_ij_7 * v_9_in_i_1 + A_ij_8 * v_9_in_i_2;
-    const jg_real t144 = -v_9_in_j_0;
-    const jg_real t145 = -v_9_in_j_1;
-    const jg_real t146 = -v_10_in_j_1;
-    const jg_real v_10_in_j_2 = g_star_in_j_2 * v_10_in_star_1 - f_star_in_j_2 * t111 + v_1_in_j_2 * f_star_dot_f_j;
-    const jg_real t148 = -v_9_in_j_2;
-    phi_q_t_lambda_q[56] = t144;
-    phi_q_t_lambda_q[81] = t144;
-    phi_q_t_lambda_q[66] = t145;
-    phi_q_t_lambda_q[82] = t145;
-    phi_q_t_lambda_q[67] = t146;
-    phi_q_t_lambda_q[90] = t146;
-    phi_q_t_lambda_q[76] = t148;
-    phi_q_t_lambda_q[83] = t148;
-    const jg_real t149 = sine_1 * v_10_in_star_1 + cosine_1 * v_10_in_star_2;
-    const jg_real t150 = -v_10_in_j_2;
-    phi_q_t_lambda_q[85] = t149;
-    phi_q_t_lambda_q[92] = t149;
-    phi_q_t_lambda_q[77] = t150;
-    phi_q_t_lambda_q[91] = t150;
-    phi_q_t_lambda_q[84] = -(t52 * t117 - v_5_in_joint_j * v_7_in_joint_j_2 + cosine_1 * g_j_in_star * (lambda[5] *
-        cosine_1) + sine_1 * g_j_in_star * (lambda[5] * sine_1));
+    const jg_real t148 = -v_9_in_j_0;
+    const jg_real t149 = -v_9_in_j_1;
+    const jg_real t150 = sine_1 * v_11_in_star_1 + cosine_1 * v_11_in_star_2;
+    const jg_real t151 = -v_9_in_j_2;
+    phi_q_t_lambda_q[93] = -t110;
+    phi_q_t_lambda_q[56] = t148;
+    phi_q_t_lambda_q[81] = t148;
+    phi_q_t_lambda_q[66] = t149;
+    phi_q_t_lambda_q[82] = t149;
+    phi_q_t_lambda_q[85] = t150;
+    phi_q_t_lambda_q[92] = t150;
+    phi_q_t_lambda_q[76] = t151;
+    phi_q_t_lambda_q[83] = t151;
+    phi_q_t_lambda_q[84] = -(t54 * t116 - v_5_in_joint_j * v_7_in_joint_j_2 + cosine_1 * cosine_1 * t142 + sine_1 *
+        sine_1 * t142);
 }
 
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -597,19 +598,19 @@ void jg_universal_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const
     jg_real sine_1;
     jg_real cosine_1;
     jg_sincos(alpha[1], &sine_1, &cosine_1);
-    /* v_2_in_i = 2 omega_i, axes of body i */
-    const jg_real v_2_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    /* v_0_in_i = 2 omega_i, axes of body i */
+    const jg_real v_0_in_i_1 = omega_i[1] * JG_REAL(2.0);
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
-    const jg_real v_2_in_i_0 = omega_i[0] * JG_REAL(2.0);
-    const jg_real A_ji_7 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
-    const jg_real v_2_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    const jg_real v_0_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
+    const jg_real v_0_in_i_2 = omega_i[2] * JG_REAL(2.0);
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    /* v_3_world = r_j - r_i, world axes */
+    const jg_real v_3_world_0 = r_j[0] - r_i[0];
+    const jg_real v_3_world_1 = r_j[1] - r_i[1];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    const jg_real v_3_world_2 = r_j[2] - r_i[2];
     const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
     const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
@@ -621,44 +622,44 @@ void jg_universal_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const
     const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
     const jg_real omega_j_in_i_2 = omega_j[0] * A_ji_6 + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
     const jg_real s_j_in_i_2 = A_ji_6 * s_j[0] + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
-    /* v_0_in_i = r_j - r_i, axes of body i */
-    const jg_real v_0_in_i_0 = A_i[0] * v_0_world_0 + A_i[1] * v_0_world_1 + A_i[2] * v_0_world_2;
-    const jg_real v_0_in_i_1 = v_0_world_0 * A_i[3] + v_0_world_1 * A_i[4] + v_0_world_2 * A_i[5];
-    /* v_3_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_3_in_i_0 = v_2_in_i_0 - omega_j_in_i_0;
-    const jg_real v_3_in_i_2 = v_2_in_i_2 - omega_j_in_i_2;
+    /* v_3_in_i = r_j - r_i, axes of body i */
+    const jg_real v_3_in_i_0 = A_i[0] * v_3_world_0 + A_i[1] * v_3_world_1 + A_i[2] * v_3_world_2;
+    const jg_real v_3_in_i_1 = v_3_world_0 * A_i[3] + v_3_world_1 * A_i[4] + v_3_world_2 * A_i[5];
+    /* v_5_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_5_in_i_0 = v_0_in_i_0 - omega_j_in_i_0;
+    const jg_real v_5_in_i_2 = v_0_in_i_2 - omega_j_in_i_2;
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
-    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
-    const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
+    const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_3_in_i_0;
+    const jg_real v_3_in_i_2 = A_i[6] * v_3_world_0 + A_i[7] * v_3_world_1 + A_i[8] * v_3_world_2;
     const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
     const jg_real s_j_in_i_1 = A_ji_3 * s_j[0] + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
-    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
-    const jg_real v_3_in_i_1 = v_2_in_i_1 - omega_j_in_i_1;
+    const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_3_in_i_2;
+    const jg_real v_5_in_i_1 = v_0_in_i_1 - omega_j_in_i_1;
     /* v_j_in_i = v_j, axes of body i */
     const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
+    const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_3_in_i_1;
     const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
-    /* v_7_in_i = v_j - v_i, axes of body i */
-    const jg_real v_7_in_i_1 = v_j_in_i_1 - v_i[1];
+    /* v_1_in_i = v_j - v_i, axes of body i */
+    const jg_real v_1_in_i_1 = v_j_in_i_1 - v_i[1];
     const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
-    const jg_real v_7_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_1_in_i_2 = v_j_in_i_2 - v_i[2];
     /* h_j_in_i = h_j, axes of body i */
     const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    const jg_real v_7_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real v_1_in_i_0 = v_j_in_i_0 - v_i[0];
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
     const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    const jg_real t43 = s_j_in_i_1 * v_3_in_i_1 + s_j_in_i_0 * v_3_in_i_0 + s_j_in_i_2 * v_3_in_i_2;
+    const jg_real t43 = s_j_in_i_1 * v_5_in_i_1 + s_j_in_i_0 * v_5_in_i_0 + s_j_in_i_2 * v_5_in_i_2;
     const jg_real t44 = omega_i[1] * e_ij_in_i_1 + omega_i[0] * e_ij_in_i_0 + omega_i[2] * e_ij_in_i_2;
-    /* v_8_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_8_in_i_0 = v_2_in_i_1 * v_7_in_i_2 - v_2_in_i_2 * v_7_in_i_1;
+    /* v_2_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_2_in_i_0 = v_0_in_i_1 * v_1_in_i_2 - v_0_in_i_2 * v_1_in_i_1;
     /* f_j_in_i = f_j, axes of body i */
     const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    /* v_5_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
-    const jg_real v_5_in_i_0 = omega_i[0] * t44;
-    const jg_real v_5_in_i_1 = omega_i[1] * t44;
-    const jg_real v_8_in_i_1 = v_2_in_i_2 * v_7_in_i_0 - v_2_in_i_0 * v_7_in_i_2;
-    const jg_real v_5_in_i_2 = omega_i[2] * t44;
-    const jg_real v_8_in_i_2 = v_2_in_i_0 * v_7_in_i_1 - v_2_in_i_1 * v_7_in_i_0;
+    /* v_7_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
+    const jg_real v_7_in_i_0 = omega_i[0] * t44;
+    const jg_real v_7_in_i_1 = omega_i[1] * t44;
+    const jg_real v_2_in_i_1 = v_0_in_i_2 * v_1_in_i_0 - v_0_in_i_0 * v_1_in_i_2;
+    const jg_real v_7_in_i_2 = omega_i[2] * t44;
+    const jg_real v_2_in_i_2 = v_0_in_i_0 * v_1_in_i_1 - v_0_in_i_1 * v_1_in_i_0;
     const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
     const jg_real t53 = JG_REAL(2.0) * alphadot[1];
     const jg_real t54 = alphadot[1] * alphadot[1];
@@ -738,11 +739,11 @@ void jg_universal_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const
     /* omega_j_dot_h_j = omega_j . h_j */
     const jg_real omega_j_dot_h_j = omega_j_dot_f_star * f_star_dot_h_j + omega_j_dot_g_star * g_star_dot_h_j +
         omega_j_dot_h_star * h_star_dot_h_j;
-    /* v_1_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
-    const jg_real v_1_in_i_0 = omega_i_dot_omega_i * v_0_in_i_0;
+    /* v_4_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
+    const jg_real v_4_in_i_0 = omega_i_dot_omega_i * v_3_in_i_0;
     const jg_real t92 = omega_i_dot_omega_j * JG_REAL(2.0);
-    const jg_real v_1_in_i_1 = omega_i_dot_omega_i * v_0_in_i_1;
-    const jg_real v_1_in_i_2 = omega_i_dot_omega_i * v_0_in_i_2;
+    const jg_real v_4_in_i_1 = omega_i_dot_omega_i * v_3_in_i_1;
+    const jg_real v_4_in_i_2 = omega_i_dot_omega_i * v_3_in_i_2;
     /* omega_j_dot_f_j = omega_j . f_j */
     const jg_real omega_j_dot_f_j = omega_j_dot_f_star * f_star_dot_f_j + omega_j_dot_g_star * g_star_dot_f_j +
         omega_j_dot_h_star * h_star_dot_f_j;
@@ -750,18 +751,18 @@ void jg_universal_parametric_gamma(const jg_real *r_i, const jg_real *A_i, const
     const jg_real omega_i_dot_g_j = omega_i_dot_f_star * g_j_in_star_0 + omega_i_dot_g_star * g_j_in_star_1 +
         omega_i_dot_h_star * g_j_in_star_2;
     const jg_real t97 = omega_i_dot_omega_i - t92 + omega_j_dot_omega_j;
-    /* v_4_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
-    const jg_real v_4_in_i_0 = t97 * s_j_in_i_0 + omega_j_in_i_0 * t43;
-    const jg_real v_4_in_i_1 = t97 * s_j_in_i_1 + omega_j_in_i_1 * t43;
-    const jg_real v_4_in_i_2 = t97 * s_j_in_i_2 + omega_j_in_i_2 * t43;
-    /* v_6_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_6_in_i_0 = v_4_in_i_0 + v_1_in_i_0 - v_5_in_i_0;
-    const jg_real v_6_in_i_1 = v_4_in_i_1 + v_1_in_i_1 - v_5_in_i_1;
-    const jg_real v_6_in_i_2 = v_4_in_i_2 + v_1_in_i_2 - v_5_in_i_2;
+    /* v_6_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
+    const jg_real v_6_in_i_0 = t97 * s_j_in_i_0 + omega_j_in_i_0 * t43;
+    const jg_real v_6_in_i_1 = t97 * s_j_in_i_1 + omega_j_in_i_1 * t43;
+    const jg_real v_6_in_i_2 = t97 * s_j_in_i_2 + omega_j_in_i_2 * t43;
+    /* v_8_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_8_in_i_0 = v_6_in_i_0 + v_4_in_i_0 - v_7_in_i_0;
+    const jg_real v_8_in_i_1 = v_6_in_i_1 + v_4_in_i_1 - v_7_in_i_1;
+    const jg_real v_8_in_i_2 = v_6_in_i_2 + v_4_in_i_2 - v_7_in_i_2;
     /* v_9_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_9_in_i_0 = v_6_in_i_0 + v_8_in_i_0;
-    const jg_real v_9_in_i_1 = v_6_in_i_1 + v_8_in_i_1;
-    const jg_real v_9_in_i_2 = v_6_in_i_2 + v_8_in_i_2;
+    const jg_real v_9_in_i_0 = v_8_in_i_0 + v_2_in_i_0;
+    const jg_real v_9_in_i_1 = v_8_in_i_1 + v_2_in_i_1;
+    const jg_real v_9_in_i_2 = v_8_in_i_2 + v_2_in_i_2;
     gamma[0] = v_9_in_i_0;
     gamma[1] = v_9_in_i_1;
     gamma[2] = v_9_in_i_2;
@@ -809,60 +810,60 @@ void jg_universal_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, con
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
     const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
     /* v_0_in_j = r_j - r_i, axes of body j */
     const jg_real v_0_in_j_1 = A_j[3] * v_0_world_0 + A_j[4] * v_0_world_1 + A_j[5] * v_0_world_2;
     const jg_real v_0_in_j_2 = A_j[6] * v_0_world_0 + A_j[7] * v_0_world_1 + A_j[8] * v_0_world_2;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
+    jg_real sine_0;
+    jg_real cosine_0;
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
     /* e_ij_in_j = r_j + s_j - r_i, axes of body j */
     const jg_real e_ij_in_j_1 = v_0_in_j_1 + s_j[1];
+    jg_real sine_1;
+    jg_real cosine_1;
+    jg_sincos(alpha[1], &sine_1, &cosine_1);
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
     const jg_real e_ij_in_j_2 = v_0_in_j_2 + s_j[2];
     const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
-    jg_real sine_0;
-    jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
-    jg_real sine_1;
-    jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real e_ij_in_j_0 = v_0_in_j_0 + s_j[0];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_2 = A_ji_2 * v_i[0] + A_ji_5 * v_i[1] + A_ji_8 * v_i[2];
-    const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + A_ji_3 * v_i[1] + A_ji_6 * v_i[2];
-    const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + A_ji_4 * v_i[1] + A_ji_7 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
+    const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
+    const jg_real omega_i_in_j_0 = omega_i[0] * A_ji_0 + omega_i[1] * A_ji_3 + omega_i[2] * A_ji_6;
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
+    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* v_1_in_j = r_j x omega_i + s_j x omega_i - r_i x omega_i, axes of body j */
     const jg_real v_1_in_j_0 = omega_i_in_j_2 * e_ij_in_j_1 - omega_i_in_j_1 * e_ij_in_j_2;
     const jg_real v_1_in_j_1 = omega_i_in_j_0 * e_ij_in_j_2 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = omega_i_in_j_1 * e_ij_in_j_0 - omega_i_in_j_0 * e_ij_in_j_1;
+    /* v_3_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_1_in_j_0 + v_2_in_j_0;
+    const jg_real v_3_in_j_1 = v_1_in_j_1 + v_2_in_j_1;
+    const jg_real v_3_in_j_2 = v_1_in_j_2 + v_2_in_j_2;
     /* omega_i_in_joint_j = omega_i, axes of joint j */
     const jg_real omega_i_in_joint_j_0 = omega_i_in_j_0 * C_j[0] + omega_i_in_j_1 * C_j[1] + omega_i_in_j_2 *
         C_j[2];
     const jg_real omega_i_in_joint_j_1 = omega_i_in_j_0 * C_j[3] + omega_i_in_j_1 * C_j[4] + omega_i_in_j_2 *
         C_j[5];
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
     const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
         C_j[8];
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    /* v_3_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
+    /* v_3_in_i = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
     const jg_real v_3_in_i_0 = A_ji_0 * v_3_in_j_0 + A_ji_1 * v_3_in_j_1 + A_ji_2 * v_3_in_j_2;
     const jg_real v_3_in_i_1 = A_ji_3 * v_3_in_j_0 + A_ji_4 * v_3_in_j_1 + A_ji_5 * v_3_in_j_2;
     const jg_real v_3_in_i_2 = A_ji_6 * v_3_in_j_0 + A_ji_7 * v_3_in_j_1 + A_ji_8 * v_3_in_j_2;
+    /* v_4_in_i = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body i */
+    const jg_real v_4_in_i_0 = v_3_in_i_0 - v_i[0];
+    const jg_real v_4_in_i_1 = v_3_in_i_1 - v_i[1];
+    const jg_real v_4_in_i_2 = v_3_in_i_2 - v_i[2];
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     const jg_real t50 = sine_1 * cosine_0;
@@ -884,10 +885,10 @@ void jg_universal_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, con
     const jg_real h_star_in_j_0 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = f_star_in_j_0 * C_j[6] + f_star_in_j_1 * C_j[7] + f_star_in_j_2 * C_j[8];
-    /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - h_star_in_j_2 * f_star_in_j_1;
+    /* f_star_dot_f_j = f_star . f_j */
+    const jg_real f_star_dot_f_j = f_star_in_j_0 * C_j[0] + f_star_in_j_1 * C_j[1] + f_star_in_j_2 * C_j[2];
     const jg_real g_star_in_j_1 = h_star_in_j_2 * f_star_in_j_0 - h_star_in_j_0 * f_star_in_j_2;
     const jg_real g_star_in_j_2 = h_star_in_j_0 * f_star_in_j_1 - h_star_in_j_1 * f_star_in_j_0;
     /* h_star_dot_h_j = h_star . h_j */
@@ -898,9 +899,9 @@ void jg_universal_parametric_phi_q_v(const jg_real *r_i, const jg_real *A_i, con
     const jg_real g_star_dot_g_j = g_star_in_j_0 * C_j[3] + g_star_in_j_1 * C_j[4] + g_star_in_j_2 * C_j[5];
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = g_star_in_j_0 * C_j[0] + g_star_in_j_1 * C_j[1] + g_star_in_j_2 * C_j[2];
-    phi_q_v[0] = v_3_in_i_0;
-    phi_q_v[1] = v_3_in_i_1;
-    phi_q_v[2] = v_3_in_i_2;
+    phi_q_v[0] = v_4_in_i_0;
+    phi_q_v[1] = v_4_in_i_1;
+    phi_q_v[2] = v_4_in_i_2;
     phi_q_v[4] = omega_i_in_joint_j_1 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_dot_g_j + (sine_1 *
         alphadot[0] * f_star_dot_f_j - g_star_dot_f_j * alphadot[1]) - (h_star_dot_h_j * omega_j_in_joint_j_1 -
         omega_j_in_joint_j_2 * h_star_dot_g_j);
@@ -1091,8 +1092,8 @@ void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const j
     const jg_real s_j_in_i_2 = s_j[0] * A_ji_6 + A_ji_7 * s_j[1] + A_ji_8 * s_j[2];
     const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + A_ji_4 * s_j[1] + A_ji_5 * s_j[2];
     const jg_real v_0_in_i_2 = A_i[6] * v_0_world_0 + A_i[7] * v_0_world_1 + A_i[8] * v_0_world_2;
-    /* f_j_in_i = f_j, axes of body i */
-    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
     /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
     const jg_real e_ij_in_i_1 = s_j_in_i_1 + v_0_in_i_1;
     const jg_real e_ij_in_i_2 = s_j_in_i_2 + v_0_in_i_2;
@@ -1104,17 +1105,17 @@ void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const j
     phi_q[24] = A_ji_2;
     phi_q[13] = e_ij_in_i_1;
     phi_q[3] = e_ij_in_i_2;
-    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
     const jg_real s_j_in_i_0 = A_ji_0 * s_j[0] + A_ji_1 * s_j[1] + A_ji_2 * s_j[2];
     /* d_ij_in_i = r_j + s_j - r_i - s_i, axes of body i */
     const jg_real d_ij_in_i_1 = e_ij_in_i_1 - s_i[1];
     const jg_real d_ij_in_i_2 = e_ij_in_i_2 - s_i[2];
-    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real f_j_in_i_1 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
     const jg_real e_ij_in_i_0 = s_j_in_i_0 + v_0_in_i_0;
-    const jg_real g_j_in_i_2 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real f_j_in_i_2 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
     const jg_real d_ij_in_i_0 = e_ij_in_i_0 - s_i[0];
     phi[1] = d_ij_in_i_1;
     phi[2] = d_ij_in_i_2;
@@ -1125,7 +1126,7 @@ void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const j
     phi_q[28] = A_ji_5 * s_j[1] - A_ji_4 * s_j[2];
     phi[0] = d_ij_in_i_0;
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_2 = f_j_in_i_0 * g_j_in_i_1 - f_j_in_i_1 * g_j_in_i_0;
+    const jg_real h_j_in_i_2 = g_j_in_i_1 * f_j_in_i_0 - g_j_in_i_0 * f_j_in_i_1;
     phi_q[14] = -e_ij_in_i_0;
     phi_q[29] = A_ji_8 * s_j[1] - A_ji_7 * s_j[2];
     phi_q[33] = A_ji_0 * s_j[2] - s_j[0] * A_ji_2;
@@ -1134,17 +1135,17 @@ void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const j
     phi_q_t_lambda_q[5] = lambda[0];
     phi_q_t_lambda_q[3] = -lambda[0];
     phi_q[35] = A_ji_6 * s_j[2] - A_ji_8 * s_j[0];
-    const jg_real h_j_in_i_1 = f_j_in_i_2 * g_j_in_i_0 - f_j_in_i_0 * g_j_in_i_2;
-    const jg_real h_j_in_i_0 = f_j_in_i_1 * g_j_in_i_2 - f_j_in_i_2 * g_j_in_i_1;
-    /* v_1_in_i = lambda_4 f_j, axes of body i */
-    const jg_real v_1_in_i_1 = f_j_in_i_1 * lambda[4];
-    /* v_2_in_i = lambda_5 g_j, axes of body i */
-    const jg_real v_2_in_i_1 = g_j_in_i_1 * lambda[5];
-    /* v_3_in_i = lambda_3 h_j, axes of body i */
-    const jg_real v_3_in_i_2 = h_j_in_i_2 * lambda[3];
-    const jg_real v_1_in_i_2 = f_j_in_i_2 * lambda[4];
-    const jg_real v_3_in_i_1 = h_j_in_i_1 * lambda[3];
-    const jg_real v_2_in_i_2 = g_j_in_i_2 * lambda[5];
+    const jg_real h_j_in_i_1 = g_j_in_i_0 * f_j_in_i_2 - g_j_in_i_2 * f_j_in_i_0;
+    const jg_real h_j_in_i_0 = g_j_in_i_2 * f_j_in_i_1 - g_j_in_i_1 * f_j_in_i_2;
+    /* v_2_in_i = lambda_4 f_j, axes of body i */
+    const jg_real v_2_in_i_1 = f_j_in_i_1 * lambda[4];
+    /* v_3_in_i = lambda_5 g_j, axes of body i */
+    const jg_real v_3_in_i_1 = g_j_in_i_1 * lambda[5];
+    /* v_4_in_i = lambda_3 h_j, axes of body i */
+    const jg_real v_4_in_i_2 = h_j_in_i_2 * lambda[3];
+    const jg_real v_2_in_i_2 = f_j_in_i_2 * lambda[4];
+    const jg_real v_4_in_i_1 = h_j_in_i_1 * lambda[3];
+    const jg_real v_3_in_i_2 = g_j_in_i_2 * lambda[5];
     const jg_real t43 = A_ji_6 * lambda[1] - A_ji_3 * lambda[2];
     const jg_real t44 = A_ji_7 * lambda[1] - A_ji_4 * lambda[2];
     phi_q_t_lambda_q[4] = -lambda[1];
@@ -1156,9 +1157,9 @@ void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const j
     phi_q_t_lambda_q[10] = t44;
     phi_q_t_lambda_q[42] = t44;
     const jg_real t45 = A_ji_8 * lambda[1] - A_ji_5 * lambda[2];
-    const jg_real v_1_in_i_0 = f_j_in_i_0 * lambda[4];
-    const jg_real v_2_in_i_0 = g_j_in_i_0 * lambda[5];
-    const jg_real v_3_in_i_0 = h_j_in_i_0 * lambda[3];
+    const jg_real v_2_in_i_0 = f_j_in_i_0 * lambda[4];
+    const jg_real v_3_in_i_0 = g_j_in_i_0 * lambda[5];
+    const jg_real v_4_in_i_0 = h_j_in_i_0 * lambda[3];
     /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
     const jg_real lambda_0_1_2_in_j_1 = A_ji_1 * lambda[0] + A_ji_4 * lambda[1] + A_ji_7 * lambda[2];
     const jg_real lambda_0_1_2_in_j_2 = A_ji_2 * lambda[0] + A_ji_5 * lambda[1] + A_ji_8 * lambda[2];
@@ -1187,385 +1188,406 @@ void jg_universal_parametric_all(const jg_real *r_i, const jg_real *A_i, const j
     phi_q_t_lambda_q[32] = t56;
     phi_q_t_lambda_q[44] = t56;
     const jg_real t57 = A_ji_5 * lambda[0] - A_ji_2 * lambda[1];
-    /* v_18_in_i = 2 omega_i, axes of body i */
-    const jg_real v_18_in_i_0 = omega_i[0] * JG_REAL(2.0);
-    const jg_real v_18_in_i_1 = omega_i[1] * JG_REAL(2.0);
-    const jg_real v_18_in_i_2 = omega_i[2] * JG_REAL(2.0);
+    /* v_17_in_i = 2 omega_i, axes of body i */
+    const jg_real v_17_in_i_0 = omega_i[0] * JG_REAL(2.0);
+    const jg_real v_17_in_i_1 = omega_i[1] * JG_REAL(2.0);
+    const jg_real v_17_in_i_2 = omega_i[2] * JG_REAL(2.0);
     /* omega_j_in_i = omega_j, axes of body i */
     const jg_real omega_j_in_i_0 = A_ji_0 * omega_j[0] + A_ji_1 * omega_j[1] + A_ji_2 * omega_j[2];
     const jg_real omega_j_in_i_1 = A_ji_3 * omega_j[0] + A_ji_4 * omega_j[1] + A_ji_5 * omega_j[2];
     const jg_real omega_j_in_i_2 = A_ji_6 * omega_j[0] + A_ji_7 * omega_j[1] + A_ji_8 * omega_j[2];
     /* omega_i_dot_omega_i = omega_i . omega_i */
     const jg_real omega_i_dot_omega_i = omega_i[0] * omega_i[0] + omega_i[1] * omega_i[1] + omega_i[2] * omega_i[2];
-    /* v_21_in_i = 2 omega_i - omega_j, axes of body i */
-    const jg_real v_21_in_i_0 = v_18_in_i_0 - omega_j_in_i_0;
-    const jg_real t66 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
-    const jg_real v_21_in_i_1 = v_18_in_i_1 - omega_j_in_i_1;
+    /* v_20_in_i = 2 omega_i - omega_j, axes of body i */
+    const jg_real v_20_in_i_0 = v_17_in_i_0 - omega_j_in_i_0;
+    const jg_real v_20_in_i_1 = v_17_in_i_1 - omega_j_in_i_1;
+    const jg_real t67 = e_ij_in_i_0 * omega_i[0] + e_ij_in_i_1 * omega_i[1] + e_ij_in_i_2 * omega_i[2];
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     const jg_real t69 = sine_1 * cosine_0;
-    /* v_7_in_joint_j = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of joint j */
-    const jg_real v_7_in_joint_j = sine_1 * lambda[4];
+    const jg_real t70 = sine_1 * lambda[4];
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[0] * cosine_0 + sine_0 * C_i[3];
     const jg_real t72 = cosine_1 * lambda[3];
     const jg_real f_star_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
-    /* v_16_in_star = sin(alpha_1) lambda_5 g_star + cos(alpha_1) lambda_5 h_star, axes of body star */
-    const jg_real v_16_in_star_2 = cosine_1 * lambda[5];
+    const jg_real t74 = cosine_1 * lambda[5];
     const jg_real f_star_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
-    const jg_real v_16_in_star_1 = sine_1 * lambda[5];
+    const jg_real t76 = sine_1 * lambda[5];
+    const jg_real t77 = cosine_1 * cosine_1;
+    const jg_real t78 = sine_1 * sine_1;
     /* h_star_in_i = h_star, axes of body i */
     const jg_real h_star_in_i_0 = H_02 * C_i[0] - t69 * C_i[3] + cosine_1 * C_i[6];
     const jg_real h_star_in_i_1 = H_02 * C_i[1] - t69 * C_i[4] + cosine_1 * C_i[7];
     const jg_real h_star_in_i_2 = H_02 * C_i[2] - t69 * C_i[5] + cosine_1 * C_i[8];
-    /* f_star_dot_g_j = f_star . g_j */
-    const jg_real f_star_dot_g_j = g_j_in_i_0 * f_star_in_i_0 + g_j_in_i_1 * f_star_in_i_1 + g_j_in_i_2 *
-        f_star_in_i_2;
+    /* f_star_in_j = f_star, axes of body j */
+    const jg_real f_star_in_j_0 = A_ji_0 * f_star_in_i_0 + A_ji_3 * f_star_in_i_1 + A_ji_6 * f_star_in_i_2;
+    const jg_real f_star_in_j_1 = A_ji_1 * f_star_in_i_0 + A_ji_4 * f_star_in_i_1 + A_ji_7 * f_star_in_i_2;
+    const jg_real f_star_in_j_2 = A_ji_2 * f_star_in_i_0 + A_ji_5 * f_star_in_i_1 + A_ji_8 * f_star_in_i_2;
+    /* h_star_in_j = h_star, axes of body j */
+    const jg_real h_star_in_j_0 = A_ji_0 * h_star_in_i_0 + A_ji_3 * h_star_in_i_1 + A_ji_6 * h_star_in_i_2;
+    const jg_real h_star_in_j_1 = A_ji_1 * h_star_in_i_0 + A_ji_4 * h_star_in_i_1 + A_ji_7 * h_star_in_i_2;
     /* f_star_dot_f_j = f_star . f_j */
-    const jg_real f_star_dot_f_j = f_j_in_i_0 * f_star_in_i_0 + f_j_in_i_1 * f_star_in_i_1 + f_j_in_i_2 *
-        f_star_in_i_2;
+    const jg_real f_star_dot_f_j = f_star_in_i_0 * f_j_in_i_0 + f_star_in_i_1 * f_j_in_i_1 + f_star_in_i_2 *
+        f_j_in_i_2;
+    const jg_real h_star_in_j_2 = A_ji_2 * h_star_in_i_0 + A_ji_5 * h_star_in_i_1 + A_ji_8 * h_star_in_i_2;
+    /* h_star_dot_g_j = h_star . g_j */
+    const jg_real h_star_dot_g_j = h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_2 *
+        g_j_in_i_2;
+    /* f_star_dot_g_j = f_star . g_j */
+    const jg_real f_star_dot_g_j = f_star_in_j_0 * C_j[3] + f_star_in_j_1 * C_j[4] + f_star_in_j_2 * C_j[5];
+    /* h_star_dot_h_j = h_star . h_j */
+    const jg_real h_star_dot_h_j = h_star_in_i_1 * h_j_in_i_1 + h_star_in_i_0 * h_j_in_i_0 + h_star_in_i_2 *
+        h_j_in_i_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = f_star_in_i_1 * h_j_in_i_1 + f_star_in_i_0 * h_j_in_i_0 + f_star_in_i_2 *
         h_j_in_i_2;
     /* h_star_dot_f_j = h_star . f_j */
-    const jg_real h_star_dot_f_j = f_j_in_i_0 * h_star_in_i_0 + f_j_in_i_1 * h_star_in_i_1 + f_j_in_i_2 *
-        h_star_in_i_2;
-    /* h_star_dot_g_j = h_star . g_j */
-    const jg_real h_star_dot_g_j = h_star_in_i_0 * g_j_in_i_0 + h_star_in_i_1 * g_j_in_i_1 + h_star_in_i_2 *
-        g_j_in_i_2;
-    /* g_star_in_i = g_star, axes of body i */
-    const jg_real g_star_in_i_1 = h_star_in_i_2 * f_star_in_i_0 - h_star_in_i_0 * f_star_in_i_2;
-    /* h_star_dot_h_j = h_star . h_j */
-    const jg_real h_star_dot_h_j = h_star_in_i_1 * h_j_in_i_1 + h_star_in_i_0 * h_j_in_i_0 + h_star_in_i_2 *
-        h_j_in_i_2;
-    /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
-    const jg_real f_star_cross_g_j_in_i_0 = f_star_dot_f_j * h_j_in_i_0 - f_j_in_i_0 * f_star_dot_h_j;
-    /* g_star_in_joint_j = g_star, axes of joint j */
-    const jg_real g_star_in_joint_j_2 = h_star_dot_f_j * f_star_dot_g_j - h_star_dot_g_j * f_star_dot_f_j;
-    phi_q_t_lambda_q[33] = t57;
-    phi_q_t_lambda_q[47] = t57;
-    phi[5] = f_star_dot_g_j;
-    phi[4] = h_star_dot_f_j;
-    phi_q[46] = sine_1 * f_star_dot_f_j;
-    phi_q[48] = h_star_dot_h_j;
-    phi_q[7] = f_star_cross_g_j_in_i_0;
-    phi[3] = g_star_in_joint_j_2;
-    const jg_real f_star_cross_g_j_in_i_1 = f_star_dot_f_j * h_j_in_i_1 - f_j_in_i_1 * f_star_dot_h_j;
-    const jg_real f_star_cross_g_j_in_i_2 = f_star_dot_f_j * h_j_in_i_2 - f_j_in_i_2 * f_star_dot_h_j;
-    const jg_real g_star_in_joint_j_1 = f_star_dot_f_j * h_star_dot_h_j - h_star_dot_f_j * f_star_dot_h_j;
-    const jg_real g_star_in_joint_j_0 = h_star_dot_g_j * f_star_dot_h_j - f_star_dot_g_j * h_star_dot_h_j;
+    const jg_real h_star_dot_f_j = h_star_in_j_0 * C_j[0] + h_star_in_j_1 * C_j[1] + h_star_in_j_2 * C_j[2];
     /* h_star_cross_f_j_in_i = h_star x f_j, axes of body i */
     const jg_real h_star_cross_f_j_in_i_0 = g_j_in_i_0 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_0;
     const jg_real h_star_cross_f_j_in_i_1 = g_j_in_i_1 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_1;
-    const jg_real h_star_cross_f_j_in_i_2 = g_j_in_i_2 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_2;
-    phi_q[12] = f_star_cross_g_j_in_i_1;
-    phi_q[17] = f_star_cross_g_j_in_i_2;
+    /* g_star_in_joint_j = g_star, axes of joint j */
+    const jg_real g_star_in_joint_j_0 = h_star_dot_g_j * f_star_dot_h_j - f_star_dot_g_j * h_star_dot_h_j;
+    /* f_star_cross_g_j_in_i = f_star x g_j, axes of body i */
+    const jg_real f_star_cross_g_j_in_i_0 = f_star_dot_f_j * h_j_in_i_0 - f_j_in_i_0 * f_star_dot_h_j;
+    phi_q_t_lambda_q[33] = t57;
+    phi_q_t_lambda_q[47] = t57;
+    phi[5] = f_star_dot_g_j;
+    phi_q[48] = h_star_dot_h_j;
+    phi[4] = h_star_dot_f_j;
     phi_q[6] = h_star_cross_f_j_in_i_0;
     phi_q[11] = h_star_cross_f_j_in_i_1;
+    phi_q[7] = f_star_cross_g_j_in_i_0;
+    const jg_real f_star_cross_g_j_in_i_1 = f_star_dot_f_j * h_j_in_i_1 - f_j_in_i_1 * f_star_dot_h_j;
+    const jg_real h_star_cross_f_j_in_i_2 = g_j_in_i_2 * h_star_dot_h_j - h_star_dot_g_j * h_j_in_i_2;
+    const jg_real f_star_cross_g_j_in_i_2 = f_star_dot_f_j * h_j_in_i_2 - f_j_in_i_2 * f_star_dot_h_j;
+    const jg_real g_star_in_joint_j_2 = h_star_dot_f_j * f_star_dot_g_j - h_star_dot_g_j * f_star_dot_f_j;
+    phi_q[12] = f_star_cross_g_j_in_i_1;
     phi_q[16] = h_star_cross_f_j_in_i_2;
+    phi_q[17] = f_star_cross_g_j_in_i_2;
     phi_q[31] = h_star_dot_g_j * C_j[6] - C_j[3] * h_star_dot_h_j;
     phi_q[32] = C_j[0] * f_star_dot_h_j - f_star_dot_f_j * C_j[6];
     phi_q[37] = h_star_dot_g_j * C_j[7] - C_j[4] * h_star_dot_h_j;
+    phi_q[38] = C_j[1] * f_star_dot_h_j - f_star_dot_f_j * C_j[7];
+    phi[3] = g_star_in_joint_j_2;
+    const jg_real g_star_in_joint_j_1 = f_star_dot_f_j * h_star_dot_h_j - h_star_dot_f_j * f_star_dot_h_j;
+    /* g_star_in_i = g_star, axes of body i */
+    const jg_real g_star_in_i_1 = h_star_in_i_2 * f_star_in_i_0 - h_star_in_i_0 * f_star_in_i_2;
     /* g_star_cross_h_j_in_i = g_star x h_j, axes of body i */
     const jg_real g_star_cross_h_j_in_i_0 = f_j_in_i_0 * g_star_in_joint_j_1 - g_j_in_i_0 * g_star_in_joint_j_0;
     const jg_real g_star_cross_h_j_in_i_1 = f_j_in_i_1 * g_star_in_joint_j_1 - g_j_in_i_1 * g_star_in_joint_j_0;
     const jg_real g_star_cross_h_j_in_i_2 = f_j_in_i_2 * g_star_in_joint_j_1 - g_j_in_i_2 * g_star_in_joint_j_0;
-    phi_q[38] = C_j[1] * f_star_dot_h_j - f_star_dot_f_j * C_j[7];
+    phi_q[46] = sine_1 * f_star_dot_f_j;
+    phi_q[43] = h_star_dot_g_j * C_j[8] - C_j[5] * h_star_dot_h_j;
+    phi_q[44] = C_j[2] * f_star_dot_h_j - f_star_dot_f_j * C_j[8];
+    phi_q[45] = -(cosine_1 * f_star_dot_h_j);
+    phi_q[49] = -g_star_in_joint_j_0;
     phi_q[5] = g_star_cross_h_j_in_i_0;
     phi_q[10] = g_star_cross_h_j_in_i_1;
-    phi_q[43] = h_star_dot_g_j * C_j[8] - C_j[5] * h_star_dot_h_j;
     phi_q[15] = g_star_cross_h_j_in_i_2;
-    phi_q[44] = C_j[2] * f_star_dot_h_j - f_star_dot_f_j * C_j[8];
+    const jg_real g_star_in_i_2 = h_star_in_i_0 * f_star_in_i_1 - h_star_in_i_1 * f_star_in_i_0;
+    /* v_5_in_j = lambda_4 h_star, axes of body j */
+    const jg_real v_5_in_j_1 = h_star_in_j_1 * lambda[4];
+    /* v_6_in_j = lambda_5 f_star, axes of body j */
+    const jg_real v_6_in_j_1 = f_star_in_j_1 * lambda[5];
+    const jg_real g_star_in_i_0 = h_star_in_i_1 * f_star_in_i_2 - h_star_in_i_2 * f_star_in_i_1;
+    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
+    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + h_star_in_i_1 * v_2_in_i_1 + f_star_in_i_1 * v_3_in_i_1 +
+        v_4_in_i_1 * g_star_in_i_1;
+    const jg_real v_5_in_j_2 = h_star_in_j_2 * lambda[4];
+    /* g_star_in_j = g_star, axes of body j */
+    const jg_real g_star_in_j_1 = h_star_in_j_2 * f_star_in_j_0 - h_star_in_j_0 * f_star_in_j_2;
+    const jg_real g_star_in_j_2 = h_star_in_j_0 * f_star_in_j_1 - h_star_in_j_1 * f_star_in_j_0;
+    const jg_real v_6_in_j_2 = f_star_in_j_2 * lambda[5];
+    /* v_7_in_j = lambda_3 g_star, axes of body j */
+    const jg_real v_7_in_j_1 = lambda[3] * g_star_in_j_1;
+    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + h_star_in_i_2 * v_2_in_i_2 + f_star_in_i_2 * v_3_in_i_2 +
+        v_4_in_i_2 * g_star_in_i_2;
+    const jg_real v_5_in_j_0 = h_star_in_j_0 * lambda[4];
+    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + h_star_in_i_0 * v_2_in_i_1 + f_star_in_i_0 * v_3_in_i_1 +
+        v_4_in_i_1 * g_star_in_i_0;
+    const jg_real v_6_in_j_0 = f_star_in_j_0 * lambda[5];
+    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + h_star_in_i_0 * v_2_in_i_2 + f_star_in_i_0 * v_3_in_i_2 +
+        v_4_in_i_2 * g_star_in_i_0;
+    const jg_real v_7_in_j_2 = lambda[3] * g_star_in_j_2;
+    const jg_real g_star_in_j_0 = h_star_in_j_1 * f_star_in_j_2 - h_star_in_j_2 * f_star_in_j_1;
+    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
+    const jg_real M_1_j_j_4 = s_j[1] * lambda_0_1_2_in_j_1 + C_j[1] * v_5_in_j_1 + C_j[4] * v_6_in_j_1 + C_j[7] *
+        v_7_in_j_1;
+    const jg_real v_7_in_j_0 = lambda[3] * g_star_in_j_0;
+    const jg_real M_1_j_j_8 = s_j[2] * lambda_0_1_2_in_j_2 + C_j[2] * v_5_in_j_2 + C_j[5] * v_6_in_j_2 + C_j[8] *
+        v_7_in_j_2;
+    const jg_real t127 = M_1_j_j_4 + M_1_j_j_8;
+    const jg_real M_1_j_j_3 = s_j[1] * lambda_0_1_2_in_j_0 + C_j[1] * v_5_in_j_0 + C_j[4] * v_6_in_j_0 + C_j[7] *
+        v_7_in_j_0;
     phi_q[30] = C_j[3] * g_star_in_joint_j_0 - C_j[0] * g_star_in_joint_j_1;
     phi_q[36] = C_j[4] * g_star_in_joint_j_0 - C_j[1] * g_star_in_joint_j_1;
-    const jg_real g_star_in_i_2 = h_star_in_i_0 * f_star_in_i_1 - h_star_in_i_1 * f_star_in_i_0;
-    /* M_0_i_i = (e_ij) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_0_i_i_4 = e_ij_in_i_1 * lambda[1] + h_star_in_i_1 * v_1_in_i_1 + f_star_in_i_1 * v_2_in_i_1 +
-        v_3_in_i_1 * g_star_in_i_1;
-    const jg_real g_star_in_i_0 = h_star_in_i_1 * f_star_in_i_2 - h_star_in_i_2 * f_star_in_i_1;
-    const jg_real M_0_i_i_8 = e_ij_in_i_2 * lambda[2] + h_star_in_i_2 * v_1_in_i_2 + f_star_in_i_2 * v_2_in_i_2 +
-        v_3_in_i_2 * g_star_in_i_2;
-    /* f_star_in_j = f_star, axes of body j */
-    const jg_real f_star_in_j_0 = C_j[0] * f_star_dot_f_j + C_j[3] * f_star_dot_g_j + f_star_dot_h_j * C_j[6];
-    const jg_real M_0_i_i_3 = e_ij_in_i_1 * lambda[0] + h_star_in_i_0 * v_1_in_i_1 + f_star_in_i_0 * v_2_in_i_1 +
-        v_3_in_i_1 * g_star_in_i_0;
-    const jg_real M_0_i_i_6 = e_ij_in_i_2 * lambda[0] + h_star_in_i_0 * v_1_in_i_2 + f_star_in_i_0 * v_2_in_i_2 +
-        v_3_in_i_2 * g_star_in_i_0;
-    /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_2 = C_j[2] * h_star_dot_f_j + C_j[5] * h_star_dot_g_j + h_star_dot_h_j * C_j[8];
-    /* v_5_in_j = lambda_5 f_star, axes of body j */
-    const jg_real v_5_in_j_0 = lambda[5] * f_star_in_j_0;
-    const jg_real f_star_in_j_2 = C_j[2] * f_star_dot_f_j + C_j[5] * f_star_dot_g_j + f_star_dot_h_j * C_j[8];
-    const jg_real h_star_in_j_0 = C_j[0] * h_star_dot_f_j + C_j[3] * h_star_dot_g_j + h_star_dot_h_j * C_j[6];
-    /* v_4_in_j = lambda_4 h_star, axes of body j */
-    const jg_real v_4_in_j_2 = lambda[4] * h_star_in_j_2;
-    const jg_real v_5_in_j_2 = lambda[5] * f_star_in_j_2;
-    const jg_real f_star_in_j_1 = C_j[1] * f_star_dot_f_j + C_j[4] * f_star_dot_g_j + f_star_dot_h_j * C_j[7];
-    /* v_7_in_star = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of body star */
-    const jg_real v_7_in_star_1 = g_star_in_joint_j_0 * v_7_in_joint_j - g_star_in_joint_j_2 * t72;
-    /* v_9_in_star = cos(alpha_1) lambda_5 g_star x g_j - sin(alpha_1) lambda_5 h_star x g_j, axes of body star */
-    const jg_real v_9_in_star = g_star_in_joint_j_1 * v_16_in_star_1 + h_star_dot_g_j * v_16_in_star_2;
-    const jg_real h_star_in_j_1 = C_j[1] * h_star_dot_f_j + C_j[4] * h_star_dot_g_j + h_star_dot_h_j * C_j[7];
-    const jg_real v_4_in_j_0 = lambda[4] * h_star_in_j_0;
-    const jg_real v_5_in_j_1 = lambda[5] * f_star_in_j_1;
-    /* g_star_in_j = g_star, axes of body j */
-    const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
-    const jg_real v_4_in_j_1 = lambda[4] * h_star_in_j_1;
-    /* v_6_in_j = lambda_3 g_star, axes of body j */
-    const jg_real v_6_in_j_1 = lambda[3] * g_star_in_j_1;
-    const jg_real g_star_in_j_2 = h_star_in_j_0 * f_star_in_j_1 - f_star_in_j_0 * h_star_in_j_1;
-    const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - h_star_in_j_2 * f_star_in_j_1;
-    const jg_real v_6_in_j_2 = lambda[3] * g_star_in_j_2;
-    const jg_real v_6_in_j_0 = lambda[3] * g_star_in_j_0;
-    /* v_10_in_star = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_10_in_star_2 = v_7_in_star_1 - f_star_dot_g_j * v_16_in_star_2;
-    const jg_real v_7_in_star_2 = h_star_dot_f_j * v_7_in_joint_j - h_star_dot_h_j * t72;
-    /* M_1_j_j = (s_j) lambda_0_1_2^T + (lambda_4 f_j) h_star^T + (lambda_5 g_j) f_star^T + (lambda_3 h_j) ... */
-    const jg_real M_1_j_j_4 = C_j[1] * v_4_in_j_1 + s_j[1] * lambda_0_1_2_in_j_1 + C_j[4] * v_5_in_j_1 + C_j[7] *
-        v_6_in_j_1;
-    const jg_real M_1_j_j_8 = C_j[2] * v_4_in_j_2 + s_j[2] * lambda_0_1_2_in_j_2 + C_j[5] * v_5_in_j_2 + C_j[8] *
-        v_6_in_j_2;
-    const jg_real M_1_j_j_2 = C_j[0] * v_4_in_j_2 + s_j[0] * lambda_0_1_2_in_j_2 + C_j[3] * v_5_in_j_2 + C_j[6] *
-        v_6_in_j_2;
-    phi_q[49] = -g_star_in_joint_j_0;
     phi_q[42] = C_j[5] * g_star_in_joint_j_0 - C_j[2] * g_star_in_joint_j_1;
-    phi_q[45] = -(cosine_1 * f_star_dot_h_j);
     phi_q[47] = cosine_1 * g_star_in_joint_j_1 - sine_1 * h_star_dot_g_j;
     phi_q_t_lambda_q[7] = M_0_i_i_3;
     phi_q_t_lambda_q[8] = M_0_i_i_6;
     phi_q_t_lambda_q[6] = -(M_0_i_i_4 + M_0_i_i_8);
-    phi_q_t_lambda_q[55] = M_1_j_j_2;
-    const jg_real M_1_j_j_3 = C_j[1] * v_4_in_j_0 + s_j[1] * lambda_0_1_2_in_j_0 + C_j[4] * v_5_in_j_0 + C_j[7] *
-        v_6_in_j_0;
-    const jg_real M_1_j_j_6 = C_j[2] * v_4_in_j_0 + s_j[2] * lambda_0_1_2_in_j_0 + C_j[5] * v_5_in_j_0 + C_j[8] *
-        v_6_in_j_0;
-    const jg_real M_1_j_j_0 = C_j[0] * v_4_in_j_0 + s_j[0] * lambda_0_1_2_in_j_0 + C_j[3] * v_5_in_j_0 + C_j[6] *
-        v_6_in_j_0;
-    const jg_real M_1_j_j_1 = C_j[0] * v_4_in_j_1 + s_j[0] * lambda_0_1_2_in_j_1 + C_j[3] * v_5_in_j_1 + C_j[6] *
-        v_6_in_j_1;
-    const jg_real M_1_j_j_5 = C_j[1] * v_4_in_j_2 + s_j[1] * lambda_0_1_2_in_j_2 + C_j[4] * v_5_in_j_2 + C_j[7] *
-        v_6_in_j_2;
-    const jg_real M_1_j_j_7 = C_j[2] * v_4_in_j_1 + s_j[2] * lambda_0_1_2_in_j_1 + C_j[5] * v_5_in_j_1 + C_j[8] *
-        v_6_in_j_1;
-    /* v_13_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
-    const jg_real v_13_in_star_1 = f_star_dot_h_j * lambda[3];
-    const jg_real t137 = M_1_j_j_4 + M_1_j_j_8;
-    const jg_real t138 = M_1_j_j_8 + M_1_j_j_0;
-    const jg_real t139 = M_1_j_j_4 + M_1_j_j_0;
-    const jg_real t140 = v_7_in_star_2 + f_star_dot_g_j * v_16_in_star_1;
-    const jg_real t141 = g_star_in_joint_j_2 * lambda[3] + h_star_dot_f_j * lambda[4];
-    const jg_real v_13_in_star_2 = f_star_dot_f_j * lambda[4];
-    const jg_real t143 = A_ji_2 * t139 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
-    /* v_10_in_i = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_10_in_i_0 = f_star_in_i_0 * v_9_in_star - g_star_in_i_0 * t140 + h_star_in_i_0 * v_10_in_star_2;
     phi_q_t_lambda_q[63] = M_1_j_j_3;
+    const jg_real M_1_j_j_6 = s_j[2] * lambda_0_1_2_in_j_0 + C_j[2] * v_5_in_j_0 + C_j[5] * v_6_in_j_0 + C_j[8] *
+        v_7_in_j_0;
+    const jg_real M_1_j_j_1 = s_j[0] * lambda_0_1_2_in_j_1 + C_j[0] * v_5_in_j_1 + C_j[3] * v_6_in_j_1 + C_j[6] *
+        v_7_in_j_1;
+    const jg_real M_1_j_j_0 = s_j[0] * lambda_0_1_2_in_j_0 + C_j[0] * v_5_in_j_0 + C_j[3] * v_6_in_j_0 + C_j[6] *
+        v_7_in_j_0;
+    const jg_real t132 = M_1_j_j_8 + M_1_j_j_0;
+    const jg_real t133 = M_1_j_j_4 + M_1_j_j_0;
+    const jg_real M_1_j_j_7 = s_j[2] * lambda_0_1_2_in_j_1 + C_j[2] * v_5_in_j_1 + C_j[5] * v_6_in_j_1 + C_j[8] *
+        v_7_in_j_1;
+    /* v_8_in_star = sin(alpha_1) lambda_4 f_j - cos(alpha_1) lambda_3 h_j, axes of body star */
+    const jg_real v_8_in_star_1 = g_star_in_joint_j_0 * t70 - g_star_in_joint_j_2 * t72;
+    const jg_real M_1_j_j_2 = s_j[0] * lambda_0_1_2_in_j_2 + C_j[0] * v_5_in_j_2 + C_j[3] * v_6_in_j_2 + C_j[6] *
+        v_7_in_j_2;
+    /* v_10_in_star = cos(alpha_1) lambda_5 g_star x g_j - sin(alpha_1) lambda_5 h_star x g_j, axes of body star */
+    const jg_real v_10_in_star = g_star_in_joint_j_1 * t76 + h_star_dot_g_j * t74;
+    /* v_12_in_star = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body star */
+    const jg_real v_12_in_star_1 = f_star_dot_h_j * lambda[3];
+    /* v_11_in_star = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_11_in_star_2 = v_8_in_star_1 - f_star_dot_g_j * t74;
+    const jg_real M_1_j_j_5 = s_j[1] * lambda_0_1_2_in_j_2 + C_j[1] * v_5_in_j_2 + C_j[4] * v_6_in_j_2 + C_j[7] *
+        v_7_in_j_2;
+    const jg_real v_8_in_star_2 = h_star_dot_f_j * t70 - h_star_dot_h_j * t72;
+    const jg_real v_12_in_star_2 = f_star_dot_f_j * lambda[4];
+    const jg_real t143 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t127 + A_ji_2 * M_1_j_j_6);
+    const jg_real t144 = v_8_in_star_2 + f_star_dot_g_j * t76;
+    const jg_real t145 = g_star_in_joint_j_2 * lambda[3] + h_star_dot_f_j * lambda[4];
+    const jg_real t146 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t132 + A_ji_2 * M_1_j_j_7);
     phi_q_t_lambda_q[73] = M_1_j_j_6;
     phi_q_t_lambda_q[54] = M_1_j_j_1;
-    phi_q_t_lambda_q[65] = M_1_j_j_5;
     phi_q_t_lambda_q[74] = M_1_j_j_7;
-    phi_q_t_lambda_q[14] = t143;
-    phi_q_t_lambda_q[68] = t143;
-    phi_q_t_lambda_q[15] = v_10_in_i_0;
-    phi_q_t_lambda_q[78] = v_10_in_i_0;
-    /* v_13_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
-    const jg_real v_13_in_i_0 = g_star_in_i_0 * v_13_in_star_1 - f_star_in_i_0 * t141 + h_star_in_i_0 *
-        v_13_in_star_2;
-    const jg_real t146 = -(A_ji_1 * M_1_j_j_3 - A_ji_0 * t137 + A_ji_2 * M_1_j_j_6);
-    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_1_in_i_0 + f_star_in_i_1 * v_2_in_i_0 +
-        g_star_in_i_1 * v_3_in_i_0;
-    const jg_real t148 = -(A_ji_0 * M_1_j_j_1 - A_ji_1 * t138 + A_ji_2 * M_1_j_j_7);
-    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_1_in_i_0 + f_star_in_i_0 * v_2_in_i_0 +
-        g_star_in_i_0 * v_3_in_i_0;
-    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + h_star_in_i_1 * v_1_in_i_2 + f_star_in_i_1 * v_2_in_i_2 +
-        g_star_in_i_1 * v_3_in_i_2;
-    phi_q_t_lambda_q[16] = v_13_in_i_0;
-    phi_q_t_lambda_q[86] = v_13_in_i_0;
-    phi_q_t_lambda_q[12] = t146;
-    phi_q_t_lambda_q[48] = t146;
+    phi_q_t_lambda_q[55] = M_1_j_j_2;
+    phi_q_t_lambda_q[65] = M_1_j_j_5;
+    phi_q_t_lambda_q[12] = t143;
+    phi_q_t_lambda_q[48] = t143;
+    phi_q_t_lambda_q[13] = t146;
+    phi_q_t_lambda_q[58] = t146;
+    const jg_real t147 = A_ji_2 * t133 - (A_ji_0 * M_1_j_j_2 + A_ji_1 * M_1_j_j_5);
+    const jg_real M_0_i_i_1 = e_ij_in_i_0 * lambda[1] + h_star_in_i_1 * v_2_in_i_0 + f_star_in_i_1 * v_3_in_i_0 +
+        g_star_in_i_1 * v_4_in_i_0;
+    /* v_11_in_i = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_11_in_i_0 = f_star_in_i_0 * v_10_in_star - g_star_in_i_0 * t144 + h_star_in_i_0 *
+        v_11_in_star_2;
+    /* v_12_in_i = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body i */
+    const jg_real v_12_in_i_0 = g_star_in_i_0 * v_12_in_star_1 - f_star_in_i_0 * t145 + h_star_in_i_0 *
+        v_12_in_star_2;
+    const jg_real M_0_i_i_0 = e_ij_in_i_0 * lambda[0] + h_star_in_i_0 * v_2_in_i_0 + f_star_in_i_0 * v_3_in_i_0 +
+        g_star_in_i_0 * v_4_in_i_0;
+    const jg_real M_0_i_i_7 = e_ij_in_i_2 * lambda[1] + h_star_in_i_1 * v_2_in_i_2 + f_star_in_i_1 * v_3_in_i_2 +
+        g_star_in_i_1 * v_4_in_i_2;
+    phi_q_t_lambda_q[14] = t147;
+    phi_q_t_lambda_q[68] = t147;
     phi_q_t_lambda_q[17] = M_0_i_i_1;
-    phi_q_t_lambda_q[13] = t148;
-    phi_q_t_lambda_q[58] = t148;
+    phi_q_t_lambda_q[15] = v_11_in_i_0;
+    phi_q_t_lambda_q[78] = v_11_in_i_0;
+    phi_q_t_lambda_q[16] = v_12_in_i_0;
+    phi_q_t_lambda_q[86] = v_12_in_i_0;
     phi_q_t_lambda_q[19] = M_0_i_i_7;
-    const jg_real t151 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t137 + A_ji_5 * M_1_j_j_6);
-    const jg_real t152 = A_ji_5 * t139 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
-    const jg_real t153 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t138 + A_ji_5 * M_1_j_j_7);
-    const jg_real v_10_in_i_1 = f_star_in_i_1 * v_9_in_star - g_star_in_i_1 * t140 + h_star_in_i_1 * v_10_in_star_2;
-    phi_q_t_lambda_q[23] = t151;
-    phi_q_t_lambda_q[49] = t151;
+    const jg_real t153 = -(A_ji_4 * M_1_j_j_3 - A_ji_3 * t127 + A_ji_5 * M_1_j_j_6);
+    const jg_real t154 = A_ji_5 * t133 - (A_ji_3 * M_1_j_j_2 + A_ji_4 * M_1_j_j_5);
+    const jg_real t155 = -(A_ji_3 * M_1_j_j_1 - A_ji_4 * t132 + A_ji_5 * M_1_j_j_7);
+    const jg_real v_11_in_i_1 = f_star_in_i_1 * v_10_in_star - g_star_in_i_1 * t144 + h_star_in_i_1 *
+        v_11_in_star_2;
+    phi_q_t_lambda_q[23] = t153;
+    phi_q_t_lambda_q[49] = t153;
+    phi_q_t_lambda_q[25] = t154;
+    phi_q_t_lambda_q[69] = t154;
+    phi_q_t_lambda_q[24] = t155;
+    phi_q_t_lambda_q[59] = t155;
     phi_q_t_lambda_q[18] = -(M_0_i_i_8 + M_0_i_i_0);
-    phi_q_t_lambda_q[25] = t152;
-    phi_q_t_lambda_q[69] = t152;
-    phi_q_t_lambda_q[24] = t153;
-    phi_q_t_lambda_q[59] = t153;
-    phi_q_t_lambda_q[26] = v_10_in_i_1;
-    phi_q_t_lambda_q[79] = v_10_in_i_1;
-    const jg_real v_13_in_i_1 = g_star_in_i_1 * v_13_in_star_1 - f_star_in_i_1 * t141 + h_star_in_i_1 *
-        v_13_in_star_2;
-    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + h_star_in_i_2 * v_1_in_i_0 + f_star_in_i_2 * v_2_in_i_0 +
-        g_star_in_i_2 * v_3_in_i_0;
-    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + h_star_in_i_2 * v_1_in_i_1 + f_star_in_i_2 * v_2_in_i_1 +
-        v_3_in_i_1 * g_star_in_i_2;
-    const jg_real t158 = A_ji_8 * t139 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
-    phi_q_t_lambda_q[27] = v_13_in_i_1;
-    phi_q_t_lambda_q[87] = v_13_in_i_1;
+    phi_q_t_lambda_q[26] = v_11_in_i_1;
+    phi_q_t_lambda_q[79] = v_11_in_i_1;
+    const jg_real v_12_in_i_1 = g_star_in_i_1 * v_12_in_star_1 - f_star_in_i_1 * t145 + h_star_in_i_1 *
+        v_12_in_star_2;
+    const jg_real M_0_i_i_2 = e_ij_in_i_0 * lambda[2] + h_star_in_i_2 * v_2_in_i_0 + f_star_in_i_2 * v_3_in_i_0 +
+        g_star_in_i_2 * v_4_in_i_0;
+    const jg_real M_0_i_i_5 = e_ij_in_i_1 * lambda[2] + h_star_in_i_2 * v_2_in_i_1 + f_star_in_i_2 * v_3_in_i_1 +
+        v_4_in_i_1 * g_star_in_i_2;
+    const jg_real t160 = A_ji_8 * t133 - (A_ji_6 * M_1_j_j_2 + A_ji_7 * M_1_j_j_5);
+    phi_q_t_lambda_q[27] = v_12_in_i_1;
+    phi_q_t_lambda_q[87] = v_12_in_i_1;
     phi_q_t_lambda_q[30] = -(M_0_i_i_4 + M_0_i_i_0);
     phi_q_t_lambda_q[28] = M_0_i_i_2;
-    phi_q_t_lambda_q[53] = -t137;
+    phi_q_t_lambda_q[53] = -t127;
     phi_q_t_lambda_q[29] = M_0_i_i_5;
-    phi_q_t_lambda_q[36] = t158;
-    phi_q_t_lambda_q[70] = t158;
-    const jg_real t159 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t137 + A_ji_8 * M_1_j_j_6);
-    const jg_real v_10_in_i_2 = f_star_in_i_2 * v_9_in_star - g_star_in_i_2 * t140 + h_star_in_i_2 * v_10_in_star_2;
-    const jg_real t161 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t138 + A_ji_8 * M_1_j_j_7);
-    const jg_real v_13_in_i_2 = g_star_in_i_2 * v_13_in_star_1 - f_star_in_i_2 * t141 + h_star_in_i_2 *
-        v_13_in_star_2;
-    phi_q_t_lambda_q[34] = t159;
-    phi_q_t_lambda_q[50] = t159;
-    phi_q_t_lambda_q[64] = -t138;
-    phi_q_t_lambda_q[37] = v_10_in_i_2;
-    phi_q_t_lambda_q[80] = v_10_in_i_2;
-    phi_q_t_lambda_q[35] = t161;
-    phi_q_t_lambda_q[60] = t161;
-    phi_q_t_lambda_q[38] = v_13_in_i_2;
-    phi_q_t_lambda_q[88] = v_13_in_i_2;
-    /* v_10_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
-    const jg_real v_10_in_j_0 = f_star_in_j_0 * v_9_in_star - g_star_in_j_0 * t140 + h_star_in_j_0 * v_10_in_star_2;
-    /* v_13_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
-    const jg_real v_13_in_j_0 = g_star_in_j_0 * v_13_in_star_1 - f_star_in_j_0 * t141 + h_star_in_j_0 *
-        v_13_in_star_2;
-    /* v_14_in_star = cos(alpha_1) sin(alpha_1) lambda_4 f_j - cos(alpha_1) cos(alpha_1) lambda_3 h_j, axes of ...
+    phi_q_t_lambda_q[36] = t160;
+    phi_q_t_lambda_q[70] = t160;
+    const jg_real t161 = -(A_ji_7 * M_1_j_j_3 - A_ji_6 * t127 + A_ji_8 * M_1_j_j_6);
+    const jg_real v_11_in_i_2 = f_star_in_i_2 * v_10_in_star - g_star_in_i_2 * t144 + h_star_in_i_2 *
+        v_11_in_star_2;
+    const jg_real t163 = -(A_ji_6 * M_1_j_j_1 - A_ji_7 * t132 + A_ji_8 * M_1_j_j_7);
+    const jg_real v_12_in_i_2 = g_star_in_i_2 * v_12_in_star_1 - f_star_in_i_2 * t145 + h_star_in_i_2 *
+        v_12_in_star_2;
+    phi_q_t_lambda_q[34] = t161;
+    phi_q_t_lambda_q[50] = t161;
+    phi_q_t_lambda_q[64] = -t132;
+    phi_q_t_lambda_q[37] = v_11_in_i_2;
+    phi_q_t_lambda_q[80] = v_11_in_i_2;
+    phi_q_t_lambda_q[35] = t163;
+    phi_q_t_lambda_q[60] = t163;
+    phi_q_t_lambda_q[38] = v_12_in_i_2;
+    phi_q_t_lambda_q[88] = v_12_in_i_2;
+    /* v_11_in_j = sin(alpha_1) lambda_4 f_star x f_j - cos(alpha_1) lambda_3 f_star x h_j + cos(alpha_1) ... */
+    const jg_real v_11_in_j_0 = f_star_in_j_0 * v_10_in_star - g_star_in_j_0 * t144 + h_star_in_j_0 *
+        v_11_in_star_2;
+    /* v_12_in_j = lambda_3 h_star x h_j - lambda_4 g_star x f_j, axes of body j */
+    const jg_real v_12_in_j_0 = g_star_in_j_0 * v_12_in_star_1 - f_star_in_j_0 * t145 + h_star_in_j_0 *
+        v_12_in_star_2;
+    /* v_13_in_star = cos(alpha_1) sin(alpha_1) lambda_4 f_j - cos(alpha_1) cos(alpha_1) lambda_3 h_j, axes of ...
         */
-    const jg_real v_14_in_star_1 = cosine_1 * v_7_in_star_1;
-    /* v_15_in_star = sin(alpha_1) sin(alpha_1) lambda_4 f_j - cos(alpha_1) sin(alpha_1) lambda_3 h_j, axes of ...
+    const jg_real v_13_in_star_1 = cosine_1 * v_8_in_star_1;
+    /* v_14_in_star = sin(alpha_1) sin(alpha_1) lambda_4 f_j - cos(alpha_1) sin(alpha_1) lambda_3 h_j, axes of ...
         */
-    const jg_real v_15_in_star_2 = sine_1 * v_7_in_star_2;
-    const jg_real t167 = -v_10_in_j_0;
-    const jg_real v_10_in_j_1 = f_star_in_j_1 * v_9_in_star - g_star_in_j_1 * t140 + h_star_in_j_1 * v_10_in_star_2;
-    const jg_real t169 = -v_13_in_j_0;
-    const jg_real v_13_in_j_1 = g_star_in_j_1 * v_13_in_star_1 - f_star_in_j_1 * t141 + h_star_in_j_1 *
-        v_13_in_star_2;
-    const jg_real v_10_in_j_2 = f_star_in_j_2 * v_9_in_star - g_star_in_j_2 * t140 + h_star_in_j_2 * v_10_in_star_2;
-    const jg_real t172 = -v_10_in_j_1;
-    phi_q_t_lambda_q[75] = -t139;
-    phi_q_t_lambda_q[56] = t167;
-    phi_q_t_lambda_q[81] = t167;
-    phi_q_t_lambda_q[57] = t169;
-    phi_q_t_lambda_q[89] = t169;
-    phi_q_t_lambda_q[93] = -t141;
-    phi_q_t_lambda_q[66] = t172;
-    phi_q_t_lambda_q[82] = t172;
-    /* v_17_in_star = (cos(alpha_1) cos(alpha_1) lambda_5 + sin(alpha_1) sin(alpha_1) lambda_5) f_star, axes of ...
+    const jg_real v_14_in_star_2 = sine_1 * v_8_in_star_2;
+    /* v_15_in_star = (cos(alpha_1) cos(alpha_1) + sin(alpha_1) sin(alpha_1)) f_star, axes of body star */
+    const jg_real v_15_in_star = t77 + t78;
+    const jg_real t170 = -v_11_in_j_0;
+    const jg_real v_11_in_j_1 = f_star_in_j_1 * v_10_in_star - g_star_in_j_1 * t144 + h_star_in_j_1 *
+        v_11_in_star_2;
+    const jg_real t172 = -v_12_in_j_0;
+    const jg_real v_12_in_j_1 = g_star_in_j_1 * v_12_in_star_1 - f_star_in_j_1 * t145 + h_star_in_j_1 *
+        v_12_in_star_2;
+    /* v_16_in_star = (cos(alpha_1) cos(alpha_1) lambda_5 + sin(alpha_1) sin(alpha_1) lambda_5) f_star, axes of ...
         */
-    const jg_real v_17_in_star = sine_1 * v_16_in_star_1 + cosine_1 * v_16_in_star_2;
-    const jg_real v_13_in_j_2 = g_star_in_j_2 * v_13_in_star_1 - f_star_in_j_2 * t141 + h_star_in_j_2 *
-        v_13_in_star_2;
-    const jg_real t175 = sine_1 * v_13_in_star_1 + cosine_1 * v_13_in_star_2;
-    const jg_real t176 = -v_13_in_j_1;
-    const jg_real t177 = -v_10_in_j_2;
-    const jg_real t178 = -v_13_in_j_2;
-    phi_q_t_lambda_q[85] = t175;
-    phi_q_t_lambda_q[92] = t175;
-    phi_q_t_lambda_q[67] = t176;
-    phi_q_t_lambda_q[90] = t176;
-    phi_q_t_lambda_q[76] = t177;
-    phi_q_t_lambda_q[83] = t177;
-    phi_q_t_lambda_q[77] = t178;
-    phi_q_t_lambda_q[91] = t178;
-    /* omega_i_dot_omega_j = omega_i . omega_j */
-    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
-        omega_i[2];
-    const jg_real v_21_in_i_2 = v_18_in_i_2 - omega_j_in_i_2;
-    /* f_star_dot_omega_j = f_star . omega_j */
-    const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
-        omega_j[2];
-    /* v_j_in_i = v_j, axes of body i */
-    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
-    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
-    const jg_real t184 = omega_i_dot_omega_j * JG_REAL(2.0);
+    const jg_real v_16_in_star = lambda[5] * v_15_in_star;
+    const jg_real v_11_in_j_2 = f_star_in_j_2 * v_10_in_star - g_star_in_j_2 * t144 + h_star_in_j_2 *
+        v_11_in_star_2;
+    const jg_real t176 = sine_1 * v_12_in_star_1 + cosine_1 * v_12_in_star_2;
+    phi_q_t_lambda_q[75] = -t133;
+    phi_q_t_lambda_q[56] = t170;
+    phi_q_t_lambda_q[81] = t170;
+    phi_q_t_lambda_q[57] = t172;
+    phi_q_t_lambda_q[89] = t172;
+    phi_q_t_lambda_q[93] = -t145;
+    phi_q_t_lambda_q[85] = t176;
+    phi_q_t_lambda_q[92] = t176;
+    const jg_real t177 = -v_11_in_j_1;
+    const jg_real v_12_in_j_2 = g_star_in_j_2 * v_12_in_star_1 - f_star_in_j_2 * t145 + h_star_in_j_2 *
+        v_12_in_star_2;
+    const jg_real t179 = -v_12_in_j_1;
+    const jg_real t180 = -v_11_in_j_2;
+    const jg_real t181 = -v_12_in_j_2;
+    phi_q_t_lambda_q[66] = t177;
+    phi_q_t_lambda_q[82] = t177;
+    phi_q_t_lambda_q[67] = t179;
+    phi_q_t_lambda_q[90] = t179;
+    phi_q_t_lambda_q[76] = t180;
+    phi_q_t_lambda_q[83] = t180;
+    phi_q_t_lambda_q[77] = t181;
+    phi_q_t_lambda_q[91] = t181;
+    const jg_real v_20_in_i_2 = v_17_in_i_2 - omega_j_in_i_2;
+    /* v_22_in_i = ((r_j . omega_i) + (s_j . omega_i) - (r_i . omega_i)) omega_i, axes of body i */
+    const jg_real v_22_in_i_0 = omega_i[0] * t67;
     /* g_star_dot_omega_j = g_star . omega_j */
     const jg_real g_star_dot_omega_j = g_star_in_i_0 * omega_j_in_i_0 + g_star_in_i_1 * omega_j_in_i_1 +
         g_star_in_i_2 * omega_j_in_i_2;
+    /* v_j_in_i = v_j, axes of body i */
+    const jg_real v_j_in_i_2 = A_ji_6 * v_j[0] + A_ji_7 * v_j[1] + A_ji_8 * v_j[2];
+    const jg_real v_j_in_i_1 = A_ji_3 * v_j[0] + A_ji_4 * v_j[1] + A_ji_5 * v_j[2];
+    /* omega_i_dot_omega_j = omega_i . omega_j */
+    const jg_real omega_i_dot_omega_j = omega_j_in_i_0 * omega_i[0] + omega_j_in_i_1 * omega_i[1] + omega_j_in_i_2 *
+        omega_i[2];
+    /* v_25_in_i = (omega_i . omega_i) r_j - (omega_i . omega_i) r_i, axes of body i */
+    const jg_real v_25_in_i_0 = v_0_in_i_0 * omega_i_dot_omega_i;
+    const jg_real v_22_in_i_1 = omega_i[1] * t67;
+    /* f_star_dot_omega_j = f_star . omega_j */
+    const jg_real f_star_dot_omega_j = f_star_in_j_0 * omega_j[0] + f_star_in_j_1 * omega_j[1] + f_star_in_j_2 *
+        omega_j[2];
     /* h_star_dot_omega_j = h_star . omega_j */
     const jg_real h_star_dot_omega_j = h_star_in_j_0 * omega_j[0] + h_star_in_j_1 * omega_j[1] + h_star_in_j_2 *
         omega_j[2];
-    /* v_19_in_i = v_j - v_i, axes of body i */
-    const jg_real v_19_in_i_2 = v_j_in_i_2 - v_i[2];
-    const jg_real v_19_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real t192 = omega_i_dot_omega_j * JG_REAL(2.0);
+    /* v_18_in_i = v_j - v_i, axes of body i */
+    const jg_real v_18_in_i_2 = v_j_in_i_2 - v_i[2];
+    const jg_real v_18_in_i_1 = v_j_in_i_1 - v_i[1];
+    const jg_real t195 = s_j_in_i_0 * v_20_in_i_0 + s_j_in_i_1 * v_20_in_i_1 + s_j_in_i_2 * v_20_in_i_2;
     const jg_real v_j_in_i_0 = A_ji_0 * v_j[0] + A_ji_1 * v_j[1] + A_ji_2 * v_j[2];
-    const jg_real t190 = s_j_in_i_0 * v_21_in_i_0 + s_j_in_i_1 * v_21_in_i_1 + s_j_in_i_2 * v_21_in_i_2;
-    const jg_real v_19_in_i_0 = v_j_in_i_0 - v_i[0];
-    const jg_real t192 = alphadot[1] * alphadot[1];
-    /* v_20_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
-    const jg_real v_20_in_i_0 = v_18_in_i_1 * v_19_in_i_2 - v_18_in_i_2 * v_19_in_i_1;
+    const jg_real v_25_in_i_1 = v_0_in_i_1 * omega_i_dot_omega_i;
+    const jg_real v_22_in_i_2 = omega_i[2] * t67;
+    const jg_real v_18_in_i_0 = v_j_in_i_0 - v_i[0];
+    const jg_real v_25_in_i_2 = v_0_in_i_2 * omega_i_dot_omega_i;
     /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = f_star_dot_f_j * f_star_dot_omega_j + g_star_in_joint_j_0 * g_star_dot_omega_j +
+    const jg_real f_j_dot_omega_j = g_star_in_joint_j_0 * g_star_dot_omega_j + f_star_dot_f_j * f_star_dot_omega_j +
         h_star_dot_f_j * h_star_dot_omega_j;
     /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = f_star_dot_g_j * f_star_dot_omega_j + g_star_in_joint_j_1 * g_star_dot_omega_j +
+    const jg_real g_j_dot_omega_j = g_star_in_joint_j_1 * g_star_dot_omega_j + f_star_dot_g_j * f_star_dot_omega_j +
         h_star_dot_g_j * h_star_dot_omega_j;
     /* h_j_dot_omega_j = h_j . omega_j */
     const jg_real h_j_dot_omega_j = f_star_dot_h_j * f_star_dot_omega_j + g_star_in_joint_j_2 * g_star_dot_omega_j +
         h_star_dot_h_j * h_star_dot_omega_j;
-    const jg_real v_20_in_i_1 = v_18_in_i_2 * v_19_in_i_0 - v_18_in_i_0 * v_19_in_i_2;
-    const jg_real v_20_in_i_2 = v_18_in_i_0 * v_19_in_i_1 - v_18_in_i_1 * v_19_in_i_0;
-    /* f_j_dot_omega_i = f_j . omega_i */
-    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
-    /* g_j_dot_omega_i = g_j . omega_i */
-    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    const jg_real t204 = alphadot[1] * alphadot[1];
+    /* v_19_in_i = 2 omega_i x v_j - 2 omega_i x v_i, axes of body i */
+    const jg_real v_19_in_i_0 = v_17_in_i_1 * v_18_in_i_2 - v_17_in_i_2 * v_18_in_i_1;
+    const jg_real v_19_in_i_1 = v_17_in_i_2 * v_18_in_i_0 - v_17_in_i_0 * v_18_in_i_2;
+    const jg_real v_19_in_i_2 = v_17_in_i_0 * v_18_in_i_1 - v_17_in_i_1 * v_18_in_i_0;
     /* omega_j_dot_omega_j = omega_j . omega_j */
     const jg_real omega_j_dot_omega_j = f_j_dot_omega_j * f_j_dot_omega_j + g_j_dot_omega_j * g_j_dot_omega_j +
         h_j_dot_omega_j * h_j_dot_omega_j;
     /* h_j_dot_omega_i = h_j . omega_i */
     const jg_real h_j_dot_omega_i = h_j_in_i_1 * omega_i[1] + h_j_in_i_0 * omega_i[0] + h_j_in_i_2 * omega_i[2];
-    const jg_real t203 = JG_REAL(2.0) * alphadot[1];
-    const jg_real t204 = omega_i_dot_omega_i - t184 + omega_j_dot_omega_j;
-    /* f_star_dot_omega_i = f_star . omega_i */
-    const jg_real f_star_dot_omega_i = f_star_in_i_0 * omega_i[0] + f_star_in_i_1 * omega_i[1] + f_star_in_i_2 *
-        omega_i[2];
+    /* f_j_dot_omega_i = f_j . omega_i */
+    const jg_real f_j_dot_omega_i = f_j_in_i_0 * omega_i[0] + f_j_in_i_1 * omega_i[1] + f_j_in_i_2 * omega_i[2];
+    const jg_real t211 = JG_REAL(2.0) * alphadot[1];
+    /* g_j_dot_omega_i = g_j . omega_i */
+    const jg_real g_j_dot_omega_i = g_j_in_i_0 * omega_i[0] + g_j_in_i_1 * omega_i[1] + g_j_in_i_2 * omega_i[2];
+    const jg_real t213 = omega_i_dot_omega_i - t192 + omega_j_dot_omega_j;
     /* g_star_dot_omega_i = g_star . omega_i */
-    const jg_real g_star_dot_omega_i = g_star_in_joint_j_0 * f_j_dot_omega_i + g_star_in_joint_j_1 * g_j_dot_omega_i
-        + g_star_in_joint_j_2 * h_j_dot_omega_i;
+    const jg_real g_star_dot_omega_i = g_star_in_i_0 * omega_i[0] + g_star_in_i_1 * omega_i[1] + g_star_in_i_2 *
+        omega_i[2];
+    /* v_21_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (2 (s_j . ... */
+    const jg_real v_21_in_i_0 = s_j_in_i_0 * t213 + omega_j_in_i_0 * t195;
+    const jg_real v_21_in_i_1 = s_j_in_i_1 * t213 + omega_j_in_i_1 * t195;
+    const jg_real v_21_in_i_2 = s_j_in_i_2 * t213 + omega_j_in_i_2 * t195;
     /* h_star_dot_omega_i = h_star . omega_i */
     const jg_real h_star_dot_omega_i = h_star_dot_f_j * f_j_dot_omega_i + h_star_dot_g_j * g_j_dot_omega_i +
         h_star_dot_h_j * h_j_dot_omega_i;
-    /* v_22_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_22_in_i_0 = s_j_in_i_0 * t204 + v_0_in_i_0 * omega_i_dot_omega_i - omega_i[0] * t66 +
-        omega_j_in_i_0 * t190;
-    const jg_real v_22_in_i_1 = s_j_in_i_1 * t204 + v_0_in_i_1 * omega_i_dot_omega_i - omega_i[1] * t66 +
-        omega_j_in_i_1 * t190;
-    const jg_real v_22_in_i_2 = s_j_in_i_2 * t204 + v_0_in_i_2 * omega_i_dot_omega_i - omega_i[2] * t66 +
-        omega_j_in_i_2 * t190;
-    /* v_23_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
-    const jg_real v_23_in_i_0 = v_22_in_i_0 + v_20_in_i_0;
-    const jg_real v_23_in_i_1 = v_22_in_i_1 + v_20_in_i_1;
-    const jg_real v_23_in_i_2 = v_22_in_i_2 + v_20_in_i_2;
-    phi_q_t_lambda_q[84] = -(v_15_in_star_2 - v_14_in_star_1 + f_star_dot_g_j * v_17_in_star);
-    gamma[0] = v_23_in_i_0;
-    gamma[1] = v_23_in_i_1;
-    gamma[2] = v_23_in_i_2;
-    gamma[3] = g_star_in_joint_j_2 * (omega_i_dot_omega_i + cosine_1 * cosine_1 * alphadot[0] * alphadot[0] - t184 +
-        omega_j_dot_omega_j + t192) + alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (h_star_dot_h_j * g_star_dot_omega_j
+    /* v_23_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (-(r_j . omega_i) ...
+        */
+    const jg_real v_23_in_i_0 = v_21_in_i_0 - v_22_in_i_0;
+    const jg_real v_23_in_i_1 = v_21_in_i_1 - v_22_in_i_1;
+    const jg_real v_23_in_i_2 = v_21_in_i_2 - v_22_in_i_2;
+    /* f_star_dot_omega_i = f_star . omega_i */
+    const jg_real f_star_dot_omega_i = f_star_dot_f_j * f_j_dot_omega_i + f_star_dot_g_j * g_j_dot_omega_i +
+        f_star_dot_h_j * h_j_dot_omega_i;
+    /* v_24_in_i = ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . omega_j)) s_j + (-(r_j . omega_i) ...
+        */
+    const jg_real v_24_in_i_0 = v_23_in_i_0 + v_19_in_i_0;
+    const jg_real v_24_in_i_1 = v_23_in_i_1 + v_19_in_i_1;
+    const jg_real v_24_in_i_2 = v_23_in_i_2 + v_19_in_i_2;
+    /* v_26_in_i = (omega_i . omega_i) r_j + ((omega_i . omega_i) - 2 (omega_i . omega_j) + (omega_j . ... */
+    const jg_real v_26_in_i_0 = v_24_in_i_0 + v_25_in_i_0;
+    const jg_real v_26_in_i_1 = v_24_in_i_1 + v_25_in_i_1;
+    const jg_real v_26_in_i_2 = v_24_in_i_2 + v_25_in_i_2;
+    phi_q_t_lambda_q[84] = -(v_14_in_star_2 - v_13_in_star_1 + f_star_dot_g_j * v_16_in_star);
+    gamma[0] = v_26_in_i_0;
+    gamma[1] = v_26_in_i_1;
+    gamma[2] = v_26_in_i_2;
+    gamma[3] = g_star_in_joint_j_2 * (omega_i_dot_omega_i + t77 * alphadot[0] * alphadot[0] - t192 +
+        omega_j_dot_omega_j + t204) + alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (h_star_dot_h_j * g_star_dot_omega_j
         - g_star_in_joint_j_2 * h_star_dot_omega_j) - (JG_REAL(2.0) * (h_star_dot_h_j * g_star_dot_omega_i -
         g_star_in_joint_j_2 * h_star_dot_omega_i) + sine_1 * h_star_dot_h_j * alphadot[0])) - sine_1 *
         f_star_dot_h_j * JG_REAL(2.0) * alphadot[1]) + g_star_dot_omega_j * (JG_REAL(2.0) * h_j_dot_omega_i -
-        h_j_dot_omega_j) + (f_star_dot_h_j * g_star_dot_omega_j - g_star_in_joint_j_2 * f_star_dot_omega_j -
-        (f_star_dot_h_j * g_star_dot_omega_i - g_star_in_joint_j_2 * f_star_dot_omega_i)) * t203 - h_j_dot_omega_i *
+        h_j_dot_omega_j) + (g_star_in_joint_j_2 * f_star_dot_omega_i - f_star_dot_h_j * g_star_dot_omega_i -
+        (g_star_in_joint_j_2 * f_star_dot_omega_j - f_star_dot_h_j * g_star_dot_omega_j)) * t211 - h_j_dot_omega_i *
         g_star_dot_omega_i;
-    gamma[4] = -(h_star_dot_f_j * (t184 - (omega_i_dot_omega_i + sine_1 * sine_1 * alphadot[0] * alphadot[0]) -
-        omega_j_dot_omega_j - t192) + alphadot[0] * (sine_1 * (JG_REAL(2.0) * (h_star_dot_f_j * g_star_dot_omega_j -
-        g_star_in_joint_j_0 * h_star_dot_omega_j) + cosine_1 * g_star_in_joint_j_0 * alphadot[0] - JG_REAL(2.0) *
-        (h_star_dot_f_j * g_star_dot_omega_i - g_star_in_joint_j_0 * h_star_dot_omega_i)) + cosine_1 *
-        f_star_dot_f_j * JG_REAL(2.0) * alphadot[1]) + t203 * (h_star_dot_f_j * f_star_dot_omega_j - f_star_dot_f_j
-        * h_star_dot_omega_j - (h_star_dot_f_j * f_star_dot_omega_i - f_star_dot_f_j * h_star_dot_omega_i)) +
-        h_star_dot_omega_j * (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) + f_j_dot_omega_i *
-        h_star_dot_omega_i);
-    gamma[5] = f_star_dot_g_j * t204 + alphadot[0] * (sine_1 * (sine_1 * f_star_dot_g_j * alphadot[0] - JG_REAL(2.0)
-        * (f_star_dot_g_j * g_star_dot_omega_j - g_star_in_joint_j_1 * f_star_dot_omega_j) + JG_REAL(2.0) *
-        (f_star_dot_g_j * g_star_dot_omega_i - g_star_in_joint_j_1 * f_star_dot_omega_i)) + cosine_1 * (JG_REAL(2.0)
-        * (h_star_dot_g_j * f_star_dot_omega_j - f_star_dot_g_j * h_star_dot_omega_j) + cosine_1 * f_star_dot_g_j *
-        alphadot[0] - JG_REAL(2.0) * (h_star_dot_g_j * f_star_dot_omega_i - f_star_dot_g_j * h_star_dot_omega_i))) +
-        f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) - g_j_dot_omega_i *
-        f_star_dot_omega_i;
+    gamma[4] = -(h_star_dot_f_j * (t192 - (omega_i_dot_omega_i + t78 * alphadot[0] * alphadot[0]) -
+        omega_j_dot_omega_j - t204) + alphadot[0] * (sine_1 * (cosine_1 * g_star_in_joint_j_0 * alphadot[0] +
+        JG_REAL(2.0) * (h_star_dot_f_j * g_star_dot_omega_j - g_star_in_joint_j_0 * h_star_dot_omega_j) -
+        JG_REAL(2.0) * (h_star_dot_f_j * g_star_dot_omega_i - g_star_in_joint_j_0 * h_star_dot_omega_i)) + cosine_1
+        * f_star_dot_f_j * JG_REAL(2.0) * alphadot[1]) + t211 * (f_star_dot_f_j * h_star_dot_omega_i -
+        h_star_dot_f_j * f_star_dot_omega_i - (f_star_dot_f_j * h_star_dot_omega_j - h_star_dot_f_j *
+        f_star_dot_omega_j)) + h_star_dot_omega_j * (f_j_dot_omega_j - JG_REAL(2.0) * f_j_dot_omega_i) +
+        f_j_dot_omega_i * h_star_dot_omega_i);
+    gamma[5] = alphadot[0] * (cosine_1 * (JG_REAL(2.0) * (g_star_in_joint_j_0 * h_j_dot_omega_j -
+        g_star_in_joint_j_2 * f_j_dot_omega_j) + cosine_1 * f_star_dot_g_j * alphadot[0] - JG_REAL(2.0) *
+        (g_star_in_joint_j_0 * h_j_dot_omega_i - g_star_in_joint_j_2 * f_j_dot_omega_i)) + sine_1 * (sine_1 *
+        f_star_dot_g_j * alphadot[0] - JG_REAL(2.0) * (h_star_dot_f_j * h_j_dot_omega_j - h_star_dot_h_j *
+        f_j_dot_omega_j) + JG_REAL(2.0) * (h_star_dot_f_j * h_j_dot_omega_i - h_star_dot_h_j * f_j_dot_omega_i))) +
+        f_star_dot_g_j * t213 + f_star_dot_omega_j * (JG_REAL(2.0) * g_j_dot_omega_i - g_j_dot_omega_j) -
+        g_j_dot_omega_i * f_star_dot_omega_i;
 }
 
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -98,72 +98,76 @@ void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *alpha, c
     phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[9] = s_i[0];
-    const jg_real t4 = cosine_0 * sine_1;
+    const jg_real t4 = cosine_0 * C_i[3];
+    const jg_real t5 = cosine_0 * C_i[4];
+    const jg_real t6 = cosine_0 * C_i[5];
+    /* f_j_in_i = f_j, axes of body i */
+    const jg_real f_j_in_i_0 = cosine_0 * C_i[0] + C_i[3] * sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
-    const jg_real t6 = sine_0 * cosine_1;
     phi_q[14] = -s_i[0];
     phi_q[45] = sine_0;
     phi_q[6] = sine_0 * C_i[6];
     phi_q[46] = sine_1;
     phi_q[11] = sine_0 * C_i[7];
+    phi_q[5] = t4 - sine_0 * C_i[0];
     phi_q[16] = sine_0 * C_i[8];
-    phi_q[5] = cosine_0 * C_i[3] - sine_0 * C_i[0];
-    phi_q[10] = cosine_0 * C_i[4] - sine_0 * C_i[1];
-    const jg_real t7 = cosine_1 * C_j[4];
-    const jg_real t8 = cosine_1 * C_j[5];
-    /* A_joint_i_j = turns j axes to joint i axes */
-    const jg_real A_joint_i_j_5 = sine_1 * C_j[4] + cosine_1 * C_j[7];
-    const jg_real A_joint_i_j_3 = cosine_0 * C_j[1] - t6 * C_j[4] + H_02 * C_j[7];
-    const jg_real A_joint_i_j_8 = sine_1 * C_j[5] + cosine_1 * C_j[8];
-    const jg_real A_joint_i_j_6 = cosine_0 * C_j[2] - t6 * C_j[5] + H_02 * C_j[8];
+    phi_q[10] = t5 - sine_0 * C_i[1];
+    const jg_real f_j_in_i_1 = cosine_0 * C_i[1] + sine_0 * C_i[4];
+    const jg_real f_j_in_i_2 = cosine_0 * C_i[2] + sine_0 * C_i[5];
+    const jg_real t11 = sine_0 * cosine_1;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = sine_1 * C_j[6] - cosine_1 * C_j[3];
-    const jg_real A_joint_i_j_4 = sine_0 * C_j[1] + cosine_0 * t7 - t4 * C_j[7];
-    const jg_real A_joint_i_j_7 = sine_0 * C_j[2] + cosine_0 * t8 - t4 * C_j[8];
-    const jg_real f_j_cross_h_i_in_j_1 = sine_1 * C_j[7] - t7;
-    phi_q[15] = cosine_0 * C_i[5] - sine_0 * C_i[2];
-    phi_q[7] = C_i[0] * t4 + C_i[3] * H_02;
-    phi_q[12] = t4 * C_i[1] + H_02 * C_i[4];
-    phi_q[17] = t4 * C_i[2] + H_02 * C_i[5];
+    /* h_j_in_i = h_j, axes of body i */
+    const jg_real h_j_in_i_2 = C_i[2] * H_02 - sine_1 * t6 + C_i[8] * cosine_1;
+    const jg_real h_j_in_i_0 = C_i[0] * H_02 - t4 * sine_1 + C_i[6] * cosine_1;
+    const jg_real h_j_in_i_1 = C_i[1] * H_02 - sine_1 * t5 + C_i[7] * cosine_1;
+    const jg_real f_j_cross_h_i_in_j_1 = sine_1 * C_j[7] - cosine_1 * C_j[4];
+    phi_q[15] = t6 - sine_0 * C_i[2];
+    phi_q[7] = f_j_in_i_0 * sine_1;
+    phi_q[12] = sine_1 * f_j_in_i_1;
+    phi_q[17] = sine_1 * f_j_in_i_2;
     phi_q[30] = f_j_cross_h_i_in_j_0;
     phi_q[32] = -(sine_1 * C_j[0]);
-    phi_q[31] = -(H_02 * C_j[3] + t6 * C_j[6]);
     phi_q[36] = f_j_cross_h_i_in_j_1;
-    const jg_real f_j_cross_h_i_in_j_2 = sine_1 * C_j[8] - t8;
-    /* A_ij = turns j axes to i axes */
-    const jg_real A_ij_4 = C_i[1] * A_joint_i_j_3 + C_i[4] * A_joint_i_j_4 + C_i[7] * A_joint_i_j_5;
-    const jg_real A_ij_5 = C_i[2] * A_joint_i_j_3 + C_i[5] * A_joint_i_j_4 + C_i[8] * A_joint_i_j_5;
-    const jg_real A_ij_3 = C_i[0] * A_joint_i_j_3 + C_i[3] * A_joint_i_j_4 + C_i[6] * A_joint_i_j_5;
     phi_q[38] = -(sine_1 * C_j[1]);
+    /* g_j_in_i = g_j, axes of body i */
+    const jg_real g_j_in_i_1 = f_j_in_i_0 * h_j_in_i_2 - f_j_in_i_2 * h_j_in_i_0;
+    const jg_real f_j_cross_h_i_in_j_2 = sine_1 * C_j[8] - cosine_1 * C_j[5];
+    const jg_real g_j_in_i_2 = f_j_in_i_1 * h_j_in_i_0 - f_j_in_i_0 * h_j_in_i_1;
+    /* A_ji = turns i axes to j axes */
+    const jg_real A_ji_4 = g_j_in_i_1 * C_j[4] + f_j_in_i_1 * C_j[1] + h_j_in_i_1 * C_j[7];
+    const jg_real A_ji_5 = g_j_in_i_1 * C_j[5] + f_j_in_i_1 * C_j[2] + h_j_in_i_1 * C_j[8];
+    const jg_real A_ji_3 = g_j_in_i_1 * C_j[3] + f_j_in_i_1 * C_j[0] + h_j_in_i_1 * C_j[6];
     phi_q[42] = f_j_cross_h_i_in_j_2;
-    phi_q[22] = A_ij_4;
-    phi_q[23] = A_ij_5;
-    phi_q[21] = A_ij_3;
+    phi_q[31] = -(H_02 * C_j[3] + C_j[6] * t11);
+    phi_q[37] = -(H_02 * C_j[4] + C_j[7] * t11);
+    phi_q[43] = -(H_02 * C_j[5] + C_j[8] * t11);
     phi_q[44] = -(sine_1 * C_j[2]);
-    phi_q[37] = -(H_02 * C_j[4] + t6 * C_j[7]);
-    phi_q[43] = -(H_02 * C_j[5] + t6 * C_j[8]);
-    const jg_real A_ij_8 = C_i[2] * A_joint_i_j_6 + C_i[5] * A_joint_i_j_7 + C_i[8] * A_joint_i_j_8;
-    const jg_real A_ij_7 = C_i[1] * A_joint_i_j_6 + C_i[4] * A_joint_i_j_7 + C_i[7] * A_joint_i_j_8;
-    const jg_real A_ij_6 = C_i[0] * A_joint_i_j_6 + C_i[3] * A_joint_i_j_7 + C_i[6] * A_joint_i_j_8;
-    const jg_real A_ij_0 = A_ij_4 * A_ij_8 - A_ij_5 * A_ij_7;
-    const jg_real A_ij_1 = A_ij_5 * A_ij_6 - A_ij_8 * A_ij_3;
-    const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
-    phi_q[26] = A_ij_8;
-    phi_q[25] = A_ij_7;
-    phi_q[24] = A_ij_6;
-    phi_q[18] = A_ij_0;
-    phi_q[19] = A_ij_1;
-    phi_q[20] = A_ij_2;
-    phi_q[27] = A_ij_6 * s_j[1] - A_ij_3 * s_j[2];
-    phi_q[28] = A_ij_7 * s_j[1] - A_ij_4 * s_j[2];
-    phi_q[29] = A_ij_8 * s_j[1] - A_ij_5 * s_j[2];
-    phi_q[33] = A_ij_0 * s_j[2] - A_ij_6 * s_j[0];
-    phi_q[39] = A_ij_3 * s_j[0] - A_ij_0 * s_j[1];
-    phi_q[34] = A_ij_1 * s_j[2] - A_ij_7 * s_j[0];
-    phi_q[40] = A_ij_4 * s_j[0] - A_ij_1 * s_j[1];
-    phi_q[35] = A_ij_2 * s_j[2] - A_ij_8 * s_j[0];
-    phi_q[41] = A_ij_5 * s_j[0] - A_ij_2 * s_j[1];
+    phi_q[22] = A_ji_4;
+    phi_q[25] = A_ji_5;
+    phi_q[19] = A_ji_3;
+    const jg_real A_ji_8 = g_j_in_i_2 * C_j[5] + f_j_in_i_2 * C_j[2] + h_j_in_i_2 * C_j[8];
+    const jg_real A_ji_7 = C_j[4] * g_j_in_i_2 + f_j_in_i_2 * C_j[1] + h_j_in_i_2 * C_j[7];
+    const jg_real A_ji_6 = g_j_in_i_2 * C_j[3] + f_j_in_i_2 * C_j[0] + h_j_in_i_2 * C_j[6];
+    const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_5 * A_ji_7;
+    const jg_real A_ji_1 = A_ji_5 * A_ji_6 - A_ji_8 * A_ji_3;
+    const jg_real A_ji_2 = A_ji_7 * A_ji_3 - A_ji_4 * A_ji_6;
+    phi_q[26] = A_ji_8;
+    phi_q[23] = A_ji_7;
+    phi_q[20] = A_ji_6;
+    phi_q[28] = A_ji_5 * s_j[1] - A_ji_4 * s_j[2];
+    phi_q[18] = A_ji_0;
+    phi_q[21] = A_ji_1;
+    phi_q[24] = A_ji_2;
+    phi_q[29] = A_ji_8 * s_j[1] - A_ji_7 * s_j[2];
+    phi_q[34] = A_ji_3 * s_j[2] - A_ji_5 * s_j[0];
+    phi_q[35] = A_ji_6 * s_j[2] - A_ji_8 * s_j[0];
+    phi_q[40] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    phi_q[41] = A_ji_7 * s_j[0] - A_ji_6 * s_j[1];
+    phi_q[39] = A_ji_1 * s_j[0] - A_ji_0 * s_j[1];
+    phi_q[27] = A_ji_2 * s_j[1] - A_ji_1 * s_j[2];
+    phi_q[33] = A_ji_0 * s_j[2] - A_ji_2 * s_j[0];
 }
 
 void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -197,78 +201,85 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
     const jg_real t10 = cosine_0 * lambda[3];
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
+    const jg_real t12 = lambda[3] * sine_0;
     /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
     const jg_real h_j_cross_f_i_in_joint_i_2 = cosine_1 * sine_0;
-    const jg_real t13 = lambda[3] * sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
     /* g_j_cross_h_i_in_joint_i = g_j x h_i, axes of joint i */
     const jg_real g_j_cross_h_i_in_joint_i_1 = cosine_0 * sine_1;
-    const jg_real t16 = cosine_1 * lambda[4];
+    const jg_real t16 = cosine_0 * lambda[4];
+    const jg_real t17 = sine_0 * lambda[4];
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
     const jg_real lambda_0_1_2_in_joint_j_0 = cosine_1 * lambda_0_1_2_in_joint_i_0 + sine_1 *
         lambda_0_1_2_in_joint_i_1;
-    /* v_2_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
-    const jg_real v_2_in_joint_j = cosine_0 * lambda[5];
-    /* v_4_in_joint_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of joint j */
-    const jg_real v_4_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t20 = sine_0 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t21 = lambda_0_1_2_in_joint_j_0 * s_j_in_joint_j_0;
+    const jg_real t19 = cosine_1 * lambda[4];
+    /* v_1_in_joint_i = cos(alpha_1) lambda_4 g_j x f_i - sin(alpha_1) lambda_4 h_j x f_i, axes of joint i */
+    const jg_real v_1_in_joint_i_1 = sine_0 * t16 - cosine_0 * t17;
+    /* v_3_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
+    const jg_real v_3_in_joint_j = cosine_0 * lambda[5];
+    const jg_real t22 = H_11 * t16 + h_j_cross_f_i_in_joint_i_2 * t17;
     /* v_0_in_joint_i = cos(alpha_1) lambda_3 g_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + sin(alpha_1) lambda_5
         ... */
-    const jg_real v_0_in_joint_i_0 = t10 * H_11 + h_j_cross_f_i_in_joint_i_2 * t13 + lambda[5] * H_02;
-    const jg_real t23 = (cosine_0 * H_11 + sine_0 * h_j_cross_f_i_in_joint_i_2) * lambda[4];
-    const jg_real t24 = sine_0 * s_j_in_joint_j_1 + cosine_0 * s_j_in_joint_j_2;
-    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_2_in_joint_i_0 = cosine_1 * v_2_in_joint_j;
-    const jg_real v_0_in_joint_i_1 = t10 * g_j_cross_h_i_in_joint_i_1 + t13 * H_02 - h_j_cross_f_i_in_joint_i_2 *
+    const jg_real v_0_in_joint_i_0 = t10 * H_11 + t12 * h_j_cross_f_i_in_joint_i_2 + lambda[5] * H_02;
+    /* v_5_in_joint_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of joint j */
+    const jg_real v_5_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_j_0;
+    const jg_real t25 = sine_0 * lambda_0_1_2_in_joint_j_0;
+    const jg_real t26 = lambda_0_1_2_in_joint_j_0 * s_j_in_joint_j_0;
+    const jg_real v_0_in_joint_i_1 = t10 * g_j_cross_h_i_in_joint_i_1 + t12 * H_02 - h_j_cross_f_i_in_joint_i_2 *
         lambda[5];
-    const jg_real v_2_in_joint_i_1 = sine_1 * v_2_in_joint_j;
+    const jg_real t28 = cosine_0 * s_j_in_joint_j_2 + sine_0 * s_j_in_joint_j_1;
+    /* v_3_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_3_in_joint_i_0 = cosine_1 * v_3_in_joint_j;
     const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - h_j_cross_f_i_in_joint_i_2 *
         lambda_0_1_2_in_joint_i_1 + cosine_0 * lambda_0_1_2_in_joint_i_2;
     const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - g_j_cross_h_i_in_joint_i_1 *
         lambda_0_1_2_in_joint_i_0 + sine_0 * lambda_0_1_2_in_joint_i_2;
-    const jg_real t30 = lambda_0_1_2_in_joint_j_0 * t24;
-    const jg_real v_4_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_j_2 - cosine_0 * lambda_0_1_2_in_joint_j_1;
+    /* v_2_in_joint_i = cos(alpha_1) lambda_4 g_j x f_i + cos(alpha_1) lambda_3 g_j x h_i - sin(alpha_1) lambda_4
+        ... */
+    const jg_real v_2_in_joint_i_1 = v_0_in_joint_i_1 + v_1_in_joint_i_1;
+    const jg_real t33 = lambda_0_1_2_in_joint_j_0 * t28;
+    const jg_real v_3_in_joint_i_1 = sine_1 * v_3_in_joint_j;
+    const jg_real v_5_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_j_2 - cosine_0 * lambda_0_1_2_in_joint_j_1;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
-    const jg_real s_j_dot_lambda_0_1_2 = t21 + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_1 +
+    const jg_real s_j_dot_lambda_0_1_2 = t26 + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_1 +
         lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_2;
-    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i_0 + C_i[3] * v_2_in_joint_i_1;
-    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i_0 + C_i[4] * v_2_in_joint_i_1;
-    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i_0 + C_i[5] * v_2_in_joint_i_1;
-    phi_q_t_lambda_q[9] = t16;
-    phi_q_t_lambda_q[19] = v_2_in_joint_j;
-    phi_q_t_lambda_q[0] = t23 * C_i[6] - (v_0_in_joint_i_0 * C_i[0] + v_0_in_joint_i_1 * C_i[3]);
-    phi_q_t_lambda_q[1] = t23 * C_i[7] - (v_0_in_joint_i_0 * C_i[1] + v_0_in_joint_i_1 * C_i[4]);
-    phi_q_t_lambda_q[2] = t23 * C_i[8] - (v_0_in_joint_i_0 * C_i[2] + v_0_in_joint_i_1 * C_i[5]);
-    phi_q_t_lambda_q[10] = v_2_in_i_0;
-    phi_q_t_lambda_q[11] = v_2_in_i_1;
-    phi_q_t_lambda_q[12] = v_2_in_i_2;
-    const jg_real t36 = s_j_dot_lambda_0_1_2 + t16;
-    /* v_6_in_joint_j = (cos(alpha_1) lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_4 - sin(alpha_1) ... */
-    const jg_real v_6_in_joint_j = s_j_dot_lambda_0_1_2 + v_2_in_joint_j - t21;
-    const jg_real t38 = t13 - g_j_cross_h_i_in_joint_i_1 * lambda[4] + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_0;
-    const jg_real t39 = t10 + H_02 * lambda[4] + lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_0;
-    /* v_5_in_joint_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
-    const jg_real v_5_in_joint_j_2 = cosine_0 * t36 - lambda_0_1_2_in_joint_j_2 * t24;
-    const jg_real v_5_in_joint_j_1 = sine_0 * t36 - lambda_0_1_2_in_joint_j_1 * t24;
+    /* v_3_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1;
+    const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1;
+    const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1;
+    phi_q_t_lambda_q[9] = t19;
+    phi_q_t_lambda_q[19] = v_3_in_joint_j;
+    phi_q_t_lambda_q[0] = t22 * C_i[6] - (v_0_in_joint_i_0 * C_i[0] + v_2_in_joint_i_1 * C_i[3]);
+    phi_q_t_lambda_q[1] = t22 * C_i[7] - (v_0_in_joint_i_0 * C_i[1] + v_2_in_joint_i_1 * C_i[4]);
+    phi_q_t_lambda_q[2] = t22 * C_i[8] - (v_0_in_joint_i_0 * C_i[2] + v_2_in_joint_i_1 * C_i[5]);
+    phi_q_t_lambda_q[10] = v_3_in_i_0;
+    phi_q_t_lambda_q[11] = v_3_in_i_1;
+    phi_q_t_lambda_q[12] = v_3_in_i_2;
+    const jg_real t40 = s_j_dot_lambda_0_1_2 + t19;
+    /* v_7_in_joint_j = (cos(alpha_1) lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_4 - sin(alpha_1) ... */
+    const jg_real v_7_in_joint_j = s_j_dot_lambda_0_1_2 + v_3_in_joint_j - t26;
+    const jg_real t42 = t12 - g_j_cross_h_i_in_joint_i_1 * lambda[4] + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_0;
+    const jg_real t43 = t10 + H_02 * lambda[4] + lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_0;
+    /* v_6_in_joint_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
+    const jg_real v_6_in_joint_j_2 = cosine_0 * t40 - lambda_0_1_2_in_joint_j_2 * t28;
+    const jg_real v_6_in_joint_j_1 = sine_0 * t40 - lambda_0_1_2_in_joint_j_1 * t28;
     phi_q_t_lambda_q[13] = lambda_0_1_2_in_joint_j_2 * C_j[3] - lambda_0_1_2_in_joint_j_1 * C_j[6];
-    phi_q_t_lambda_q[3] = t20 * C_j[6] - (v_4_in_joint_j_0 * C_j[0] + v_4_in_joint_j_1 * C_j[3]);
-    phi_q_t_lambda_q[4] = t20 * C_j[7] - (v_4_in_joint_j_0 * C_j[1] + v_4_in_joint_j_1 * C_j[4]);
-    phi_q_t_lambda_q[5] = t20 * C_j[8] - (v_4_in_joint_j_0 * C_j[2] + v_4_in_joint_j_1 * C_j[5]);
     phi_q_t_lambda_q[14] = lambda_0_1_2_in_joint_j_2 * C_j[4] - lambda_0_1_2_in_joint_j_1 * C_j[7];
+    phi_q_t_lambda_q[3] = t25 * C_j[6] - (v_5_in_joint_j_0 * C_j[0] + v_5_in_joint_j_1 * C_j[3]);
     phi_q_t_lambda_q[15] = lambda_0_1_2_in_joint_j_2 * C_j[5] - lambda_0_1_2_in_joint_j_1 * C_j[8];
-    phi_q_t_lambda_q[16] = C_j[6] * t39 - (C_j[0] * v_6_in_joint_j - C_j[3] * t38);
-    phi_q_t_lambda_q[17] = C_j[7] * t39 - (C_j[1] * v_6_in_joint_j - C_j[4] * t38);
-    /* v_5_in_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
-    const jg_real v_5_in_j_0 = C_j[3] * v_5_in_joint_j_1 - C_j[0] * t30 + C_j[6] * v_5_in_joint_j_2;
-    const jg_real v_5_in_j_1 = C_j[4] * v_5_in_joint_j_1 - C_j[1] * t30 + C_j[7] * v_5_in_joint_j_2;
-    const jg_real v_5_in_j_2 = C_j[5] * v_5_in_joint_j_1 - C_j[2] * t30 + C_j[8] * v_5_in_joint_j_2;
-    phi_q_t_lambda_q[18] = C_j[8] * t39 - (C_j[2] * v_6_in_joint_j - C_j[5] * t38);
-    phi_q_t_lambda_q[6] = -v_5_in_j_0;
-    phi_q_t_lambda_q[7] = -v_5_in_j_1;
-    phi_q_t_lambda_q[8] = -v_5_in_j_2;
+    phi_q_t_lambda_q[4] = t25 * C_j[7] - (v_5_in_joint_j_0 * C_j[1] + v_5_in_joint_j_1 * C_j[4]);
+    phi_q_t_lambda_q[5] = t25 * C_j[8] - (v_5_in_joint_j_0 * C_j[2] + v_5_in_joint_j_1 * C_j[5]);
+    phi_q_t_lambda_q[16] = C_j[6] * t43 - (C_j[0] * v_7_in_joint_j - C_j[3] * t42);
+    phi_q_t_lambda_q[17] = C_j[7] * t43 - (C_j[1] * v_7_in_joint_j - C_j[4] * t42);
+    /* v_6_in_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
+    const jg_real v_6_in_j_0 = C_j[3] * v_6_in_joint_j_1 - C_j[0] * t33 + C_j[6] * v_6_in_joint_j_2;
+    const jg_real v_6_in_j_1 = C_j[4] * v_6_in_joint_j_1 - C_j[1] * t33 + C_j[7] * v_6_in_joint_j_2;
+    const jg_real v_6_in_j_2 = C_j[5] * v_6_in_joint_j_1 - C_j[2] * t33 + C_j[8] * v_6_in_joint_j_2;
+    phi_q_t_lambda_q[18] = C_j[8] * t43 - (C_j[2] * v_7_in_joint_j - C_j[5] * t42);
+    phi_q_t_lambda_q[6] = -v_6_in_j_0;
+    phi_q_t_lambda_q[7] = -v_6_in_j_1;
+    phi_q_t_lambda_q[8] = -v_6_in_j_2;
 }
 
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -305,9 +316,9 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *alpha, cons
     /* s_j_in_joint_j = s_j, axes of joint j */
     const jg_real s_j_in_joint_j_0 = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
     const jg_real s_j_in_joint_j_1 = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
-    /* v_0_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes
+    /* v_1_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes
         ... */
-    const jg_real v_0_in_joint_j_0 = alphadot[1] - f_j_dot_omega_j;
+    const jg_real v_1_in_joint_j_0 = alphadot[1] - f_j_dot_omega_j;
     const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
     /* v_j_in_joint_j = v_j, axes of joint j */
     const jg_real v_j_in_joint_j_2 = v_j[0] * C_j[6] + v_j[1] * C_j[7] + v_j[2] * C_j[8];
@@ -321,10 +332,10 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *alpha, cons
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
-    /* v_2_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j, axes of joint j
+    /* v_0_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j, axes of joint j
         */
-    const jg_real v_2_in_joint_j_1 = sine_0 * alphadot[0];
-    const jg_real v_2_in_joint_j_2 = alphadot[0] * cosine_0;
+    const jg_real v_0_in_joint_j_1 = sine_0 * alphadot[0];
+    const jg_real v_0_in_joint_j_2 = alphadot[0] * cosine_0;
     const jg_real t22 = cosine_0 * sine_1;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
@@ -332,45 +343,45 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *alpha, cons
     const jg_real H_11 = cosine_0 * cosine_1;
     /* v_6_in_joint_j = cos(alpha_0) sin(alpha_1) g_j + cos(alpha_0) cos(alpha_1) h_j, axes of joint j */
     const jg_real v_6_in_joint_j_1 = sine_0 * cosine_1;
-    const jg_real v_0_in_joint_j_1 = v_2_in_joint_j_1 - g_j_dot_omega_j;
-    const jg_real v_0_in_joint_j_2 = v_2_in_joint_j_2 - h_j_dot_omega_j;
-    const jg_real t28 = alphadot[1] * f_j_dot_omega_j + v_2_in_joint_j_1 * g_j_dot_omega_j + v_2_in_joint_j_2 *
+    const jg_real v_1_in_joint_j_1 = v_0_in_joint_j_1 - g_j_dot_omega_j;
+    const jg_real v_1_in_joint_j_2 = v_0_in_joint_j_2 - h_j_dot_omega_j;
+    const jg_real t28 = alphadot[1] * f_j_dot_omega_j + v_0_in_joint_j_1 * g_j_dot_omega_j + v_0_in_joint_j_2 *
         h_j_dot_omega_j;
-    const jg_real t29 = alphadot[1] * s_j_in_joint_j_0 + v_2_in_joint_j_1 * s_j_in_joint_j_1 + v_2_in_joint_j_2 *
+    const jg_real t29 = alphadot[1] * s_j_in_joint_j_0 + v_0_in_joint_j_1 * s_j_in_joint_j_1 + v_0_in_joint_j_2 *
         s_j_in_joint_j_2;
     const jg_real t30 = t22 * omega_i_in_joint_i_1 + H_11 * omega_i_in_joint_i_0;
-    /* v_1_in_joint_j = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ...
+    /* v_2_in_joint_j = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ...
         */
-    const jg_real v_1_in_joint_j_0 = v_j_in_joint_j_2 * v_0_in_joint_j_1 - v_j_in_joint_j_1 * v_0_in_joint_j_2;
-    const jg_real v_1_in_joint_j_1 = v_j_in_joint_j_0 * v_0_in_joint_j_2 - v_j_in_joint_j_2 * v_0_in_joint_j_0;
-    const jg_real v_1_in_joint_j_2 = v_j_in_joint_j_1 * v_0_in_joint_j_0 - v_j_in_joint_j_0 * v_0_in_joint_j_1;
+    const jg_real v_2_in_joint_j_0 = v_j_in_joint_j_2 * v_1_in_joint_j_1 - v_j_in_joint_j_1 * v_1_in_joint_j_2;
+    const jg_real v_2_in_joint_j_1 = v_j_in_joint_j_0 * v_1_in_joint_j_2 - v_j_in_joint_j_2 * v_1_in_joint_j_0;
+    const jg_real v_2_in_joint_j_2 = v_j_in_joint_j_1 * v_1_in_joint_j_0 - v_j_in_joint_j_0 * v_1_in_joint_j_1;
     /* v_3_in_joint_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_3_in_joint_j_0 = t28 * s_j_in_joint_j_0 - f_j_dot_omega_j * t29;
     const jg_real v_3_in_joint_j_1 = t28 * s_j_in_joint_j_1 - g_j_dot_omega_j * t29;
     const jg_real v_3_in_joint_j_2 = t28 * s_j_in_joint_j_2 - h_j_dot_omega_j * t29;
-    /* v_1_in_joint_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ...
+    /* v_2_in_joint_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ...
         */
-    const jg_real v_1_in_joint_i_2 = sine_0 * v_1_in_joint_j_1 + cosine_0 * v_1_in_joint_j_2;
+    const jg_real v_2_in_joint_i_2 = sine_0 * v_2_in_joint_j_1 + cosine_0 * v_2_in_joint_j_2;
     /* v_3_in_joint_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_3_in_joint_i_2 = sine_0 * v_3_in_joint_j_1 + cosine_0 * v_3_in_joint_j_2;
-    const jg_real v_1_in_joint_i_0 = v_1_in_joint_j_0 * cosine_1 - v_1_in_joint_j_1 * t22 + v_1_in_joint_j_2 * H_02;
-    const jg_real v_1_in_joint_i_1 = v_1_in_joint_j_0 * sine_1 + v_1_in_joint_j_1 * H_11 - v_1_in_joint_j_2 *
+    const jg_real v_2_in_joint_i_0 = v_2_in_joint_j_0 * cosine_1 - v_2_in_joint_j_1 * t22 + v_2_in_joint_j_2 * H_02;
+    const jg_real v_2_in_joint_i_1 = v_2_in_joint_j_0 * sine_1 + v_2_in_joint_j_1 * H_11 - v_2_in_joint_j_2 *
         v_6_in_joint_j_1;
     const jg_real v_3_in_joint_i_0 = cosine_1 * v_3_in_joint_j_0 - t22 * v_3_in_joint_j_1 + H_02 * v_3_in_joint_j_2;
     const jg_real v_3_in_joint_i_1 = sine_1 * v_3_in_joint_j_0 + H_11 * v_3_in_joint_j_1 - v_6_in_joint_j_1 *
         v_3_in_joint_j_2;
-    /* v_1_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
-    const jg_real v_1_in_i_0 = v_1_in_joint_i_0 * C_i[0] + v_1_in_joint_i_1 * C_i[3] + v_1_in_joint_i_2 * C_i[6];
-    const jg_real v_1_in_i_1 = v_1_in_joint_i_0 * C_i[1] + v_1_in_joint_i_1 * C_i[4] + v_1_in_joint_i_2 * C_i[7];
+    /* v_2_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
+    const jg_real v_2_in_i_0 = v_2_in_joint_i_0 * C_i[0] + v_2_in_joint_i_1 * C_i[3] + v_2_in_joint_i_2 * C_i[6];
+    const jg_real v_2_in_i_1 = v_2_in_joint_i_0 * C_i[1] + v_2_in_joint_i_1 * C_i[4] + v_2_in_joint_i_2 * C_i[7];
     /* v_3_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
     const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1 + C_i[6] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1 + C_i[7] * v_3_in_joint_i_2;
     const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1 + C_i[8] * v_3_in_joint_i_2;
-    const jg_real v_1_in_i_2 = v_1_in_joint_i_0 * C_i[2] + v_1_in_joint_i_1 * C_i[5] + v_1_in_joint_i_2 * C_i[8];
+    const jg_real v_2_in_i_2 = v_2_in_joint_i_0 * C_i[2] + v_2_in_joint_i_1 * C_i[5] + v_2_in_joint_i_2 * C_i[8];
     /* v_4_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_1_in_i_0 + omega_i_cross_v_i_in_i_0);
-    const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_1_in_i_1 + omega_i_cross_v_i_in_i_1);
-    const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_1_in_i_2 + omega_i_cross_v_i_in_i_2);
+    const jg_real v_4_in_i_0 = v_3_in_i_0 - (v_2_in_i_0 + omega_i_cross_v_i_in_i_0);
+    const jg_real v_4_in_i_1 = v_3_in_i_1 - (v_2_in_i_1 + omega_i_cross_v_i_in_i_1);
+    const jg_real v_4_in_i_2 = v_3_in_i_2 - (v_2_in_i_2 + omega_i_cross_v_i_in_i_2);
     gamma[3] = -(cosine_0 * (alphadot[1] * h_j_dot_omega_j - alphadot[0] * t30) + sine_0 * (alphadot[1] *
         g_j_dot_omega_j - alphadot[0] * (H_02 * omega_i_in_joint_i_1 + v_6_in_joint_j_1 * omega_i_in_joint_i_0)));
     gamma[4] = alphadot[0] * (g_j_dot_omega_j * v_6_in_joint_j_1 + h_j_dot_omega_j * H_11) - omega_i_in_joint_i_2 *
@@ -378,7 +389,7 @@ void jg_universal_parametric_table4_substituted_gamma(const jg_real *alpha, cons
         g_j_dot_omega_j * t22) - alphadot[0] * cosine_1 * alphadot[0];
     gamma[0] = v_4_in_i_0;
     gamma[1] = v_4_in_i_1;
-    gamma[5] = -(alphadot[1] * (t30 + cosine_0 * v_0_in_joint_j_0) + v_2_in_joint_j_1 * (cosine_1 *
+    gamma[5] = -(alphadot[1] * (t30 + cosine_0 * v_1_in_joint_j_0) + v_0_in_joint_j_1 * (cosine_1 *
         omega_i_in_joint_i_1 - sine_1 * omega_i_in_joint_i_0));
     gamma[2] = v_4_in_i_2;
 }
@@ -464,7 +475,7 @@ void jg_universal_parametric_table4_substituted_phi_q_v(const jg_real *alpha, co
         cosine_1 * omega_j_in_joint_j_1);
     phi_q_v[4] = sine_0 * omega_i_in_joint_i_2 + sine_0 * alphadot[0] - (t22 * omega_j_in_joint_j_2 + H_02 *
         omega_j_in_joint_j_1);
-    phi_q_v[5] = H_02 * omega_i_in_joint_i_1 + t25 * omega_i_in_joint_i_0 + sine_1 * alphadot[1] - sine_1 *
+    phi_q_v[5] = t25 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1 + sine_1 * alphadot[1] - sine_1 *
         omega_j_in_joint_j_0;
     phi_q_v[0] = -v_0_in_i_0;
     phi_q_v[1] = -v_0_in_i_1;
@@ -614,35 +625,32 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
     phi_q[2] = JG_REAL(-1.0);
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    /* v_10_in_j = alphadot_1 f_j, axes of body j */
+    const jg_real v_10_in_j_0 = C_j[0] * alphadot[1];
+    const jg_real v_10_in_j_1 = C_j[1] * alphadot[1];
+    const jg_real v_10_in_j_2 = C_j[2] * alphadot[1];
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real h_j_world_2 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
     /* f_i_dot_f_j = f_i . f_j */
     const jg_real f_i_dot_f_j = f_j_world_0 * f_i_world_0 + f_j_world_1 * f_i_world_1 + f_j_world_2 * f_i_world_2;
-    /* s_j_dot_h_j = s_j . h_j */
-    const jg_real s_j_dot_h_j = s_j[0] * C_j[6] + s_j[1] * C_j[7] + s_j[2] * C_j[8];
-    /* s_j_dot_g_j = s_j . g_j */
-    const jg_real s_j_dot_g_j = s_j[0] * C_j[3] + s_j[1] * C_j[4] + s_j[2] * C_j[5];
-    /* s_j_dot_f_j = s_j . f_j */
-    const jg_real s_j_dot_f_j = s_j[0] * C_j[0] + s_j[1] * C_j[1] + s_j[2] * C_j[2];
-    /* f_j_dot_omega_j = f_j . omega_j */
-    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
-    /* h_i_dot_h_j = h_i . h_j */
-    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
-    /* g_j_dot_omega_j = g_j . omega_j */
-    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     /* omega_i_cross_v_i_in_i = omega_i x v_i, axes of body i */
     const jg_real omega_i_cross_v_i_in_i_0 = omega_i[1] * v_i[2] - omega_i[2] * v_i[1];
+    /* s_j_dot_f_j = s_j . f_j */
+    const jg_real s_j_dot_f_j = s_j[0] * C_j[0] + s_j[1] * C_j[1] + s_j[2] * C_j[2];
     const jg_real omega_i_cross_v_i_in_i_1 = omega_i[2] * v_i[0] - v_i[2] * omega_i[0];
-    /* v_10_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes
-        ... */
-    const jg_real v_10_in_joint_j_0 = alphadot[1] - f_j_dot_omega_j;
-    /* h_j_dot_omega_j = h_j . omega_j */
-    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
     const jg_real omega_i_cross_v_i_in_i_2 = v_i[1] * omega_i[0] - omega_i[1] * v_i[0];
+    /* h_i_dot_h_j = h_i . h_j */
+    const jg_real h_i_dot_h_j = h_i_world_0 * h_j_world_0 + h_i_world_1 * h_j_world_1 + h_i_world_2 * h_j_world_2;
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_0 = C_i[0] * omega_i[0] + C_i[1] * omega_i[1] + C_i[2] * omega_i[2];
     const jg_real omega_i_in_joint_i_1 = C_i[3] * omega_i[0] + C_i[4] * omega_i[1] + C_i[5] * omega_i[2];
+    /* h_j_dot_omega_j = h_j . omega_j */
+    const jg_real h_j_dot_omega_j = C_j[6] * omega_j[0] + C_j[7] * omega_j[1] + C_j[8] * omega_j[2];
+    /* g_j_dot_omega_j = g_j . omega_j */
+    const jg_real g_j_dot_omega_j = C_j[3] * omega_j[0] + C_j[4] * omega_j[1] + C_j[5] * omega_j[2];
     const jg_real omega_i_in_joint_i_2 = C_i[6] * omega_i[0] + C_i[7] * omega_i[1] + C_i[8] * omega_i[2];
+    /* f_j_dot_omega_j = f_j . omega_j */
+    const jg_real f_j_dot_omega_j = C_j[0] * omega_j[0] + C_j[1] * omega_j[1] + C_j[2] * omega_j[2];
     phi_q[4] = -s_i[1];
     phi_q[8] = -s_i[2];
     phi_q[14] = -s_i[0];
@@ -658,8 +666,8 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
     const jg_real g_j_cross_h_i_in_joint_i_1 = cosine_1 * sine_0;
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
-    /* v_15_in_joint_j = cos(alpha_0) sin(alpha_1) g_j + cos(alpha_0) cos(alpha_1) h_j, axes of joint j */
-    const jg_real v_15_in_joint_j_1 = cosine_0 * sine_1;
+    /* v_16_in_joint_j = cos(alpha_0) sin(alpha_1) g_j + cos(alpha_0) cos(alpha_1) h_j, axes of joint j */
+    const jg_real v_16_in_joint_j_1 = cosine_0 * sine_1;
     /* A_joint_j_i = turns i axes to joint j axes */
     const jg_real A_joint_j_i_3 = C_i[1] * cosine_0 + sine_0 * C_i[4];
     const jg_real A_joint_j_i_6 = C_i[2] * cosine_0 + sine_0 * C_i[5];
@@ -673,8 +681,8 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
     phi_q[17] = sine_1 * A_joint_j_i_6;
     const jg_real A_joint_j_i_4 = H_11 * C_i[4] - C_i[1] * g_j_cross_h_i_in_joint_i_1 + C_i[7] * sine_1;
     const jg_real A_joint_j_i_7 = H_11 * C_i[5] - C_i[2] * g_j_cross_h_i_in_joint_i_1 + C_i[8] * sine_1;
-    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - v_15_in_joint_j_1 * C_i[5] + C_i[8] * cosine_1;
-    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * v_15_in_joint_j_1 + C_i[7] * cosine_1;
+    const jg_real A_joint_j_i_8 = C_i[2] * H_02 - v_16_in_joint_j_1 * C_i[5] + C_i[8] * cosine_1;
+    const jg_real A_joint_j_i_5 = C_i[1] * H_02 - C_i[4] * v_16_in_joint_j_1 + C_i[7] * cosine_1;
     /* f_j_cross_h_i_in_j = f_j x h_i, axes of body j */
     const jg_real f_j_cross_h_i_in_j_0 = C_j[6] * sine_1 - cosine_1 * C_j[3];
     const jg_real A_joint_j_i_0 = A_joint_j_i_4 * A_joint_j_i_8 - A_joint_j_i_5 * A_joint_j_i_7;
@@ -727,7 +735,7 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
     const jg_real A_joint_j_i_2 = A_joint_j_i_7 * A_joint_j_i_3 - A_joint_j_i_4 * A_joint_j_i_6;
     const jg_real t75 = sine_1 * C_j[5];
     const jg_real t76 = C_j[8] * cosine_1;
-    const jg_real t77 = cosine_1 * v_0_in_joint_j_0 + v_15_in_joint_j_1 * lambda[4];
+    const jg_real t77 = cosine_1 * v_0_in_joint_j_0 + v_16_in_joint_j_1 * lambda[4];
     /* v_4_in_joint_j = sin(alpha_1) lambda_5 f_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + cos(alpha_1) lambda_4
         ... */
     const jg_real v_4_in_joint_j_2 = v_1_in_joint_j_2 - H_11 * lambda[4];
@@ -751,7 +759,6 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
         v_4_in_joint_j_2;
     const jg_real v_4_in_i_2 = A_joint_j_i_6 * v_1_in_joint_j_0 - A_joint_j_i_7 * t77 + A_joint_j_i_8 *
         v_4_in_joint_j_2;
-    const jg_real t92 = cosine_1 * s_j_dot_h_j + sine_1 * s_j_dot_g_j;
     const jg_real lambda_0_1_2_in_j_0 = A_ji_0 * lambda[0] + A_ji_3 * lambda[1] + A_ji_6 * lambda[2];
     /* v_5_in_i = lambda_5 g_j x h_i, axes of body i */
     const jg_real v_5_in_i_0 = A_joint_j_i_0 * v_5_in_joint_j;
@@ -765,7 +772,9 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
     phi_q_t_lambda_q[10] = v_5_in_i_0;
     const jg_real v_5_in_i_1 = A_joint_j_i_3 * v_5_in_joint_j;
     const jg_real v_5_in_i_2 = A_joint_j_i_6 * v_5_in_joint_j;
-    const jg_real t97 = t68 - g_j_cross_h_i_in_joint_i_1 * lambda[4];
+    const jg_real t96 = t68 - g_j_cross_h_i_in_joint_i_1 * lambda[4];
+    const jg_real t97 = s_j[0] * v_6_in_j_0 + s_j[1] * v_6_in_j_1 + s_j[2] * v_6_in_j_2;
+    const jg_real t98 = v_0_in_joint_j_1 + H_02 * lambda[4];
     phi_q_t_lambda_q[2] = -v_4_in_i_2;
     phi_q_t_lambda_q[11] = v_5_in_i_1;
     phi_q_t_lambda_q[12] = v_5_in_i_2;
@@ -774,67 +783,60 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *r_i, const jg
     phi_q_t_lambda_q[4] = lambda_0_1_2_in_j_2 * v_6_in_j_0 - v_6_in_j_2 * lambda_0_1_2_in_j_0;
     phi_q_t_lambda_q[5] = v_6_in_j_1 * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_1 * v_6_in_j_0;
     phi_q_t_lambda_q[14] = C_j[0] * lambda_0_1_2_in_j_2 - C_j[2] * lambda_0_1_2_in_j_0;
-    const jg_real t98 = v_0_in_joint_j_1 + H_02 * lambda[4];
-    /* v_12_in_joint_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j, axes of joint j
-        */
-    const jg_real v_12_in_joint_j_1 = sine_1 * alphadot[0];
-    const jg_real v_12_in_joint_j_2 = cosine_1 * alphadot[0];
+    const jg_real t99 = sine_1 * alphadot[0];
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
     const jg_real s_j_dot_lambda_0_1_2 = s_j[0] * lambda_0_1_2_in_j_0 + s_j[1] * lambda_0_1_2_in_j_1 + s_j[2] *
         lambda_0_1_2_in_j_2;
-    const jg_real v_10_in_joint_j_1 = v_12_in_joint_j_1 - g_j_dot_omega_j;
-    const jg_real t103 = s_j_dot_lambda_0_1_2 + t44;
-    const jg_real t104 = s_j_dot_lambda_0_1_2 + v_5_in_joint_j;
-    const jg_real v_10_in_joint_j_2 = v_12_in_joint_j_2 - h_j_dot_omega_j;
-    const jg_real t106 = H_11 * omega_i_in_joint_i_0 + g_j_cross_h_i_in_joint_i_1 * omega_i_in_joint_i_1;
-    const jg_real t107 = f_j_dot_omega_j * alphadot[1] + g_j_dot_omega_j * v_12_in_joint_j_1 + h_j_dot_omega_j *
-        v_12_in_joint_j_2;
-    const jg_real t108 = s_j_dot_f_j * alphadot[1] + s_j_dot_g_j * v_12_in_joint_j_1 + s_j_dot_h_j *
-        v_12_in_joint_j_2;
-    /* v_10_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes ... */
-    const jg_real v_10_in_j_1 = C_j[1] * v_10_in_joint_j_0 + C_j[4] * v_10_in_joint_j_1 + C_j[7] *
-        v_10_in_joint_j_2;
-    /* v_13_in_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_13_in_j_0 = s_j[0] * t107 - omega_j[0] * t108;
-    const jg_real v_13_in_j_1 = s_j[1] * t107 - omega_j[1] * t108;
-    const jg_real v_13_in_j_2 = s_j[2] * t107 - omega_j[2] * t108;
-    const jg_real v_10_in_j_2 = C_j[2] * v_10_in_joint_j_0 + C_j[5] * v_10_in_joint_j_1 + C_j[8] *
-        v_10_in_joint_j_2;
-    const jg_real v_10_in_j_0 = C_j[0] * v_10_in_joint_j_0 + C_j[3] * v_10_in_joint_j_1 + C_j[6] *
-        v_10_in_joint_j_2;
-    /* v_11_in_j = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
-    const jg_real v_11_in_j_0 = v_10_in_j_1 * v_j[2] - v_10_in_j_2 * v_j[1];
-    /* v_13_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
+    const jg_real t101 = s_j_dot_lambda_0_1_2 + t44;
+    const jg_real t102 = s_j_dot_lambda_0_1_2 + v_5_in_joint_j;
+    const jg_real t103 = H_11 * omega_i_in_joint_i_0 + g_j_cross_h_i_in_joint_i_1 * omega_i_in_joint_i_1;
+    /* v_11_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j, axes of body j */
+    const jg_real v_11_in_j_0 = v_10_in_j_0 + C_j[3] * t99 + t84 * alphadot[0];
+    const jg_real v_11_in_j_1 = v_10_in_j_1 + C_j[4] * t99 + t80 * alphadot[0];
+    const jg_real v_11_in_j_2 = v_10_in_j_2 + C_j[5] * t99 + t76 * alphadot[0];
+    /* v_12_in_j = alphadot_1 f_j + sin(alpha_1) alphadot_0 g_j + cos(alpha_1) alphadot_0 h_j - omega_j, axes ... */
+    const jg_real v_12_in_j_1 = v_11_in_j_1 - omega_j[1];
+    const jg_real v_12_in_j_2 = v_11_in_j_2 - omega_j[2];
+    const jg_real v_12_in_j_0 = v_11_in_j_0 - omega_j[0];
+    const jg_real t110 = v_11_in_j_0 * omega_j[0] + v_11_in_j_1 * omega_j[1] + v_11_in_j_2 * omega_j[2];
+    const jg_real t111 = s_j[0] * v_11_in_j_0 + s_j[1] * v_11_in_j_1 + s_j[2] * v_11_in_j_2;
+    /* v_13_in_j = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
+    const jg_real v_13_in_j_0 = v_12_in_j_1 * v_j[2] - v_12_in_j_2 * v_j[1];
+    const jg_real v_13_in_j_1 = v_12_in_j_2 * v_j[0] - v_j[2] * v_12_in_j_0;
+    const jg_real v_13_in_j_2 = v_j[1] * v_12_in_j_0 - v_12_in_j_1 * v_j[0];
+    phi_q_t_lambda_q[15] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
+    phi_q_t_lambda_q[6] = lambda_0_1_2_in_j_0 * t97 - (t83 * t101 + t84 * t101);
+    phi_q_t_lambda_q[7] = lambda_0_1_2_in_j_1 * t97 - (t79 * t101 + t80 * t101);
+    phi_q_t_lambda_q[8] = lambda_0_1_2_in_j_2 * t97 - (t75 * t101 + t76 * t101);
+    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t102 - C_j[3] * t96 - C_j[6] * t98);
+    phi_q_t_lambda_q[17] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t102 - C_j[4] * t96 - C_j[7] * t98);
+    phi_q_t_lambda_q[18] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t102 - C_j[5] * t96 - C_j[8] * t98);
+    gamma[3] = cosine_1 * (alphadot[0] * t103 - alphadot[1] * h_j_dot_omega_j) + sine_1 * (alphadot[0] *
+        (v_16_in_joint_j_1 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1) - alphadot[1] * g_j_dot_omega_j);
+    /* v_14_in_j = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
+    const jg_real v_14_in_j_0 = s_j[0] * t110 - omega_j[0] * t111;
+    const jg_real v_14_in_j_1 = s_j[1] * t110 - omega_j[1] * t111;
+    const jg_real v_14_in_j_2 = s_j[2] * t110 - omega_j[2] * t111;
+    /* v_13_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
     const jg_real v_13_in_i_0 = A_ji_0 * v_13_in_j_0 + A_ji_1 * v_13_in_j_1 + A_ji_2 * v_13_in_j_2;
     const jg_real v_13_in_i_1 = A_ji_3 * v_13_in_j_0 + A_ji_4 * v_13_in_j_1 + A_ji_5 * v_13_in_j_2;
     const jg_real v_13_in_i_2 = A_ji_6 * v_13_in_j_0 + A_ji_7 * v_13_in_j_1 + A_ji_8 * v_13_in_j_2;
-    const jg_real v_11_in_j_1 = v_10_in_j_2 * v_j[0] - v_j[2] * v_10_in_j_0;
-    const jg_real v_11_in_j_2 = v_j[1] * v_10_in_j_0 - v_10_in_j_1 * v_j[0];
-    phi_q_t_lambda_q[15] = C_j[1] * lambda_0_1_2_in_j_0 - C_j[0] * lambda_0_1_2_in_j_1;
-    phi_q_t_lambda_q[6] = lambda_0_1_2_in_j_0 * t92 - (t83 * t103 + t84 * t103);
-    phi_q_t_lambda_q[7] = lambda_0_1_2_in_j_1 * t92 - (t79 * t103 + t80 * t103);
-    phi_q_t_lambda_q[8] = lambda_0_1_2_in_j_2 * t92 - (t75 * t103 + t76 * t103);
-    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t104 - C_j[3] * t97 - C_j[6] * t98);
-    phi_q_t_lambda_q[17] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t104 - C_j[4] * t97 - C_j[7] * t98);
-    phi_q_t_lambda_q[18] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t104 - C_j[5] * t97 - C_j[8] * t98);
-    gamma[3] = cosine_1 * (alphadot[0] * t106 - alphadot[1] * h_j_dot_omega_j) + sine_1 * (alphadot[0] *
-        (v_15_in_joint_j_1 * omega_i_in_joint_i_0 + H_02 * omega_i_in_joint_i_1) - alphadot[1] * g_j_dot_omega_j);
-    /* v_11_in_i = sin(alpha_1) alphadot_0 g_j x v_j + cos(alpha_1) alphadot_0 h_j x v_j + alphadot_1 f_j x ... */
-    const jg_real v_11_in_i_0 = A_ji_0 * v_11_in_j_0 + A_ji_1 * v_11_in_j_1 + A_ji_2 * v_11_in_j_2;
-    const jg_real v_11_in_i_1 = A_ji_3 * v_11_in_j_0 + A_ji_4 * v_11_in_j_1 + A_ji_5 * v_11_in_j_2;
-    const jg_real v_11_in_i_2 = A_ji_6 * v_11_in_j_0 + A_ji_7 * v_11_in_j_1 + A_ji_8 * v_11_in_j_2;
     /* v_14_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
-    const jg_real v_14_in_i_0 = v_13_in_i_0 - (v_11_in_i_0 + omega_i_cross_v_i_in_i_0);
-    const jg_real v_14_in_i_1 = v_13_in_i_1 - (v_11_in_i_1 + omega_i_cross_v_i_in_i_1);
-    const jg_real v_14_in_i_2 = v_13_in_i_2 - (v_11_in_i_2 + omega_i_cross_v_i_in_i_2);
-    gamma[5] = v_12_in_joint_j_1 * (sine_0 * omega_i_in_joint_i_0 - cosine_0 * omega_i_in_joint_i_1) - alphadot[1] *
-        (t106 + cosine_1 * v_10_in_joint_j_0);
-    gamma[4] = alphadot[0] * (v_15_in_joint_j_1 * g_j_dot_omega_j + H_11 * h_j_dot_omega_j) - (cosine_1 * H_11 +
-        sine_1 * v_15_in_joint_j_1) * omega_i_in_joint_i_2 * alphadot[0] - alphadot[1] * (H_02 * h_j_dot_omega_j -
+    const jg_real v_14_in_i_0 = A_ji_0 * v_14_in_j_0 + A_ji_1 * v_14_in_j_1 + A_ji_2 * v_14_in_j_2;
+    const jg_real v_14_in_i_1 = A_ji_3 * v_14_in_j_0 + A_ji_4 * v_14_in_j_1 + A_ji_5 * v_14_in_j_2;
+    const jg_real v_14_in_i_2 = A_ji_6 * v_14_in_j_0 + A_ji_7 * v_14_in_j_1 + A_ji_8 * v_14_in_j_2;
+    /* v_15_in_i = (cos(alpha_1) alphadot_0 (h_j . omega_j) + sin(alpha_1) alphadot_0 (g_j . omega_j) + ... */
+    const jg_real v_15_in_i_0 = v_14_in_i_0 - (v_13_in_i_0 + omega_i_cross_v_i_in_i_0);
+    const jg_real v_15_in_i_1 = v_14_in_i_1 - (v_13_in_i_1 + omega_i_cross_v_i_in_i_1);
+    const jg_real v_15_in_i_2 = v_14_in_i_2 - (v_13_in_i_2 + omega_i_cross_v_i_in_i_2);
+    gamma[4] = alphadot[0] * (v_16_in_joint_j_1 * g_j_dot_omega_j + H_11 * h_j_dot_omega_j) - (cosine_1 * H_11 +
+        sine_1 * v_16_in_joint_j_1) * omega_i_in_joint_i_2 * alphadot[0] - alphadot[1] * (H_02 * h_j_dot_omega_j -
         g_j_cross_h_i_in_joint_i_1 * g_j_dot_omega_j) - cosine_0 * alphadot[0] * alphadot[0];
-    gamma[0] = v_14_in_i_0;
-    gamma[1] = v_14_in_i_1;
-    gamma[2] = v_14_in_i_2;
+    gamma[0] = v_15_in_i_0;
+    gamma[5] = t99 * (sine_0 * omega_i_in_joint_i_0 - cosine_0 * omega_i_in_joint_i_1) - alphadot[1] * (t103 +
+        cosine_1 * (alphadot[1] - f_j_dot_omega_j));
+    gamma[1] = v_15_in_i_1;
+    gamma[2] = v_15_in_i_2;
 }
 
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -550,7 +550,6 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -566,14 +565,14 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_v_velocity[30] = A_ji_1;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[27] = A_ji_0;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[24] = A_ji_1;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[21] = A_ji_0;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[25] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
@@ -587,7 +586,7 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[22] = A_ji_3;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -625,985 +624,987 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real t42 = A_j[0] * v_3_in_j_0;
-    const jg_real t43 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t44 = A_j[6] * omega_i[0] + omega_i[1] * t43;
-    const jg_real t45 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t46 = A_j[3] * omega_i[0] + omega_i[1] * t45;
-    const jg_real t47 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
-    const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
+    /* v_3_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_2_in_j_0 + v_1_in_j_0;
+    const jg_real t41 = A_j[0] * v_3_in_j_0;
+    const jg_real t42 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    const jg_real t43 = A_j[6] * omega_i[0] + omega_i[1] * t42;
+    const jg_real t44 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t45 = A_j[3] * omega_i[0] + omega_i[1] * t44;
+    const jg_real t46 = e_ij_in_j_1 * t43 - e_ij_in_j_2 * t45;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real t56 = A_j[3] * v_3_in_j_1;
-    const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real v_3_in_j_1 = v_2_in_j_1 + v_1_in_j_1;
+    const jg_real t53 = A_j[3] * v_3_in_j_1;
+    const jg_real t54 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real t55 = A_j[0] * omega_i[0] + omega_i[1] * t54;
+    const jg_real t56 = e_ij_in_j_2 * t55 - t43 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
+    const jg_real v_3_in_j_2 = v_2_in_j_2 + v_1_in_j_2;
+    const jg_real t61 = A_j[6] * v_3_in_j_2;
+    const jg_real t62 = t45 * e_ij_in_j_0 - e_ij_in_j_1 * t55;
     jg_real sine_0;
     jg_real cosine_0;
-    jg_sincos(alpha[0], &sine_0, &cosine_0);
+    jg_sincos(alpha[1], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[1], &sine_1, &cosine_1);
+    jg_sincos(alpha[0], &sine_1, &cosine_1);
     /* H_00 =  */
     const jg_real H_00 = cosine_0 * cosine_1;
     /* H_10 =  */
-    const jg_real H_10 = sine_0 * cosine_1;
+    const jg_real H_10 = cosine_0 * sine_1;
     /* f_star_in_i = f_star, axes of body i */
-    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - C_i[7] * sine_1;
-    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - C_i[6] * sine_1;
-    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - C_i[8] * sine_1;
+    const jg_real f_star_in_i_1 = C_i[1] * H_00 + C_i[4] * H_10 - C_i[7] * sine_0;
+    const jg_real f_star_in_i_0 = C_i[0] * H_00 + C_i[3] * H_10 - C_i[6] * sine_0;
+    const jg_real f_star_in_i_2 = C_i[2] * H_00 + C_i[5] * H_10 - C_i[8] * sine_0;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_2 = A_ji_5 * f_star_in_i_1 + A_ji_2 * f_star_in_i_0 + A_ji_8 * f_star_in_i_2;
     jg_real sine_2;
     jg_real cosine_2;
     jg_sincos(alpha[2], &sine_2, &cosine_2);
-    const jg_real t78 = cosine_0 * sine_1;
+    const jg_real t75 = sine_0 * cosine_1;
     /* H_02 =  */
-    const jg_real H_02 = sine_2 * sine_0 + cosine_2 * t78;
-    const jg_real t80 = sine_0 * sine_1;
-    const jg_real t81 = sine_2 * cosine_0 - cosine_2 * t80;
+    const jg_real H_02 = sine_1 * sine_2 + t75 * cosine_2;
+    const jg_real t77 = sine_0 * sine_1;
+    const jg_real t78 = cosine_1 * sine_2 - t77 * cosine_2;
     /* H_22 =  */
-    const jg_real H_22 = cosine_2 * cosine_1;
+    const jg_real H_22 = cosine_0 * cosine_2;
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t81 + C_i[7] * H_22;
-    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t81 + C_i[6] * H_22;
-    const jg_real t85 = t45 * h_star_in_i_1 + A_j[3] * h_star_in_i_0;
-    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t81 + C_i[8] * H_22;
+    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t78 + C_i[7] * H_22;
+    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t78 + C_i[6] * H_22;
+    const jg_real t82 = t44 * h_star_in_i_1 + A_j[3] * h_star_in_i_0;
+    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t78 + C_i[8] * H_22;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = A_ji_4 * h_star_in_i_1 + A_ji_1 * h_star_in_i_0 + A_ji_7 * h_star_in_i_2;
-    const jg_real t88 = t43 * f_star_in_i_1 + A_j[6] * f_star_in_i_0;
+    const jg_real t85 = t42 * f_star_in_i_1 + A_j[6] * f_star_in_i_0;
     const jg_real f_star_in_j_1 = A_ji_4 * f_star_in_i_1 + A_ji_1 * f_star_in_i_0 + A_ji_7 * f_star_in_i_2;
-    const jg_real t90 = t43 * h_star_in_i_1 + A_j[6] * h_star_in_i_0;
+    const jg_real t87 = t42 * h_star_in_i_1 + A_j[6] * h_star_in_i_0;
     const jg_real h_star_in_j_2 = A_ji_5 * h_star_in_i_1 + A_ji_2 * h_star_in_i_0 + A_ji_8 * h_star_in_i_2;
-    const jg_real t92 = t45 * f_star_in_i_1 + A_j[3] * f_star_in_i_0;
-    const jg_real t93 = f_star_in_j_2 * t85 + t88 * h_star_in_j_1 - (f_star_in_j_1 * t90 + t92 * h_star_in_j_2);
+    const jg_real t89 = t44 * f_star_in_i_1 + A_j[3] * f_star_in_i_0;
+    const jg_real t90 = f_star_in_j_2 * t82 + t85 * h_star_in_j_1 - (f_star_in_j_1 * t87 + t89 * h_star_in_j_2);
     const jg_real f_star_in_j_0 = A_ji_3 * f_star_in_i_1 + A_ji_0 * f_star_in_i_0 + A_ji_6 * f_star_in_i_2;
-    const jg_real t95 = t47 * f_star_in_i_1 + A_j[0] * f_star_in_i_0;
-    const jg_real t96 = t47 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
+    const jg_real t92 = t54 * f_star_in_i_1 + A_j[0] * f_star_in_i_0;
+    const jg_real t93 = t54 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
     const jg_real h_star_in_j_0 = A_ji_3 * h_star_in_i_1 + A_ji_0 * h_star_in_i_0 + A_ji_6 * h_star_in_i_2;
-    const jg_real t98 = f_star_in_j_0 * t90 + t95 * h_star_in_j_2 - (f_star_in_j_2 * t96 + t88 * h_star_in_j_0);
-    const jg_real t99 = f_star_in_j_1 * t96 + t92 * h_star_in_j_0 - (f_star_in_j_0 * t85 + t95 * h_star_in_j_1);
-    const jg_real t100 = C_j[3] * t93 + C_j[4] * t98 + C_j[5] * t99;
+    const jg_real t95 = t87 * f_star_in_j_0 + t92 * h_star_in_j_2 - (f_star_in_j_2 * t93 + t85 * h_star_in_j_0);
+    const jg_real t96 = f_star_in_j_1 * t93 + t89 * h_star_in_j_0 - (t82 * f_star_in_j_0 + t92 * h_star_in_j_1);
+    const jg_real t97 = C_j[3] * t90 + C_j[4] * t95 + C_j[5] * t96;
     /* omega_i_in_joint_j = omega_i, axes of joint j */
-    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + omega_i_in_j_2 *
-        C_j[2];
+    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + C_j[2] *
+        omega_i_in_j_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
     const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    const jg_real t106 = t57 * C_j[0] + t46 * C_j[1] + t44 * C_j[2];
-    const jg_real t107 = C_j[0] * t93 + C_j[1] * t98 + C_j[2] * t99;
-    const jg_real omega_i_in_joint_j_1 = C_j[3] * omega_i_in_j_0 + C_j[4] * omega_i_in_j_1 + omega_i_in_j_2 *
-        C_j[5];
+    const jg_real t103 = C_j[0] * t55 + C_j[1] * t45 + t43 * C_j[2];
+    const jg_real t104 = C_j[0] * t90 + C_j[1] * t95 + C_j[2] * t96;
+    const jg_real omega_i_in_joint_j_1 = C_j[3] * omega_i_in_j_0 + C_j[4] * omega_i_in_j_1 + C_j[5] *
+        omega_i_in_j_2;
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
-    const jg_real t110 = t57 * C_j[3] + t46 * C_j[4] + t44 * C_j[5];
-    const jg_real t111 = C_j[7] * t85 + C_j[6] * t96 + C_j[8] * t90;
-    const jg_real t112 = C_j[7] * t92 + C_j[6] * t95 + C_j[8] * t88;
+    const jg_real t107 = C_j[3] * t55 + C_j[4] * t45 + C_j[5] * t43;
+    const jg_real t108 = C_j[7] * t82 + C_j[6] * t93 + C_j[8] * t87;
+    const jg_real t109 = C_j[7] * t89 + C_j[6] * t92 + C_j[8] * t85;
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    const jg_real t115 = C_j[1] * t92 + C_j[0] * t95 + C_j[2] * t88;
-    const jg_real t116 = sine_2 * cosine_1;
-    const jg_real t117 = alphadot[1] * cosine_2;
+    const jg_real t112 = C_j[1] * t89 + C_j[0] * t92 + C_j[2] * t85;
+    const jg_real t113 = cosine_0 * sine_2;
+    const jg_real t114 = alphadot[1] * cosine_2;
     /* h_star_dot_h_j = h_star . h_j */
     const jg_real h_star_dot_h_j = C_j[7] * h_star_in_j_1 + C_j[6] * h_star_in_j_0 + C_j[8] * h_star_in_j_2;
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
-    jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t100 - omega_j_in_joint_j_1 * t107 + (alphadot[0] * (H_22 * t112 +
-        sine_1 * t111) - sine_2 * t112 * alphadot[1] - (omega_i_in_joint_j_0 * t100 + t106 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t107 + t110 * g_star_dot_f_j)) - alphadot[2] * t111));
-    jac_phi_q_v_velocity[60] = h_star_dot_h_j;
-    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
-        C_j[8];
-    const jg_real t120 = C_j[3] * t96 + C_j[4] * t85 + C_j[5] * t90;
+    jac_phi_q_v_A_i[0] = t61 + A_ji_2 * t62 + (t41 + A_ji_0 * t46 + (t53 + A_ji_1 * t56));
+    jac_phi_q_v_A_i[1] = t42 * v_3_in_j_2 + A_ji_5 * t62 + (t54 * v_3_in_j_0 + A_ji_3 * t46 + (t44 * v_3_in_j_1 +
+        A_ji_4 * t56));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t46 + A_ji_7 * t56 + A_ji_8 * t62;
+    jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t97 - omega_j_in_joint_j_1 * t104 + (alphadot[0] * (H_22 * t109 +
+        sine_0 * t108) - sine_2 * t109 * alphadot[1] - (omega_i_in_joint_j_0 * t97 + t103 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t104 + t107 * g_star_dot_f_j)) - alphadot[2] * t108));
+    jac_phi_q_v_velocity[54] = h_star_dot_h_j;
+    const jg_real omega_i_in_joint_j_2 = C_j[6] * omega_i_in_j_0 + C_j[7] * omega_i_in_j_1 + C_j[8] *
+        omega_i_in_j_2;
+    const jg_real t117 = C_j[3] * t93 + C_j[4] * t82 + C_j[5] * t87;
     /* h_star_dot_g_j = h_star . g_j */
     const jg_real h_star_dot_g_j = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
-    const jg_real t122 = t57 * C_j[6] + t46 * C_j[7] + t44 * C_j[8];
+    const jg_real t119 = C_j[6] * t55 + C_j[7] * t45 + t43 * C_j[8];
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    const jg_real t124 = alphadot[0] * cosine_1;
+    const jg_real t121 = alphadot[0] * cosine_0;
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
-    const jg_real t127 = A_j[1] * v_3_in_j_0;
-    const jg_real t128 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t129 = A_j[7] * omega_i[0] + omega_i[1] * t128;
-    const jg_real t130 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t131 = A_j[4] * omega_i[0] + omega_i[1] * t130;
-    const jg_real t132 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t133 = e_ij_in_j_1 * t129 - e_ij_in_j_2 * t131 - (A_j[1] * v_i[0] + v_i[1] * t132);
-    const jg_real t134 = A_j[4] * v_3_in_j_1;
-    const jg_real t135 = A_j[1] * omega_i[0] + omega_i[1] * t132;
-    const jg_real t136 = e_ij_in_j_2 * t135 - t129 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t130);
-    const jg_real t137 = A_j[7] * v_3_in_j_2;
-    const jg_real t138 = t131 * e_ij_in_j_0 - e_ij_in_j_1 * t135 - (v_i[1] * t128 + A_j[7] * v_i[0]);
-    const jg_real t139 = t130 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
-    const jg_real t140 = t128 * f_star_in_i_1 + A_j[7] * f_star_in_i_0;
-    const jg_real t141 = t128 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
-    const jg_real t142 = t130 * f_star_in_i_1 + A_j[4] * f_star_in_i_0;
-    const jg_real t143 = f_star_in_j_2 * t139 + t140 * h_star_in_j_1 - (f_star_in_j_1 * t141 + t142 *
+    const jg_real t124 = A_j[1] * v_3_in_j_0;
+    const jg_real t125 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real t126 = A_j[7] * omega_i[0] + omega_i[1] * t125;
+    const jg_real t127 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t128 = A_j[4] * omega_i[0] + omega_i[1] * t127;
+    const jg_real t129 = e_ij_in_j_1 * t126 - e_ij_in_j_2 * t128;
+    const jg_real t130 = A_j[4] * v_3_in_j_1;
+    const jg_real t131 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t132 = A_j[1] * omega_i[0] + omega_i[1] * t131;
+    const jg_real t133 = e_ij_in_j_2 * t132 - t126 * e_ij_in_j_0;
+    const jg_real t134 = A_j[7] * v_3_in_j_2;
+    const jg_real t135 = t128 * e_ij_in_j_0 - e_ij_in_j_1 * t132;
+    const jg_real t136 = t127 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
+    const jg_real t137 = t125 * f_star_in_i_1 + A_j[7] * f_star_in_i_0;
+    const jg_real t138 = t125 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
+    const jg_real t139 = t127 * f_star_in_i_1 + A_j[4] * f_star_in_i_0;
+    const jg_real t140 = f_star_in_j_2 * t136 + t137 * h_star_in_j_1 - (f_star_in_j_1 * t138 + t139 *
         h_star_in_j_2);
-    const jg_real t144 = t132 * f_star_in_i_1 + A_j[1] * f_star_in_i_0;
-    const jg_real t145 = t132 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
-    const jg_real t146 = f_star_in_j_0 * t141 + t144 * h_star_in_j_2 - (f_star_in_j_2 * t145 + t140 *
+    const jg_real t141 = t131 * f_star_in_i_1 + A_j[1] * f_star_in_i_0;
+    const jg_real t142 = t131 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
+    const jg_real t143 = t138 * f_star_in_j_0 + t141 * h_star_in_j_2 - (f_star_in_j_2 * t142 + t137 *
         h_star_in_j_0);
-    const jg_real t147 = f_star_in_j_1 * t145 + t142 * h_star_in_j_0 - (f_star_in_j_0 * t139 + t144 *
+    const jg_real t144 = f_star_in_j_1 * t142 + t139 * h_star_in_j_0 - (t136 * f_star_in_j_0 + t141 *
         h_star_in_j_1);
-    const jg_real t148 = C_j[3] * t143 + C_j[4] * t146 + C_j[5] * t147;
-    const jg_real t149 = t135 * C_j[0] + t131 * C_j[1] + t129 * C_j[2];
-    const jg_real t150 = C_j[0] * t143 + C_j[1] * t146 + C_j[2] * t147;
-    const jg_real t151 = t135 * C_j[3] + t131 * C_j[4] + t129 * C_j[5];
-    const jg_real t152 = C_j[7] * t139 + C_j[6] * t145 + C_j[8] * t141;
-    const jg_real t153 = C_j[7] * t142 + C_j[6] * t144 + C_j[8] * t140;
-    const jg_real t154 = C_j[1] * t142 + C_j[0] * t144 + C_j[2] * t140;
-    const jg_real t155 = C_j[3] * t145 + C_j[4] * t139 + C_j[5] * t141;
-    const jg_real t156 = t135 * C_j[6] + t131 * C_j[7] + t129 * C_j[8];
-    jac_phi_q_v_A_i[4] = t110 * h_star_dot_h_j + omega_i_in_joint_j_1 * t111 - (t122 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t120) + (t117 * t115 + alphadot[0] * (t116 * t115 + sine_1 * t107) - alphadot[2] *
-        t107) - (omega_j_in_joint_j_1 * t111 - omega_j_in_joint_j_2 * t120);
-    jac_phi_q_v_A_i[5] = t122 * f_star_dot_f_j + omega_i_in_joint_j_2 * t115 - (t106 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t112) + (t124 * (cosine_2 * t100 - sine_2 * t120) - alphadot[1] * (cosine_2 * t120 +
-        sine_2 * t100)) - (omega_j_in_joint_j_2 * t115 - omega_j_in_joint_j_0 * t112);
-    jac_phi_q_v_A_i[6] = t137 + A_ji_2 * t138 + (t127 + A_ji_0 * t133 + (t134 + A_ji_1 * t136));
-    jac_phi_q_v_A_i[7] = t128 * v_3_in_j_2 + A_ji_5 * t138 + (t132 * v_3_in_j_0 + A_ji_3 * t133 + (t130 * v_3_in_j_1
-        + A_ji_4 * t136));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t133 + A_ji_7 * t136 + A_ji_8 * t138;
-    jac_phi_q_v_A_i[9] = -(omega_j_in_joint_j_0 * t148 - omega_j_in_joint_j_1 * t150 + (alphadot[0] * (H_22 * t153 +
-        sine_1 * t152) - sine_2 * t153 * alphadot[1] - (omega_i_in_joint_j_0 * t148 + t149 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t150 + t151 * g_star_dot_f_j)) - alphadot[2] * t152));
-    jac_phi_q_v_A_i[10] = t151 * h_star_dot_h_j + omega_i_in_joint_j_1 * t152 - (t156 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t155) + (t117 * t154 + alphadot[0] * (t116 * t154 + sine_1 * t150) - alphadot[2] *
-        t150) - (omega_j_in_joint_j_1 * t152 - omega_j_in_joint_j_2 * t155);
-    jac_phi_q_v_A_i[11] = t156 * f_star_dot_f_j + omega_i_in_joint_j_2 * t154 - (t149 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t153) + (t124 * (cosine_2 * t148 - sine_2 * t155) - alphadot[1] * (cosine_2 * t155 +
-        sine_2 * t148)) - (omega_j_in_joint_j_2 * t154 - omega_j_in_joint_j_0 * t153);
-    const jg_real t157 = A_j[2] * v_3_in_j_0;
-    const jg_real t158 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t159 = A_j[8] * omega_i[0] + omega_i[1] * t158;
-    const jg_real t160 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t161 = A_j[5] * omega_i[0] + omega_i[1] * t160;
-    const jg_real t162 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t163 = e_ij_in_j_1 * t159 - e_ij_in_j_2 * t161 - (A_j[2] * v_i[0] + v_i[1] * t162);
-    const jg_real t164 = A_j[5] * v_3_in_j_1;
-    const jg_real t165 = A_j[2] * omega_i[0] + omega_i[1] * t162;
-    const jg_real t166 = e_ij_in_j_2 * t165 - t159 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t160);
-    const jg_real t167 = A_j[8] * v_3_in_j_2;
-    const jg_real t168 = t161 * e_ij_in_j_0 - e_ij_in_j_1 * t165 - (v_i[1] * t158 + A_j[8] * v_i[0]);
-    const jg_real t169 = t160 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
-    const jg_real t170 = t158 * f_star_in_i_1 + A_j[8] * f_star_in_i_0;
-    const jg_real t171 = t158 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
-    const jg_real t172 = t160 * f_star_in_i_1 + A_j[5] * f_star_in_i_0;
-    const jg_real t173 = f_star_in_j_2 * t169 + t170 * h_star_in_j_1 - (f_star_in_j_1 * t171 + t172 *
+    const jg_real t145 = C_j[3] * t140 + C_j[4] * t143 + C_j[5] * t144;
+    const jg_real t146 = C_j[0] * t132 + C_j[1] * t128 + t126 * C_j[2];
+    const jg_real t147 = C_j[0] * t140 + C_j[1] * t143 + C_j[2] * t144;
+    const jg_real t148 = C_j[3] * t132 + C_j[4] * t128 + C_j[5] * t126;
+    const jg_real t149 = C_j[7] * t136 + C_j[6] * t142 + C_j[8] * t138;
+    const jg_real t150 = C_j[7] * t139 + C_j[6] * t141 + C_j[8] * t137;
+    const jg_real t151 = C_j[1] * t139 + C_j[0] * t141 + C_j[2] * t137;
+    const jg_real t152 = C_j[3] * t142 + C_j[4] * t136 + C_j[5] * t138;
+    const jg_real t153 = C_j[6] * t132 + C_j[7] * t128 + t126 * C_j[8];
+    jac_phi_q_v_A_i[4] = t107 * h_star_dot_h_j + omega_i_in_joint_j_1 * t108 - (t119 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t117) + (t114 * t112 + alphadot[0] * (t113 * t112 + sine_0 * t104) - alphadot[2] *
+        t104) - (omega_j_in_joint_j_1 * t108 - omega_j_in_joint_j_2 * t117);
+    jac_phi_q_v_A_i[5] = t119 * f_star_dot_f_j + omega_i_in_joint_j_2 * t112 - (t103 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t109) + (t121 * (cosine_2 * t97 - sine_2 * t117) - alphadot[1] * (cosine_2 * t117 +
+        sine_2 * t97)) - (omega_j_in_joint_j_2 * t112 - omega_j_in_joint_j_0 * t109);
+    jac_phi_q_v_A_i[6] = t134 + A_ji_2 * t135 + (t124 + A_ji_0 * t129 + (t130 + A_ji_1 * t133));
+    jac_phi_q_v_A_i[7] = t125 * v_3_in_j_2 + A_ji_5 * t135 + (t131 * v_3_in_j_0 + A_ji_3 * t129 + (t127 * v_3_in_j_1
+        + A_ji_4 * t133));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t129 + A_ji_7 * t133 + A_ji_8 * t135;
+    jac_phi_q_v_A_i[9] = -(omega_j_in_joint_j_0 * t145 - omega_j_in_joint_j_1 * t147 + (alphadot[0] * (H_22 * t150 +
+        sine_0 * t149) - sine_2 * t150 * alphadot[1] - (omega_i_in_joint_j_0 * t145 + t146 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t147 + t148 * g_star_dot_f_j)) - alphadot[2] * t149));
+    jac_phi_q_v_A_i[10] = t148 * h_star_dot_h_j + omega_i_in_joint_j_1 * t149 - (t153 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t152) + (t114 * t151 + alphadot[0] * (t113 * t151 + sine_0 * t147) - alphadot[2] *
+        t147) - (omega_j_in_joint_j_1 * t149 - omega_j_in_joint_j_2 * t152);
+    jac_phi_q_v_A_i[11] = t153 * f_star_dot_f_j + omega_i_in_joint_j_2 * t151 - (t146 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t150) + (t121 * (cosine_2 * t145 - sine_2 * t152) - alphadot[1] * (cosine_2 * t152 +
+        sine_2 * t145)) - (omega_j_in_joint_j_2 * t151 - omega_j_in_joint_j_0 * t150);
+    const jg_real t154 = A_j[2] * v_3_in_j_0;
+    const jg_real t155 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real t156 = A_j[8] * omega_i[0] + omega_i[1] * t155;
+    const jg_real t157 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t158 = A_j[5] * omega_i[0] + omega_i[1] * t157;
+    const jg_real t159 = e_ij_in_j_1 * t156 - e_ij_in_j_2 * t158;
+    const jg_real t160 = A_j[5] * v_3_in_j_1;
+    const jg_real t161 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t162 = A_j[2] * omega_i[0] + omega_i[1] * t161;
+    const jg_real t163 = e_ij_in_j_2 * t162 - t156 * e_ij_in_j_0;
+    const jg_real t164 = A_j[8] * v_3_in_j_2;
+    const jg_real t165 = t158 * e_ij_in_j_0 - e_ij_in_j_1 * t162;
+    const jg_real t166 = t157 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
+    const jg_real t167 = t155 * f_star_in_i_1 + A_j[8] * f_star_in_i_0;
+    const jg_real t168 = t155 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
+    const jg_real t169 = t157 * f_star_in_i_1 + A_j[5] * f_star_in_i_0;
+    const jg_real t170 = f_star_in_j_2 * t166 + t167 * h_star_in_j_1 - (f_star_in_j_1 * t168 + t169 *
         h_star_in_j_2);
-    const jg_real t174 = t162 * f_star_in_i_1 + A_j[2] * f_star_in_i_0;
-    const jg_real t175 = t162 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
-    const jg_real t176 = f_star_in_j_0 * t171 + t174 * h_star_in_j_2 - (f_star_in_j_2 * t175 + t170 *
+    const jg_real t171 = t161 * f_star_in_i_1 + A_j[2] * f_star_in_i_0;
+    const jg_real t172 = t161 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
+    const jg_real t173 = t168 * f_star_in_j_0 + t171 * h_star_in_j_2 - (f_star_in_j_2 * t172 + t167 *
         h_star_in_j_0);
-    const jg_real t177 = f_star_in_j_1 * t175 + t172 * h_star_in_j_0 - (f_star_in_j_0 * t169 + t174 *
+    const jg_real t174 = f_star_in_j_1 * t172 + t169 * h_star_in_j_0 - (t166 * f_star_in_j_0 + t171 *
         h_star_in_j_1);
-    const jg_real t178 = C_j[3] * t173 + C_j[4] * t176 + C_j[5] * t177;
-    const jg_real t179 = t165 * C_j[0] + t161 * C_j[1] + t159 * C_j[2];
-    const jg_real t180 = C_j[0] * t173 + C_j[1] * t176 + C_j[2] * t177;
-    const jg_real t181 = t165 * C_j[3] + t161 * C_j[4] + t159 * C_j[5];
-    const jg_real t182 = C_j[7] * t169 + C_j[6] * t175 + C_j[8] * t171;
-    const jg_real t183 = C_j[7] * t172 + C_j[6] * t174 + C_j[8] * t170;
-    const jg_real t184 = C_j[1] * t172 + C_j[0] * t174 + C_j[2] * t170;
-    const jg_real t185 = C_j[3] * t175 + C_j[4] * t169 + C_j[5] * t171;
-    const jg_real t186 = t165 * C_j[6] + t161 * C_j[7] + t159 * C_j[8];
-    const jg_real t187 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t188 = A_j[6] * omega_i[2] + omega_i[1] * t187;
-    const jg_real t189 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t190 = A_j[3] * omega_i[2] + omega_i[1] * t189;
-    const jg_real t191 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t192 = e_ij_in_j_1 * t188 - e_ij_in_j_2 * t190 - (A_j[0] * v_i[2] + v_i[1] * t191);
-    const jg_real t193 = A_j[0] * omega_i[2] + omega_i[1] * t191;
-    const jg_real t194 = e_ij_in_j_2 * t193 - t188 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t189);
-    const jg_real t195 = e_ij_in_j_0 * t190 - e_ij_in_j_1 * t193 - (v_i[1] * t187 + A_j[6] * v_i[2]);
-    jac_phi_q_v_A_i[12] = t167 + A_ji_2 * t168 + (t157 + A_ji_0 * t163 + (t164 + A_ji_1 * t166));
-    jac_phi_q_v_A_i[13] = t158 * v_3_in_j_2 + A_ji_5 * t168 + (t162 * v_3_in_j_0 + A_ji_3 * t163 + (t160 *
-        v_3_in_j_1 + A_ji_4 * t166));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t163 + A_ji_7 * t166 + A_ji_8 * t168;
-    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t178 - omega_j_in_joint_j_1 * t180 + (alphadot[0] * (H_22 * t183
-        + sine_1 * t182) - sine_2 * t183 * alphadot[1] - (omega_i_in_joint_j_0 * t178 + t179 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t180 + t181 * g_star_dot_f_j)) - alphadot[2] * t182));
-    jac_phi_q_v_A_i[16] = t181 * h_star_dot_h_j + omega_i_in_joint_j_1 * t182 - (t186 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t185) + (t117 * t184 + alphadot[0] * (t116 * t184 + sine_1 * t180) - alphadot[2] *
-        t180) - (omega_j_in_joint_j_1 * t182 - omega_j_in_joint_j_2 * t185);
-    jac_phi_q_v_A_i[17] = t186 * f_star_dot_f_j + omega_i_in_joint_j_2 * t184 - (t179 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t183) + (t124 * (cosine_2 * t178 - sine_2 * t185) - alphadot[1] * (cosine_2 * t185 +
-        sine_2 * t178)) - (omega_j_in_joint_j_2 * t184 - omega_j_in_joint_j_0 * t183);
-    jac_phi_q_v_A_i[18] = A_ji_0 * t192 + A_ji_1 * t194 + A_ji_2 * t195;
-    jac_phi_q_v_A_i[19] = t187 * v_3_in_j_2 + A_ji_5 * t195 + (t191 * v_3_in_j_0 + A_ji_3 * t192 + (t189 *
-        v_3_in_j_1 + A_ji_4 * t194));
-    const jg_real t196 = t189 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
-    const jg_real t197 = t187 * f_star_in_i_1 + A_j[6] * f_star_in_i_2;
-    const jg_real t198 = t187 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
-    const jg_real t199 = t189 * f_star_in_i_1 + A_j[3] * f_star_in_i_2;
-    const jg_real t200 = f_star_in_j_2 * t196 + t197 * h_star_in_j_1 - (f_star_in_j_1 * t198 + t199 *
+    const jg_real t175 = C_j[3] * t170 + C_j[4] * t173 + C_j[5] * t174;
+    const jg_real t176 = C_j[0] * t162 + C_j[1] * t158 + t156 * C_j[2];
+    const jg_real t177 = C_j[0] * t170 + C_j[1] * t173 + C_j[2] * t174;
+    const jg_real t178 = C_j[3] * t162 + C_j[4] * t158 + C_j[5] * t156;
+    const jg_real t179 = C_j[7] * t166 + C_j[6] * t172 + C_j[8] * t168;
+    const jg_real t180 = C_j[7] * t169 + C_j[6] * t171 + C_j[8] * t167;
+    const jg_real t181 = C_j[1] * t169 + C_j[0] * t171 + C_j[2] * t167;
+    const jg_real t182 = C_j[3] * t172 + C_j[4] * t166 + C_j[5] * t168;
+    const jg_real t183 = C_j[6] * t162 + C_j[7] * t158 + t156 * C_j[8];
+    const jg_real t184 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t185 = A_j[6] * omega_i[2] + omega_i[1] * t184;
+    const jg_real t186 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t187 = A_j[3] * omega_i[2] + omega_i[1] * t186;
+    const jg_real t188 = e_ij_in_j_1 * t185 - e_ij_in_j_2 * t187;
+    const jg_real t189 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t190 = A_j[0] * omega_i[2] + omega_i[1] * t189;
+    const jg_real t191 = e_ij_in_j_2 * t190 - t185 * e_ij_in_j_0;
+    const jg_real t192 = e_ij_in_j_0 * t187 - e_ij_in_j_1 * t190;
+    jac_phi_q_v_A_i[12] = t164 + A_ji_2 * t165 + (t154 + A_ji_0 * t159 + (t160 + A_ji_1 * t163));
+    jac_phi_q_v_A_i[13] = t155 * v_3_in_j_2 + A_ji_5 * t165 + (t161 * v_3_in_j_0 + A_ji_3 * t159 + (t157 *
+        v_3_in_j_1 + A_ji_4 * t163));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t159 + A_ji_7 * t163 + A_ji_8 * t165;
+    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t175 - omega_j_in_joint_j_1 * t177 + (alphadot[0] * (H_22 * t180
+        + sine_0 * t179) - sine_2 * t180 * alphadot[1] - (omega_i_in_joint_j_0 * t175 + t176 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t177 + t178 * g_star_dot_f_j)) - alphadot[2] * t179));
+    jac_phi_q_v_A_i[16] = t178 * h_star_dot_h_j + omega_i_in_joint_j_1 * t179 - (t183 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t182) + (t114 * t181 + alphadot[0] * (t113 * t181 + sine_0 * t177) - alphadot[2] *
+        t177) - (omega_j_in_joint_j_1 * t179 - omega_j_in_joint_j_2 * t182);
+    jac_phi_q_v_A_i[17] = t183 * f_star_dot_f_j + omega_i_in_joint_j_2 * t181 - (t176 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t180) + (t121 * (cosine_2 * t175 - sine_2 * t182) - alphadot[1] * (cosine_2 * t182 +
+        sine_2 * t175)) - (omega_j_in_joint_j_2 * t181 - omega_j_in_joint_j_0 * t180);
+    jac_phi_q_v_A_i[18] = A_ji_0 * t188 + A_ji_1 * t191 + A_ji_2 * t192;
+    jac_phi_q_v_A_i[19] = t184 * v_3_in_j_2 + A_ji_5 * t192 + (t189 * v_3_in_j_0 + A_ji_3 * t188 + (t186 *
+        v_3_in_j_1 + A_ji_4 * t191));
+    const jg_real t193 = t186 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
+    const jg_real t194 = t184 * f_star_in_i_1 + A_j[6] * f_star_in_i_2;
+    const jg_real t195 = t184 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
+    const jg_real t196 = t186 * f_star_in_i_1 + A_j[3] * f_star_in_i_2;
+    const jg_real t197 = f_star_in_j_2 * t193 + t194 * h_star_in_j_1 - (f_star_in_j_1 * t195 + t196 *
         h_star_in_j_2);
-    const jg_real t201 = t191 * f_star_in_i_1 + A_j[0] * f_star_in_i_2;
-    const jg_real t202 = t191 * h_star_in_i_1 + A_j[0] * h_star_in_i_2;
-    const jg_real t203 = f_star_in_j_0 * t198 + t201 * h_star_in_j_2 - (f_star_in_j_2 * t202 + t197 *
+    const jg_real t198 = t189 * f_star_in_i_1 + A_j[0] * f_star_in_i_2;
+    const jg_real t199 = t189 * h_star_in_i_1 + A_j[0] * h_star_in_i_2;
+    const jg_real t200 = f_star_in_j_0 * t195 + t198 * h_star_in_j_2 - (f_star_in_j_2 * t199 + t194 *
         h_star_in_j_0);
-    const jg_real t204 = f_star_in_j_1 * t202 + t199 * h_star_in_j_0 - (f_star_in_j_0 * t196 + t201 *
+    const jg_real t201 = f_star_in_j_1 * t199 + t196 * h_star_in_j_0 - (f_star_in_j_0 * t193 + t198 *
         h_star_in_j_1);
-    const jg_real t205 = C_j[3] * t200 + C_j[4] * t203 + C_j[5] * t204;
-    const jg_real t206 = C_j[0] * t193 + C_j[1] * t190 + t188 * C_j[2];
-    const jg_real t207 = C_j[0] * t200 + C_j[1] * t203 + C_j[2] * t204;
-    const jg_real t208 = C_j[3] * t193 + C_j[4] * t190 + t188 * C_j[5];
-    const jg_real t209 = C_j[7] * t196 + C_j[6] * t202 + C_j[8] * t198;
-    const jg_real t210 = C_j[7] * t199 + C_j[6] * t201 + C_j[8] * t197;
-    const jg_real t211 = C_j[1] * t199 + C_j[0] * t201 + C_j[2] * t197;
-    const jg_real t212 = C_j[3] * t202 + C_j[4] * t196 + C_j[5] * t198;
-    const jg_real t213 = t193 * C_j[6] + t190 * C_j[7] + t188 * C_j[8];
-    const jg_real t214 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t215 = A_j[7] * omega_i[2] + omega_i[1] * t214;
-    const jg_real t216 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t217 = A_j[4] * omega_i[2] + omega_i[1] * t216;
-    const jg_real t218 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t219 = e_ij_in_j_1 * t215 - e_ij_in_j_2 * t217 - (A_j[1] * v_i[2] + v_i[1] * t218);
-    const jg_real t220 = A_j[1] * omega_i[2] + omega_i[1] * t218;
-    const jg_real t221 = e_ij_in_j_2 * t220 - t215 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t216);
-    const jg_real t222 = e_ij_in_j_0 * t217 - e_ij_in_j_1 * t220 - (v_i[1] * t214 + A_j[7] * v_i[2]);
-    const jg_real t223 = t216 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
-    const jg_real t224 = t214 * f_star_in_i_1 + A_j[7] * f_star_in_i_2;
-    const jg_real t225 = t214 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
-    const jg_real t226 = t216 * f_star_in_i_1 + A_j[4] * f_star_in_i_2;
-    const jg_real t227 = f_star_in_j_2 * t223 + t224 * h_star_in_j_1 - (f_star_in_j_1 * t225 + t226 *
+    const jg_real t202 = C_j[3] * t197 + C_j[4] * t200 + C_j[5] * t201;
+    const jg_real t203 = C_j[0] * t190 + C_j[1] * t187 + C_j[2] * t185;
+    const jg_real t204 = C_j[0] * t197 + C_j[1] * t200 + C_j[2] * t201;
+    const jg_real t205 = C_j[3] * t190 + C_j[4] * t187 + C_j[5] * t185;
+    const jg_real t206 = C_j[7] * t193 + C_j[6] * t199 + C_j[8] * t195;
+    const jg_real t207 = C_j[7] * t196 + C_j[6] * t198 + C_j[8] * t194;
+    const jg_real t208 = C_j[1] * t196 + C_j[0] * t198 + C_j[2] * t194;
+    const jg_real t209 = C_j[3] * t199 + C_j[4] * t193 + C_j[5] * t195;
+    const jg_real t210 = C_j[6] * t190 + C_j[7] * t187 + C_j[8] * t185;
+    const jg_real t211 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t212 = A_j[7] * omega_i[2] + omega_i[1] * t211;
+    const jg_real t213 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t214 = A_j[4] * omega_i[2] + omega_i[1] * t213;
+    const jg_real t215 = e_ij_in_j_1 * t212 - e_ij_in_j_2 * t214;
+    const jg_real t216 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t217 = A_j[1] * omega_i[2] + omega_i[1] * t216;
+    const jg_real t218 = e_ij_in_j_2 * t217 - t212 * e_ij_in_j_0;
+    const jg_real t219 = e_ij_in_j_0 * t214 - e_ij_in_j_1 * t217;
+    const jg_real t220 = t213 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
+    const jg_real t221 = t211 * f_star_in_i_1 + A_j[7] * f_star_in_i_2;
+    const jg_real t222 = t211 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
+    const jg_real t223 = t213 * f_star_in_i_1 + A_j[4] * f_star_in_i_2;
+    const jg_real t224 = f_star_in_j_2 * t220 + t221 * h_star_in_j_1 - (f_star_in_j_1 * t222 + t223 *
         h_star_in_j_2);
-    const jg_real t228 = t218 * f_star_in_i_1 + A_j[1] * f_star_in_i_2;
-    const jg_real t229 = t218 * h_star_in_i_1 + A_j[1] * h_star_in_i_2;
-    const jg_real t230 = f_star_in_j_0 * t225 + t228 * h_star_in_j_2 - (f_star_in_j_2 * t229 + t224 *
+    const jg_real t225 = t216 * f_star_in_i_1 + A_j[1] * f_star_in_i_2;
+    const jg_real t226 = t216 * h_star_in_i_1 + A_j[1] * h_star_in_i_2;
+    const jg_real t227 = f_star_in_j_0 * t222 + t225 * h_star_in_j_2 - (f_star_in_j_2 * t226 + t221 *
         h_star_in_j_0);
-    const jg_real t231 = f_star_in_j_1 * t229 + t226 * h_star_in_j_0 - (f_star_in_j_0 * t223 + t228 *
+    const jg_real t228 = f_star_in_j_1 * t226 + t223 * h_star_in_j_0 - (f_star_in_j_0 * t220 + t225 *
         h_star_in_j_1);
-    const jg_real t232 = C_j[3] * t227 + C_j[4] * t230 + C_j[5] * t231;
-    const jg_real t233 = C_j[0] * t220 + C_j[1] * t217 + t215 * C_j[2];
-    const jg_real t234 = C_j[0] * t227 + C_j[1] * t230 + C_j[2] * t231;
-    const jg_real t235 = C_j[3] * t220 + C_j[4] * t217 + t215 * C_j[5];
-    const jg_real t236 = C_j[7] * t223 + C_j[6] * t229 + C_j[8] * t225;
-    const jg_real t237 = C_j[7] * t226 + C_j[6] * t228 + C_j[8] * t224;
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t195 + (t42 + A_ji_6 * t192 + (t56 + A_ji_7 * t194));
-    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t205 - omega_j_in_joint_j_1 * t207 + (alphadot[0] * (H_22 * t210
-        + sine_1 * t209) - sine_2 * t210 * alphadot[1] - (omega_i_in_joint_j_0 * t205 + t206 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t207 + t208 * g_star_dot_f_j)) - alphadot[2] * t209));
-    jac_phi_q_v_A_i[22] = t208 * h_star_dot_h_j + omega_i_in_joint_j_1 * t209 - (t213 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t212) + (t117 * t211 + alphadot[0] * (t116 * t211 + sine_1 * t207) - alphadot[2] *
-        t207) - (omega_j_in_joint_j_1 * t209 - omega_j_in_joint_j_2 * t212);
-    jac_phi_q_v_A_i[23] = t213 * f_star_dot_f_j + omega_i_in_joint_j_2 * t211 - (t206 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t210) + (t124 * (cosine_2 * t205 - sine_2 * t212) - alphadot[1] * (cosine_2 * t212 +
-        sine_2 * t205)) - (omega_j_in_joint_j_2 * t211 - omega_j_in_joint_j_0 * t210);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t219 + A_ji_1 * t221 + A_ji_2 * t222;
-    jac_phi_q_v_A_i[25] = t214 * v_3_in_j_2 + A_ji_5 * t222 + (t218 * v_3_in_j_0 + A_ji_3 * t219 + (t216 *
-        v_3_in_j_1 + A_ji_4 * t221));
-    jac_phi_q_v_A_i[26] = t137 + A_ji_8 * t222 + (t127 + A_ji_6 * t219 + (t134 + A_ji_7 * t221));
-    jac_phi_q_v_A_i[27] = -(omega_j_in_joint_j_0 * t232 - omega_j_in_joint_j_1 * t234 + (alphadot[0] * (H_22 * t237
-        + sine_1 * t236) - sine_2 * t237 * alphadot[1] - (omega_i_in_joint_j_0 * t232 + t233 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t234 + t235 * g_star_dot_f_j)) - alphadot[2] * t236));
-    const jg_real t238 = C_j[1] * t226 + C_j[0] * t228 + C_j[2] * t224;
-    const jg_real t239 = C_j[3] * t229 + C_j[4] * t223 + C_j[5] * t225;
-    const jg_real t240 = t220 * C_j[6] + t217 * C_j[7] + t215 * C_j[8];
-    const jg_real t241 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t242 = A_j[8] * omega_i[2] + omega_i[1] * t241;
-    const jg_real t243 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t244 = A_j[5] * omega_i[2] + omega_i[1] * t243;
-    const jg_real t245 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t246 = e_ij_in_j_1 * t242 - e_ij_in_j_2 * t244 - (A_j[2] * v_i[2] + v_i[1] * t245);
-    const jg_real t247 = A_j[2] * omega_i[2] + omega_i[1] * t245;
-    const jg_real t248 = e_ij_in_j_2 * t247 - t242 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t243);
-    const jg_real t249 = e_ij_in_j_0 * t244 - e_ij_in_j_1 * t247 - (v_i[1] * t241 + A_j[8] * v_i[2]);
-    const jg_real t250 = t243 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
-    const jg_real t251 = t241 * f_star_in_i_1 + A_j[8] * f_star_in_i_2;
-    const jg_real t252 = t241 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
-    const jg_real t253 = t243 * f_star_in_i_1 + A_j[5] * f_star_in_i_2;
-    const jg_real t254 = f_star_in_j_2 * t250 + t251 * h_star_in_j_1 - (f_star_in_j_1 * t252 + t253 *
+    const jg_real t229 = C_j[3] * t224 + C_j[4] * t227 + C_j[5] * t228;
+    const jg_real t230 = C_j[0] * t217 + C_j[1] * t214 + C_j[2] * t212;
+    const jg_real t231 = C_j[0] * t224 + C_j[1] * t227 + C_j[2] * t228;
+    const jg_real t232 = C_j[3] * t217 + C_j[4] * t214 + C_j[5] * t212;
+    const jg_real t233 = C_j[7] * t220 + C_j[6] * t226 + C_j[8] * t222;
+    const jg_real t234 = C_j[7] * t223 + C_j[6] * t225 + C_j[8] * t221;
+    jac_phi_q_v_A_i[20] = t61 + A_ji_8 * t192 + (t41 + A_ji_6 * t188 + (t53 + A_ji_7 * t191));
+    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t202 - omega_j_in_joint_j_1 * t204 + (alphadot[0] * (H_22 * t207
+        + sine_0 * t206) - sine_2 * t207 * alphadot[1] - (omega_i_in_joint_j_0 * t202 + t203 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t204 + t205 * g_star_dot_f_j)) - alphadot[2] * t206));
+    jac_phi_q_v_A_i[22] = t205 * h_star_dot_h_j + omega_i_in_joint_j_1 * t206 - (t210 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t209) + (t114 * t208 + alphadot[0] * (t113 * t208 + sine_0 * t204) - alphadot[2] *
+        t204) - (omega_j_in_joint_j_1 * t206 - omega_j_in_joint_j_2 * t209);
+    jac_phi_q_v_A_i[23] = t210 * f_star_dot_f_j + omega_i_in_joint_j_2 * t208 - (t203 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t207) + (t121 * (cosine_2 * t202 - sine_2 * t209) - alphadot[1] * (cosine_2 * t209 +
+        sine_2 * t202)) - (omega_j_in_joint_j_2 * t208 - omega_j_in_joint_j_0 * t207);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t215 + A_ji_1 * t218 + A_ji_2 * t219;
+    jac_phi_q_v_A_i[25] = t211 * v_3_in_j_2 + A_ji_5 * t219 + (t216 * v_3_in_j_0 + A_ji_3 * t215 + (t213 *
+        v_3_in_j_1 + A_ji_4 * t218));
+    jac_phi_q_v_A_i[26] = t134 + A_ji_8 * t219 + (t124 + A_ji_6 * t215 + (t130 + A_ji_7 * t218));
+    jac_phi_q_v_A_i[27] = -(omega_j_in_joint_j_0 * t229 - omega_j_in_joint_j_1 * t231 + (alphadot[0] * (H_22 * t234
+        + sine_0 * t233) - sine_2 * t234 * alphadot[1] - (omega_i_in_joint_j_0 * t229 + t230 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t231 + t232 * g_star_dot_f_j)) - alphadot[2] * t233));
+    const jg_real t235 = C_j[1] * t223 + C_j[0] * t225 + C_j[2] * t221;
+    const jg_real t236 = C_j[3] * t226 + C_j[4] * t220 + C_j[5] * t222;
+    const jg_real t237 = C_j[6] * t217 + C_j[7] * t214 + C_j[8] * t212;
+    const jg_real t238 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t239 = A_j[8] * omega_i[2] + omega_i[1] * t238;
+    const jg_real t240 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t241 = A_j[5] * omega_i[2] + omega_i[1] * t240;
+    const jg_real t242 = e_ij_in_j_1 * t239 - e_ij_in_j_2 * t241;
+    const jg_real t243 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t244 = A_j[2] * omega_i[2] + omega_i[1] * t243;
+    const jg_real t245 = e_ij_in_j_2 * t244 - t239 * e_ij_in_j_0;
+    const jg_real t246 = e_ij_in_j_0 * t241 - e_ij_in_j_1 * t244;
+    const jg_real t247 = t240 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
+    const jg_real t248 = t238 * f_star_in_i_1 + A_j[8] * f_star_in_i_2;
+    const jg_real t249 = t238 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
+    const jg_real t250 = t240 * f_star_in_i_1 + A_j[5] * f_star_in_i_2;
+    const jg_real t251 = f_star_in_j_2 * t247 + t248 * h_star_in_j_1 - (f_star_in_j_1 * t249 + t250 *
         h_star_in_j_2);
-    const jg_real t255 = t245 * f_star_in_i_1 + A_j[2] * f_star_in_i_2;
-    const jg_real t256 = t245 * h_star_in_i_1 + A_j[2] * h_star_in_i_2;
-    const jg_real t257 = f_star_in_j_0 * t252 + t255 * h_star_in_j_2 - (f_star_in_j_2 * t256 + t251 *
+    const jg_real t252 = t243 * f_star_in_i_1 + A_j[2] * f_star_in_i_2;
+    const jg_real t253 = t243 * h_star_in_i_1 + A_j[2] * h_star_in_i_2;
+    const jg_real t254 = f_star_in_j_0 * t249 + t252 * h_star_in_j_2 - (f_star_in_j_2 * t253 + t248 *
         h_star_in_j_0);
-    const jg_real t258 = f_star_in_j_1 * t256 + t253 * h_star_in_j_0 - (f_star_in_j_0 * t250 + t255 *
+    const jg_real t255 = f_star_in_j_1 * t253 + t250 * h_star_in_j_0 - (f_star_in_j_0 * t247 + t252 *
         h_star_in_j_1);
-    const jg_real t259 = C_j[3] * t254 + C_j[4] * t257 + C_j[5] * t258;
-    const jg_real t260 = C_j[0] * t247 + C_j[1] * t244 + t242 * C_j[2];
-    const jg_real t261 = C_j[0] * t254 + C_j[1] * t257 + C_j[2] * t258;
-    const jg_real t262 = C_j[3] * t247 + C_j[4] * t244 + t242 * C_j[5];
-    const jg_real t263 = C_j[7] * t250 + C_j[6] * t256 + C_j[8] * t252;
-    const jg_real t264 = C_j[7] * t253 + C_j[6] * t255 + C_j[8] * t251;
-    const jg_real t265 = C_j[1] * t253 + C_j[0] * t255 + C_j[2] * t251;
-    const jg_real t266 = C_j[3] * t256 + C_j[4] * t250 + C_j[5] * t252;
-    const jg_real t267 = t247 * C_j[6] + t244 * C_j[7] + t242 * C_j[8];
-    jac_phi_q_v_A_i[28] = t235 * h_star_dot_h_j + omega_i_in_joint_j_1 * t236 - (t240 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t239) + (t117 * t238 + alphadot[0] * (t116 * t238 + sine_1 * t234) - alphadot[2] *
-        t234) - (omega_j_in_joint_j_1 * t236 - omega_j_in_joint_j_2 * t239);
-    jac_phi_q_v_A_i[29] = t240 * f_star_dot_f_j + omega_i_in_joint_j_2 * t238 - (t233 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t237) + (t124 * (cosine_2 * t232 - sine_2 * t239) - alphadot[1] * (cosine_2 * t239 +
-        sine_2 * t232)) - (omega_j_in_joint_j_2 * t238 - omega_j_in_joint_j_0 * t237);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t246 + A_ji_1 * t248 + A_ji_2 * t249;
-    jac_phi_q_v_A_i[31] = t241 * v_3_in_j_2 + A_ji_5 * t249 + (t245 * v_3_in_j_0 + A_ji_3 * t246 + (t243 *
-        v_3_in_j_1 + A_ji_4 * t248));
-    jac_phi_q_v_A_i[32] = t167 + A_ji_8 * t249 + (t157 + A_ji_6 * t246 + (t164 + A_ji_7 * t248));
-    jac_phi_q_v_A_i[33] = -(omega_j_in_joint_j_0 * t259 - omega_j_in_joint_j_1 * t261 + (alphadot[0] * (H_22 * t264
-        + sine_1 * t263) - sine_2 * t264 * alphadot[1] - (omega_i_in_joint_j_0 * t259 + t260 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t261 + t262 * g_star_dot_f_j)) - alphadot[2] * t263));
-    jac_phi_q_v_A_i[34] = t262 * h_star_dot_h_j + omega_i_in_joint_j_1 * t263 - (t267 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t266) + (t117 * t265 + alphadot[0] * (t116 * t265 + sine_1 * t261) - alphadot[2] *
-        t261) - (omega_j_in_joint_j_1 * t263 - omega_j_in_joint_j_2 * t266);
-    jac_phi_q_v_A_i[35] = t267 * f_star_dot_f_j + omega_i_in_joint_j_2 * t265 - (t260 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t264) + (t124 * (cosine_2 * t259 - sine_2 * t266) - alphadot[1] * (cosine_2 * t266 +
-        sine_2 * t259)) - (omega_j_in_joint_j_2 * t265 - omega_j_in_joint_j_0 * t264);
-    const jg_real t268 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t256 = C_j[3] * t251 + C_j[4] * t254 + C_j[5] * t255;
+    const jg_real t257 = C_j[0] * t244 + C_j[1] * t241 + C_j[2] * t239;
+    const jg_real t258 = C_j[0] * t251 + C_j[1] * t254 + C_j[2] * t255;
+    const jg_real t259 = C_j[3] * t244 + C_j[4] * t241 + C_j[5] * t239;
+    const jg_real t260 = C_j[7] * t247 + C_j[6] * t253 + C_j[8] * t249;
+    const jg_real t261 = C_j[7] * t250 + C_j[6] * t252 + C_j[8] * t248;
+    const jg_real t262 = C_j[1] * t250 + C_j[0] * t252 + C_j[2] * t248;
+    const jg_real t263 = C_j[3] * t253 + C_j[4] * t247 + C_j[5] * t249;
+    const jg_real t264 = C_j[6] * t244 + C_j[7] * t241 + C_j[8] * t239;
+    jac_phi_q_v_A_i[28] = t232 * h_star_dot_h_j + omega_i_in_joint_j_1 * t233 - (t237 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t236) + (t114 * t235 + alphadot[0] * (t113 * t235 + sine_0 * t231) - alphadot[2] *
+        t231) - (omega_j_in_joint_j_1 * t233 - omega_j_in_joint_j_2 * t236);
+    jac_phi_q_v_A_i[29] = t237 * f_star_dot_f_j + omega_i_in_joint_j_2 * t235 - (t230 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t234) + (t121 * (cosine_2 * t229 - sine_2 * t236) - alphadot[1] * (cosine_2 * t236 +
+        sine_2 * t229)) - (omega_j_in_joint_j_2 * t235 - omega_j_in_joint_j_0 * t234);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t242 + A_ji_1 * t245 + A_ji_2 * t246;
+    jac_phi_q_v_A_i[31] = t238 * v_3_in_j_2 + A_ji_5 * t246 + (t243 * v_3_in_j_0 + A_ji_3 * t242 + (t240 *
+        v_3_in_j_1 + A_ji_4 * t245));
+    jac_phi_q_v_A_i[32] = t164 + A_ji_8 * t246 + (t154 + A_ji_6 * t242 + (t160 + A_ji_7 * t245));
+    jac_phi_q_v_A_i[33] = -(omega_j_in_joint_j_0 * t256 - omega_j_in_joint_j_1 * t258 + (alphadot[0] * (H_22 * t261
+        + sine_0 * t260) - sine_2 * t261 * alphadot[1] - (omega_i_in_joint_j_0 * t256 + t257 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t258 + t259 * g_star_dot_f_j)) - alphadot[2] * t260));
+    jac_phi_q_v_A_i[34] = t259 * h_star_dot_h_j + omega_i_in_joint_j_1 * t260 - (t264 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t263) + (t114 * t262 + alphadot[0] * (t113 * t262 + sine_0 * t258) - alphadot[2] *
+        t258) - (omega_j_in_joint_j_1 * t260 - omega_j_in_joint_j_2 * t263);
+    jac_phi_q_v_A_i[35] = t264 * f_star_dot_f_j + omega_i_in_joint_j_2 * t262 - (t257 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t261) + (t121 * (cosine_2 * t256 - sine_2 * t263) - alphadot[1] * (cosine_2 * t263 +
+        sine_2 * t256)) - (omega_j_in_joint_j_2 * t262 - omega_j_in_joint_j_0 * t261);
+    const jg_real t265 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t266 = omega_i[1] * t265;
+    const jg_real t267 = t266 * e_ij_in_j_1;
+    const jg_real t268 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t269 = omega_i[1] * t268;
-    const jg_real t270 = t269 * e_ij_in_j_1;
-    const jg_real t271 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
-    const jg_real t272 = omega_i[1] * t271;
-    const jg_real t273 = e_ij_in_j_2 * t272;
-    const jg_real t274 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
-    const jg_real t275 = t270 - t273 - t274;
-    const jg_real t276 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t277 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
-    const jg_real t278 = e_ij_in_j_2 * t277;
-    const jg_real t279 = v_i[1] * t271;
-    const jg_real t280 = t278 - (t276 + t269 * e_ij_in_j_0) - t279;
-    const jg_real t281 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t282 = e_ij_in_j_1 * t277;
-    const jg_real t283 = v_i[1] * t268;
-    const jg_real t284 = t281 + t272 * e_ij_in_j_0 - t282 - t283;
-    const jg_real t285 = t271 * h_star_in_i_1;
-    const jg_real t286 = t285 * f_star_in_j_2;
-    const jg_real t287 = t268 * f_star_in_i_1;
-    const jg_real t288 = t287 * h_star_in_j_1;
-    const jg_real t289 = t268 * h_star_in_i_1;
-    const jg_real t290 = t289 * f_star_in_j_1;
-    const jg_real t291 = t271 * f_star_in_i_1;
-    const jg_real t292 = t291 * h_star_in_j_2;
-    const jg_real t293 = t286 + t288 - (t290 + t292);
-    const jg_real t294 = A_i[0] * f_star_in_i_0 + A_i[6] * f_star_in_i_2;
-    const jg_real t295 = t294 * h_star_in_j_2;
-    const jg_real t296 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
-    const jg_real t297 = f_star_in_j_2 * t296;
-    const jg_real t298 = t295 + t289 * f_star_in_j_0 - (t297 + t287 * h_star_in_j_0);
-    const jg_real t299 = f_star_in_j_1 * t296;
-    const jg_real t300 = t294 * h_star_in_j_1;
-    const jg_real t301 = t299 + t291 * h_star_in_j_0 - (t300 + t285 * f_star_in_j_0);
-    const jg_real t302 = C_j[3] * t293 + C_j[4] * t298 + C_j[5] * t301;
-    const jg_real t303 = t277 * C_j[0] + t272 * C_j[1] + t269 * C_j[2];
-    const jg_real t304 = C_j[0] * t293 + C_j[1] * t298 + C_j[2] * t301;
-    const jg_real t305 = t277 * C_j[3] + t272 * C_j[4] + t269 * C_j[5];
-    const jg_real t306 = C_j[7] * t285 + C_j[6] * t296 + C_j[8] * t289;
-    const jg_real t307 = C_j[7] * t291 + C_j[6] * t294 + C_j[8] * t287;
-    const jg_real t308 = C_j[1] * t291 + C_j[0] * t294 + C_j[2] * t287;
-    const jg_real t309 = C_j[3] * t296 + C_j[4] * t285 + C_j[5] * t289;
-    const jg_real t310 = t277 * C_j[6] + t272 * C_j[7] + t269 * C_j[8];
-    const jg_real t311 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
-    const jg_real t312 = omega_i[1] * t311;
-    const jg_real t313 = t312 * e_ij_in_j_1;
-    const jg_real t314 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
-    const jg_real t315 = omega_i[1] * t314;
-    const jg_real t316 = e_ij_in_j_2 * t315;
-    const jg_real t317 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
-    const jg_real t318 = t313 - t316 - t317;
-    const jg_real t319 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t320 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
-    const jg_real t321 = e_ij_in_j_2 * t320;
-    const jg_real t322 = v_i[1] * t314;
-    const jg_real t323 = t321 - (t319 + t312 * e_ij_in_j_0) - t322;
-    const jg_real t324 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t325 = e_ij_in_j_1 * t320;
-    const jg_real t326 = v_i[1] * t311;
-    const jg_real t327 = t324 + t315 * e_ij_in_j_0 - t325 - t326;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t275 + A_ji_1 * t280 + A_ji_2 * t284;
-    jac_phi_q_v_A_j[1] = t268 * v_3_in_j_2 + A_ji_5 * t284 + (t271 * v_3_in_j_1 + A_ji_4 * t280 + A_ji_3 * t275);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t275 + A_ji_7 * t280 + A_ji_8 * t284;
-    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t302 - omega_j_in_joint_j_1 * t304 + (alphadot[0] * (H_22 * t307 +
-        sine_1 * t306) - sine_2 * t307 * alphadot[1] - (omega_i_in_joint_j_0 * t302 + t303 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t304 + t305 * g_star_dot_f_j)) - alphadot[2] * t306));
-    jac_phi_q_v_A_j[4] = t305 * h_star_dot_h_j + omega_i_in_joint_j_1 * t306 - (t310 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t309) + (t117 * t308 + alphadot[0] * (t116 * t308 + sine_1 * t304) - alphadot[2] *
-        t304) - (omega_j_in_joint_j_1 * t306 - omega_j_in_joint_j_2 * t309);
-    jac_phi_q_v_A_j[5] = t310 * f_star_dot_f_j + omega_i_in_joint_j_2 * t308 - (t303 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t307) + (t124 * (cosine_2 * t302 - sine_2 * t309) - alphadot[1] * (cosine_2 * t309 +
-        sine_2 * t302)) - (omega_j_in_joint_j_2 * t308 - omega_j_in_joint_j_0 * t307);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t318 + A_ji_1 * t323 + A_ji_2 * t327;
-    jac_phi_q_v_A_j[7] = t311 * v_3_in_j_2 + A_ji_5 * t327 + (t314 * v_3_in_j_1 + A_ji_4 * t323 + A_ji_3 * t318);
-    const jg_real t328 = t314 * h_star_in_i_1;
-    const jg_real t329 = t328 * f_star_in_j_2;
-    const jg_real t330 = t311 * f_star_in_i_1;
-    const jg_real t331 = t330 * h_star_in_j_1;
-    const jg_real t332 = t311 * h_star_in_i_1;
-    const jg_real t333 = t332 * f_star_in_j_1;
-    const jg_real t334 = t314 * f_star_in_i_1;
-    const jg_real t335 = t334 * h_star_in_j_2;
-    const jg_real t336 = t329 + t331 - (t333 + t335);
-    const jg_real t337 = A_i[1] * f_star_in_i_0 + A_i[7] * f_star_in_i_2;
-    const jg_real t338 = t337 * h_star_in_j_2;
-    const jg_real t339 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
-    const jg_real t340 = f_star_in_j_2 * t339;
-    const jg_real t341 = t338 + t332 * f_star_in_j_0 - (t340 + t330 * h_star_in_j_0);
-    const jg_real t342 = f_star_in_j_1 * t339;
-    const jg_real t343 = t337 * h_star_in_j_1;
-    const jg_real t344 = t342 + t334 * h_star_in_j_0 - (t343 + t328 * f_star_in_j_0);
-    const jg_real t345 = C_j[3] * t336 + C_j[4] * t341 + C_j[5] * t344;
-    const jg_real t346 = t320 * C_j[0] + t315 * C_j[1] + t312 * C_j[2];
-    const jg_real t347 = C_j[0] * t336 + C_j[1] * t341 + C_j[2] * t344;
-    const jg_real t348 = t320 * C_j[3] + t315 * C_j[4] + t312 * C_j[5];
-    const jg_real t349 = C_j[7] * t328 + C_j[6] * t339 + C_j[8] * t332;
-    const jg_real t350 = C_j[7] * t334 + C_j[6] * t337 + C_j[8] * t330;
-    const jg_real t351 = C_j[1] * t334 + C_j[0] * t337 + C_j[2] * t330;
-    const jg_real t352 = C_j[3] * t339 + C_j[4] * t328 + C_j[5] * t332;
-    const jg_real t353 = t320 * C_j[6] + t315 * C_j[7] + t312 * C_j[8];
-    const jg_real t354 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
-    const jg_real t355 = omega_i[1] * t354;
-    const jg_real t356 = t355 * e_ij_in_j_1;
-    const jg_real t357 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
-    const jg_real t358 = omega_i[1] * t357;
-    const jg_real t359 = e_ij_in_j_2 * t358;
-    const jg_real t360 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
-    const jg_real t361 = t356 - t359 - t360;
-    const jg_real t362 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t363 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
-    const jg_real t364 = e_ij_in_j_2 * t363;
-    const jg_real t365 = v_i[1] * t357;
-    const jg_real t366 = t364 - (t362 + t355 * e_ij_in_j_0) - t365;
-    const jg_real t367 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t368 = e_ij_in_j_1 * t363;
-    const jg_real t369 = v_i[1] * t354;
-    const jg_real t370 = t367 + t358 * e_ij_in_j_0 - t368 - t369;
-    const jg_real t371 = t357 * h_star_in_i_1;
-    const jg_real t372 = t371 * f_star_in_j_2;
-    const jg_real t373 = t354 * f_star_in_i_1;
-    const jg_real t374 = t373 * h_star_in_j_1;
-    const jg_real t375 = t354 * h_star_in_i_1;
-    const jg_real t376 = t375 * f_star_in_j_1;
-    const jg_real t377 = t357 * f_star_in_i_1;
-    const jg_real t378 = t377 * h_star_in_j_2;
-    const jg_real t379 = t372 + t374 - (t376 + t378);
-    const jg_real t380 = A_i[2] * f_star_in_i_0 + A_i[8] * f_star_in_i_2;
-    const jg_real t381 = t380 * h_star_in_j_2;
-    const jg_real t382 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
-    const jg_real t383 = f_star_in_j_2 * t382;
-    const jg_real t384 = t381 + t375 * f_star_in_j_0 - (t383 + t373 * h_star_in_j_0);
-    const jg_real t385 = f_star_in_j_1 * t382;
-    const jg_real t386 = t380 * h_star_in_j_1;
-    const jg_real t387 = t385 + t377 * h_star_in_j_0 - (t386 + t371 * f_star_in_j_0);
-    const jg_real t388 = C_j[3] * t379 + C_j[4] * t384 + C_j[5] * t387;
-    const jg_real t389 = t363 * C_j[0] + t358 * C_j[1] + t355 * C_j[2];
-    const jg_real t390 = C_j[0] * t379 + C_j[1] * t384 + C_j[2] * t387;
-    const jg_real t391 = t363 * C_j[3] + t358 * C_j[4] + t355 * C_j[5];
-    const jg_real t392 = C_j[7] * t371 + C_j[6] * t382 + C_j[8] * t375;
-    const jg_real t393 = C_j[7] * t377 + C_j[6] * t380 + C_j[8] * t373;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t318 + A_ji_7 * t323 + A_ji_8 * t327;
-    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t345 - omega_j_in_joint_j_1 * t347 + (alphadot[0] * (H_22 * t350 +
-        sine_1 * t349) - sine_2 * t350 * alphadot[1] - (omega_i_in_joint_j_0 * t345 + t346 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t347 + t348 * g_star_dot_f_j)) - alphadot[2] * t349));
-    jac_phi_q_v_A_j[10] = t348 * h_star_dot_h_j + omega_i_in_joint_j_1 * t349 - (t353 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t352) + (t117 * t351 + alphadot[0] * (t116 * t351 + sine_1 * t347) - alphadot[2] *
-        t347) - (omega_j_in_joint_j_1 * t349 - omega_j_in_joint_j_2 * t352);
-    jac_phi_q_v_A_j[11] = t353 * f_star_dot_f_j + omega_i_in_joint_j_2 * t351 - (t346 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t350) + (t124 * (cosine_2 * t345 - sine_2 * t352) - alphadot[1] * (cosine_2 * t352 +
-        sine_2 * t345)) - (omega_j_in_joint_j_2 * t351 - omega_j_in_joint_j_0 * t350);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t361 + A_ji_1 * t366 + A_ji_2 * t370;
-    jac_phi_q_v_A_j[13] = t354 * v_3_in_j_2 + A_ji_5 * t370 + (t357 * v_3_in_j_1 + A_ji_4 * t366 + A_ji_3 * t361);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t361 + A_ji_7 * t366 + A_ji_8 * t370;
-    jac_phi_q_v_A_j[15] = -(omega_j_in_joint_j_0 * t388 - omega_j_in_joint_j_1 * t390 + (alphadot[0] * (H_22 * t393
-        + sine_1 * t392) - sine_2 * t393 * alphadot[1] - (omega_i_in_joint_j_0 * t388 + t389 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t390 + t391 * g_star_dot_f_j)) - alphadot[2] * t392));
-    const jg_real t394 = C_j[1] * t377 + C_j[0] * t380 + C_j[2] * t373;
-    const jg_real t395 = C_j[3] * t382 + C_j[4] * t371 + C_j[5] * t375;
-    const jg_real t396 = t363 * C_j[6] + t358 * C_j[7] + t355 * C_j[8];
-    const jg_real t397 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
-    const jg_real t398 = omega_i[1] * t397;
-    const jg_real t399 = t398 * e_ij_in_j_0;
-    const jg_real t400 = t399 + t273 + t274;
-    const jg_real t401 = t398 * e_ij_in_j_1 + t276 - t278 + t279;
-    const jg_real t402 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t403 = t277 * e_ij_in_j_0;
-    const jg_real t404 = v_i[1] * t397;
-    const jg_real t405 = t403 - (t402 - e_ij_in_j_1 * t272) - t404;
-    const jg_real t406 = t397 * f_star_in_i_1;
-    const jg_real t407 = t397 * h_star_in_i_1;
-    const jg_real t408 = t297 + t406 * h_star_in_j_1 - (t407 * f_star_in_j_1 + t295);
-    const jg_real t409 = t407 * f_star_in_j_0;
-    const jg_real t410 = t406 * h_star_in_j_0;
-    const jg_real t411 = t409 - t292 - (t410 - t286);
-    const jg_real t412 = t294 * h_star_in_j_0;
-    const jg_real t413 = f_star_in_j_0 * t296;
-    const jg_real t414 = t412 - t285 * f_star_in_j_1 - (t413 - t291 * h_star_in_j_1);
-    const jg_real t415 = C_j[3] * t408 + C_j[4] * t411 + C_j[5] * t414;
-    const jg_real t416 = t277 * C_j[1] - t272 * C_j[0] + t398 * C_j[2];
-    const jg_real t417 = C_j[0] * t408 + C_j[1] * t411 + C_j[2] * t414;
-    const jg_real t418 = t277 * C_j[4] - t272 * C_j[3] + t398 * C_j[5];
-    const jg_real t419 = C_j[7] * t296 - C_j[6] * t285 + C_j[8] * t407;
-    const jg_real t420 = C_j[7] * t294 - C_j[6] * t291 + C_j[8] * t406;
-    const jg_real t421 = C_j[1] * t294 - C_j[0] * t291 + C_j[2] * t406;
-    const jg_real t422 = C_j[4] * t296 - C_j[3] * t285 + C_j[5] * t407;
-    const jg_real t423 = t277 * C_j[7] - t272 * C_j[6] + t398 * C_j[8];
-    jac_phi_q_v_A_j[16] = t391 * h_star_dot_h_j + omega_i_in_joint_j_1 * t392 - (t396 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t395) + (t117 * t394 + alphadot[0] * (t116 * t394 + sine_1 * t390) - alphadot[2] *
-        t390) - (omega_j_in_joint_j_1 * t392 - omega_j_in_joint_j_2 * t395);
-    jac_phi_q_v_A_j[17] = t396 * f_star_dot_f_j + omega_i_in_joint_j_2 * t394 - (t389 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t393) + (t124 * (cosine_2 * t388 - sine_2 * t395) - alphadot[1] * (cosine_2 * t395 +
-        sine_2 * t388)) - (omega_j_in_joint_j_2 * t394 - omega_j_in_joint_j_0 * t393);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t400 + A_ji_0 * t401 + A_ji_2 * t405;
-    jac_phi_q_v_A_j[19] = t397 * v_3_in_j_2 + A_ji_5 * t405 + (A_ji_3 * t401 - t271 * v_3_in_j_0 - A_ji_4 * t400);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t400 + A_ji_6 * t401 + A_ji_8 * t405;
-    jac_phi_q_v_A_j[21] = -(omega_j_in_joint_j_0 * t415 - omega_j_in_joint_j_1 * t417 + (alphadot[0] * (H_22 * t420
-        + sine_1 * t419) - sine_2 * t420 * alphadot[1] - (omega_i_in_joint_j_0 * t415 + t416 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t417 + t418 * g_star_dot_f_j)) - alphadot[2] * t419));
-    jac_phi_q_v_A_j[22] = t418 * h_star_dot_h_j + omega_i_in_joint_j_1 * t419 - (t423 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t422) + (t117 * t421 + alphadot[0] * (t116 * t421 + sine_1 * t417) - alphadot[2] *
-        t417) - (omega_j_in_joint_j_1 * t419 - omega_j_in_joint_j_2 * t422);
-    jac_phi_q_v_A_j[23] = t423 * f_star_dot_f_j + omega_i_in_joint_j_2 * t421 - (t416 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t420) + (t124 * (cosine_2 * t415 - sine_2 * t422) - alphadot[1] * (cosine_2 * t422 +
-        sine_2 * t415)) - (omega_j_in_joint_j_2 * t421 - omega_j_in_joint_j_0 * t420);
-    const jg_real t424 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
-    const jg_real t425 = omega_i[1] * t424;
-    const jg_real t426 = t425 * e_ij_in_j_0;
-    const jg_real t427 = t426 + t316 + t317;
-    const jg_real t428 = t425 * e_ij_in_j_1 + t319 - t321 + t322;
-    const jg_real t429 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t430 = t320 * e_ij_in_j_0;
-    const jg_real t431 = v_i[1] * t424;
-    const jg_real t432 = t430 - (t429 - e_ij_in_j_1 * t315) - t431;
-    const jg_real t433 = t424 * f_star_in_i_1;
-    const jg_real t434 = t424 * h_star_in_i_1;
-    const jg_real t435 = t340 + t433 * h_star_in_j_1 - (t434 * f_star_in_j_1 + t338);
-    const jg_real t436 = t434 * f_star_in_j_0;
-    const jg_real t437 = t433 * h_star_in_j_0;
-    const jg_real t438 = t436 - t335 - (t437 - t329);
-    const jg_real t439 = t337 * h_star_in_j_0;
-    const jg_real t440 = f_star_in_j_0 * t339;
-    const jg_real t441 = t439 - t328 * f_star_in_j_1 - (t440 - t334 * h_star_in_j_1);
-    const jg_real t442 = C_j[3] * t435 + C_j[4] * t438 + C_j[5] * t441;
-    const jg_real t443 = t320 * C_j[1] - t315 * C_j[0] + t425 * C_j[2];
-    const jg_real t444 = C_j[0] * t435 + C_j[1] * t438 + C_j[2] * t441;
-    const jg_real t445 = t320 * C_j[4] - t315 * C_j[3] + t425 * C_j[5];
-    const jg_real t446 = C_j[7] * t339 - C_j[6] * t328 + C_j[8] * t434;
-    const jg_real t447 = C_j[7] * t337 - C_j[6] * t334 + C_j[8] * t433;
-    const jg_real t448 = C_j[1] * t337 - C_j[0] * t334 + C_j[2] * t433;
-    const jg_real t449 = C_j[4] * t339 - C_j[3] * t328 + C_j[5] * t434;
-    const jg_real t450 = t320 * C_j[7] - t315 * C_j[6] + t425 * C_j[8];
-    const jg_real t451 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t452 = omega_i[1] * t451;
-    const jg_real t453 = t452 * e_ij_in_j_0;
-    const jg_real t454 = t453 + t359 + t360;
-    const jg_real t455 = t452 * e_ij_in_j_1 + t362 - t364 + t365;
-    const jg_real t456 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t457 = t363 * e_ij_in_j_0;
-    const jg_real t458 = v_i[1] * t451;
-    const jg_real t459 = t457 - (t456 - e_ij_in_j_1 * t358) - t458;
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t427 + A_ji_0 * t428 + A_ji_2 * t432;
-    jac_phi_q_v_A_j[25] = t424 * v_3_in_j_2 + A_ji_5 * t432 + (A_ji_3 * t428 - t314 * v_3_in_j_0 - A_ji_4 * t427);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t427 + A_ji_6 * t428 + A_ji_8 * t432;
-    jac_phi_q_v_A_j[27] = -(omega_j_in_joint_j_0 * t442 - omega_j_in_joint_j_1 * t444 + (alphadot[0] * (H_22 * t447
-        + sine_1 * t446) - sine_2 * t447 * alphadot[1] - (omega_i_in_joint_j_0 * t442 + t443 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t444 + t445 * g_star_dot_f_j)) - alphadot[2] * t446));
-    jac_phi_q_v_A_j[28] = t445 * h_star_dot_h_j + omega_i_in_joint_j_1 * t446 - (t450 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t449) + (t117 * t448 + alphadot[0] * (t116 * t448 + sine_1 * t444) - alphadot[2] *
-        t444) - (omega_j_in_joint_j_1 * t446 - omega_j_in_joint_j_2 * t449);
-    jac_phi_q_v_A_j[29] = t450 * f_star_dot_f_j + omega_i_in_joint_j_2 * t448 - (t443 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t447) + (t124 * (cosine_2 * t442 - sine_2 * t449) - alphadot[1] * (cosine_2 * t449 +
-        sine_2 * t442)) - (omega_j_in_joint_j_2 * t448 - omega_j_in_joint_j_0 * t447);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t454 + A_ji_0 * t455 + A_ji_2 * t459;
-    jac_phi_q_v_A_j[31] = t451 * v_3_in_j_2 + A_ji_5 * t459 + (A_ji_3 * t455 - t357 * v_3_in_j_0 - A_ji_4 * t454);
-    const jg_real t460 = t451 * f_star_in_i_1;
-    const jg_real t461 = t451 * h_star_in_i_1;
-    const jg_real t462 = t383 + t460 * h_star_in_j_1 - (t461 * f_star_in_j_1 + t381);
-    const jg_real t463 = t461 * f_star_in_j_0;
-    const jg_real t464 = t460 * h_star_in_j_0;
-    const jg_real t465 = t463 - t378 - (t464 - t372);
-    const jg_real t466 = t380 * h_star_in_j_0;
-    const jg_real t467 = f_star_in_j_0 * t382;
-    const jg_real t468 = t466 - t371 * f_star_in_j_1 - (t467 - t377 * h_star_in_j_1);
-    const jg_real t469 = C_j[3] * t462 + C_j[4] * t465 + C_j[5] * t468;
-    const jg_real t470 = t363 * C_j[1] - t358 * C_j[0] + t452 * C_j[2];
-    const jg_real t471 = C_j[0] * t462 + C_j[1] * t465 + C_j[2] * t468;
-    const jg_real t472 = t363 * C_j[4] - t358 * C_j[3] + t452 * C_j[5];
-    const jg_real t473 = C_j[7] * t382 - C_j[6] * t371 + C_j[8] * t461;
-    const jg_real t474 = C_j[7] * t380 - C_j[6] * t377 + C_j[8] * t460;
-    const jg_real t475 = C_j[1] * t380 - C_j[0] * t377 + C_j[2] * t460;
-    const jg_real t476 = C_j[4] * t382 - C_j[3] * t371 + C_j[5] * t461;
-    const jg_real t477 = t363 * C_j[7] - t358 * C_j[6] + t452 * C_j[8];
-    const jg_real t478 = t270 - t399 - t274;
-    const jg_real t479 = t282 - (t281 - t398 * e_ij_in_j_2) + t283;
-    const jg_real t480 = t402 - t269 * e_ij_in_j_2 - t403 + t404;
-    const jg_real t481 = t300 - t407 * f_star_in_j_2 - (t299 - t406 * h_star_in_j_2);
-    const jg_real t482 = t413 - t287 * h_star_in_j_2 - (t412 - t289 * f_star_in_j_2);
-    const jg_real t483 = t288 + t409 - (t290 + t410);
-    const jg_real t484 = C_j[3] * t481 + C_j[4] * t482 + C_j[5] * t483;
-    const jg_real t485 = t277 * C_j[2] - (t269 * C_j[0] + t398 * C_j[1]);
-    const jg_real t486 = C_j[0] * t481 + C_j[1] * t482 + C_j[2] * t483;
-    const jg_real t487 = t277 * C_j[5] - (t269 * C_j[3] + t398 * C_j[4]);
-    const jg_real t488 = C_j[8] * t296 - (C_j[7] * t407 + C_j[6] * t289);
-    const jg_real t489 = C_j[8] * t294 - (C_j[7] * t406 + C_j[6] * t287);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t454 + A_ji_6 * t455 + A_ji_8 * t459;
-    jac_phi_q_v_A_j[33] = -(omega_j_in_joint_j_0 * t469 - omega_j_in_joint_j_1 * t471 + (alphadot[0] * (H_22 * t474
-        + sine_1 * t473) - sine_2 * t474 * alphadot[1] - (omega_i_in_joint_j_0 * t469 + t470 * g_star_dot_g_j -
+    const jg_real t270 = e_ij_in_j_2 * t269;
+    const jg_real t271 = t267 - t270;
+    const jg_real t272 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t273 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t274 = e_ij_in_j_2 * t273;
+    const jg_real t275 = t274 - (t272 + t266 * e_ij_in_j_0);
+    const jg_real t276 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t277 = e_ij_in_j_1 * t273;
+    const jg_real t278 = t276 + t269 * e_ij_in_j_0 - t277;
+    const jg_real t279 = t268 * h_star_in_i_1;
+    const jg_real t280 = t279 * f_star_in_j_2;
+    const jg_real t281 = t265 * f_star_in_i_1;
+    const jg_real t282 = t281 * h_star_in_j_1;
+    const jg_real t283 = t265 * h_star_in_i_1;
+    const jg_real t284 = t283 * f_star_in_j_1;
+    const jg_real t285 = t268 * f_star_in_i_1;
+    const jg_real t286 = t285 * h_star_in_j_2;
+    const jg_real t287 = t280 + t282 - (t284 + t286);
+    const jg_real t288 = A_i[0] * f_star_in_i_0 + A_i[6] * f_star_in_i_2;
+    const jg_real t289 = t288 * h_star_in_j_2;
+    const jg_real t290 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
+    const jg_real t291 = f_star_in_j_2 * t290;
+    const jg_real t292 = t289 + t283 * f_star_in_j_0 - (t291 + t281 * h_star_in_j_0);
+    const jg_real t293 = f_star_in_j_1 * t290;
+    const jg_real t294 = t288 * h_star_in_j_1;
+    const jg_real t295 = t293 + t285 * h_star_in_j_0 - (t294 + t279 * f_star_in_j_0);
+    const jg_real t296 = C_j[3] * t287 + C_j[4] * t292 + C_j[5] * t295;
+    const jg_real t297 = C_j[0] * t273 + t269 * C_j[1] + t266 * C_j[2];
+    const jg_real t298 = C_j[0] * t287 + C_j[1] * t292 + C_j[2] * t295;
+    const jg_real t299 = C_j[3] * t273 + C_j[4] * t269 + t266 * C_j[5];
+    const jg_real t300 = C_j[7] * t279 + C_j[6] * t290 + C_j[8] * t283;
+    const jg_real t301 = C_j[7] * t285 + C_j[6] * t288 + C_j[8] * t281;
+    const jg_real t302 = C_j[1] * t285 + C_j[0] * t288 + C_j[2] * t281;
+    const jg_real t303 = C_j[3] * t290 + C_j[4] * t279 + C_j[5] * t283;
+    const jg_real t304 = C_j[6] * t273 + t269 * C_j[7] + t266 * C_j[8];
+    const jg_real t305 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
+    const jg_real t306 = omega_i[1] * t305;
+    const jg_real t307 = t306 * e_ij_in_j_1;
+    const jg_real t308 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
+    const jg_real t309 = omega_i[1] * t308;
+    const jg_real t310 = e_ij_in_j_2 * t309;
+    const jg_real t311 = t307 - t310;
+    const jg_real t312 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t313 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t314 = e_ij_in_j_2 * t313;
+    const jg_real t315 = t314 - (t312 + t306 * e_ij_in_j_0);
+    const jg_real t316 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t317 = e_ij_in_j_1 * t313;
+    const jg_real t318 = t316 + t309 * e_ij_in_j_0 - t317;
+    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t271 + A_ji_1 * t275 + A_ji_2 * t278;
+    jac_phi_q_v_A_j[1] = t265 * v_3_in_j_2 + A_ji_5 * t278 + (t268 * v_3_in_j_1 + A_ji_4 * t275 + A_ji_3 * t271);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t271 + A_ji_7 * t275 + A_ji_8 * t278;
+    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t296 - omega_j_in_joint_j_1 * t298 + (alphadot[0] * (H_22 * t301 +
+        sine_0 * t300) - sine_2 * t301 * alphadot[1] - (omega_i_in_joint_j_0 * t296 + t297 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t298 + t299 * g_star_dot_f_j)) - alphadot[2] * t300));
+    jac_phi_q_v_A_j[4] = t299 * h_star_dot_h_j + omega_i_in_joint_j_1 * t300 - (t304 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t303) + (t114 * t302 + alphadot[0] * (t113 * t302 + sine_0 * t298) - alphadot[2] *
+        t298) - (omega_j_in_joint_j_1 * t300 - omega_j_in_joint_j_2 * t303);
+    jac_phi_q_v_A_j[5] = t304 * f_star_dot_f_j + omega_i_in_joint_j_2 * t302 - (t297 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t301) + (t121 * (cosine_2 * t296 - sine_2 * t303) - alphadot[1] * (cosine_2 * t303 +
+        sine_2 * t296)) - (omega_j_in_joint_j_2 * t302 - omega_j_in_joint_j_0 * t301);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t311 + A_ji_1 * t315 + A_ji_2 * t318;
+    jac_phi_q_v_A_j[7] = t305 * v_3_in_j_2 + A_ji_5 * t318 + (t308 * v_3_in_j_1 + A_ji_4 * t315 + A_ji_3 * t311);
+    const jg_real t319 = t308 * h_star_in_i_1;
+    const jg_real t320 = t319 * f_star_in_j_2;
+    const jg_real t321 = t305 * f_star_in_i_1;
+    const jg_real t322 = t321 * h_star_in_j_1;
+    const jg_real t323 = t305 * h_star_in_i_1;
+    const jg_real t324 = t323 * f_star_in_j_1;
+    const jg_real t325 = t308 * f_star_in_i_1;
+    const jg_real t326 = t325 * h_star_in_j_2;
+    const jg_real t327 = t320 + t322 - (t324 + t326);
+    const jg_real t328 = A_i[1] * f_star_in_i_0 + A_i[7] * f_star_in_i_2;
+    const jg_real t329 = t328 * h_star_in_j_2;
+    const jg_real t330 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
+    const jg_real t331 = f_star_in_j_2 * t330;
+    const jg_real t332 = t329 + t323 * f_star_in_j_0 - (t331 + t321 * h_star_in_j_0);
+    const jg_real t333 = f_star_in_j_1 * t330;
+    const jg_real t334 = t328 * h_star_in_j_1;
+    const jg_real t335 = t333 + t325 * h_star_in_j_0 - (t334 + t319 * f_star_in_j_0);
+    const jg_real t336 = C_j[3] * t327 + C_j[4] * t332 + C_j[5] * t335;
+    const jg_real t337 = C_j[0] * t313 + t309 * C_j[1] + t306 * C_j[2];
+    const jg_real t338 = C_j[0] * t327 + C_j[1] * t332 + C_j[2] * t335;
+    const jg_real t339 = C_j[3] * t313 + C_j[4] * t309 + t306 * C_j[5];
+    const jg_real t340 = C_j[7] * t319 + C_j[6] * t330 + C_j[8] * t323;
+    const jg_real t341 = C_j[7] * t325 + C_j[6] * t328 + C_j[8] * t321;
+    const jg_real t342 = C_j[1] * t325 + C_j[0] * t328 + C_j[2] * t321;
+    const jg_real t343 = C_j[3] * t330 + C_j[4] * t319 + C_j[5] * t323;
+    const jg_real t344 = C_j[6] * t313 + t309 * C_j[7] + t306 * C_j[8];
+    const jg_real t345 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
+    const jg_real t346 = omega_i[1] * t345;
+    const jg_real t347 = t346 * e_ij_in_j_1;
+    const jg_real t348 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
+    const jg_real t349 = omega_i[1] * t348;
+    const jg_real t350 = e_ij_in_j_2 * t349;
+    const jg_real t351 = t347 - t350;
+    const jg_real t352 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t353 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t354 = e_ij_in_j_2 * t353;
+    const jg_real t355 = t354 - (t352 + t346 * e_ij_in_j_0);
+    const jg_real t356 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t357 = e_ij_in_j_1 * t353;
+    const jg_real t358 = t356 + t349 * e_ij_in_j_0 - t357;
+    const jg_real t359 = t348 * h_star_in_i_1;
+    const jg_real t360 = t359 * f_star_in_j_2;
+    const jg_real t361 = t345 * f_star_in_i_1;
+    const jg_real t362 = t361 * h_star_in_j_1;
+    const jg_real t363 = t345 * h_star_in_i_1;
+    const jg_real t364 = t363 * f_star_in_j_1;
+    const jg_real t365 = t348 * f_star_in_i_1;
+    const jg_real t366 = t365 * h_star_in_j_2;
+    const jg_real t367 = t360 + t362 - (t364 + t366);
+    const jg_real t368 = A_i[2] * f_star_in_i_0 + A_i[8] * f_star_in_i_2;
+    const jg_real t369 = t368 * h_star_in_j_2;
+    const jg_real t370 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
+    const jg_real t371 = f_star_in_j_2 * t370;
+    const jg_real t372 = t369 + t363 * f_star_in_j_0 - (t371 + t361 * h_star_in_j_0);
+    const jg_real t373 = f_star_in_j_1 * t370;
+    const jg_real t374 = t368 * h_star_in_j_1;
+    const jg_real t375 = t373 + t365 * h_star_in_j_0 - (t374 + t359 * f_star_in_j_0);
+    const jg_real t376 = C_j[3] * t367 + C_j[4] * t372 + C_j[5] * t375;
+    const jg_real t377 = C_j[0] * t353 + t349 * C_j[1] + t346 * C_j[2];
+    const jg_real t378 = C_j[0] * t367 + C_j[1] * t372 + C_j[2] * t375;
+    const jg_real t379 = C_j[3] * t353 + C_j[4] * t349 + t346 * C_j[5];
+    const jg_real t380 = C_j[7] * t359 + C_j[6] * t370 + C_j[8] * t363;
+    const jg_real t381 = C_j[7] * t365 + C_j[6] * t368 + C_j[8] * t361;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t311 + A_ji_7 * t315 + A_ji_8 * t318;
+    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t336 - omega_j_in_joint_j_1 * t338 + (alphadot[0] * (H_22 * t341 +
+        sine_0 * t340) - sine_2 * t341 * alphadot[1] - (omega_i_in_joint_j_0 * t336 + t337 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t338 + t339 * g_star_dot_f_j)) - alphadot[2] * t340));
+    jac_phi_q_v_A_j[10] = t339 * h_star_dot_h_j + omega_i_in_joint_j_1 * t340 - (t344 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t343) + (t114 * t342 + alphadot[0] * (t113 * t342 + sine_0 * t338) - alphadot[2] *
+        t338) - (omega_j_in_joint_j_1 * t340 - omega_j_in_joint_j_2 * t343);
+    jac_phi_q_v_A_j[11] = t344 * f_star_dot_f_j + omega_i_in_joint_j_2 * t342 - (t337 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t341) + (t121 * (cosine_2 * t336 - sine_2 * t343) - alphadot[1] * (cosine_2 * t343 +
+        sine_2 * t336)) - (omega_j_in_joint_j_2 * t342 - omega_j_in_joint_j_0 * t341);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t351 + A_ji_1 * t355 + A_ji_2 * t358;
+    jac_phi_q_v_A_j[13] = t345 * v_3_in_j_2 + A_ji_5 * t358 + (t348 * v_3_in_j_1 + A_ji_4 * t355 + A_ji_3 * t351);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t351 + A_ji_7 * t355 + A_ji_8 * t358;
+    jac_phi_q_v_A_j[15] = -(omega_j_in_joint_j_0 * t376 - omega_j_in_joint_j_1 * t378 + (alphadot[0] * (H_22 * t381
+        + sine_0 * t380) - sine_2 * t381 * alphadot[1] - (omega_i_in_joint_j_0 * t376 + t377 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t378 + t379 * g_star_dot_f_j)) - alphadot[2] * t380));
+    const jg_real t382 = C_j[1] * t365 + C_j[0] * t368 + C_j[2] * t361;
+    const jg_real t383 = C_j[3] * t370 + C_j[4] * t359 + C_j[5] * t363;
+    const jg_real t384 = C_j[6] * t353 + t349 * C_j[7] + t346 * C_j[8];
+    const jg_real t385 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
+    const jg_real t386 = omega_i[1] * t385;
+    const jg_real t387 = t386 * e_ij_in_j_0;
+    const jg_real t388 = t387 + t270;
+    const jg_real t389 = t386 * e_ij_in_j_1 + t272 - t274;
+    const jg_real t390 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t391 = t273 * e_ij_in_j_0;
+    const jg_real t392 = t391 - (t390 - e_ij_in_j_1 * t269);
+    const jg_real t393 = t385 * f_star_in_i_1;
+    const jg_real t394 = t385 * h_star_in_i_1;
+    const jg_real t395 = t291 + t393 * h_star_in_j_1 - (t394 * f_star_in_j_1 + t289);
+    const jg_real t396 = t394 * f_star_in_j_0;
+    const jg_real t397 = t393 * h_star_in_j_0;
+    const jg_real t398 = t396 - t286 - (t397 - t280);
+    const jg_real t399 = t288 * h_star_in_j_0;
+    const jg_real t400 = f_star_in_j_0 * t290;
+    const jg_real t401 = t399 - t279 * f_star_in_j_1 - (t400 - t285 * h_star_in_j_1);
+    const jg_real t402 = C_j[3] * t395 + C_j[4] * t398 + C_j[5] * t401;
+    const jg_real t403 = C_j[1] * t273 - C_j[0] * t269 + t386 * C_j[2];
+    const jg_real t404 = C_j[0] * t395 + C_j[1] * t398 + C_j[2] * t401;
+    const jg_real t405 = C_j[4] * t273 - C_j[3] * t269 + t386 * C_j[5];
+    const jg_real t406 = C_j[7] * t290 - C_j[6] * t279 + C_j[8] * t394;
+    const jg_real t407 = C_j[7] * t288 - C_j[6] * t285 + C_j[8] * t393;
+    const jg_real t408 = C_j[1] * t288 - C_j[0] * t285 + C_j[2] * t393;
+    const jg_real t409 = C_j[4] * t290 - C_j[3] * t279 + C_j[5] * t394;
+    const jg_real t410 = C_j[7] * t273 - t269 * C_j[6] + t386 * C_j[8];
+    jac_phi_q_v_A_j[16] = t379 * h_star_dot_h_j + omega_i_in_joint_j_1 * t380 - (t384 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t383) + (t114 * t382 + alphadot[0] * (t113 * t382 + sine_0 * t378) - alphadot[2] *
+        t378) - (omega_j_in_joint_j_1 * t380 - omega_j_in_joint_j_2 * t383);
+    jac_phi_q_v_A_j[17] = t384 * f_star_dot_f_j + omega_i_in_joint_j_2 * t382 - (t377 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t381) + (t121 * (cosine_2 * t376 - sine_2 * t383) - alphadot[1] * (cosine_2 * t383 +
+        sine_2 * t376)) - (omega_j_in_joint_j_2 * t382 - omega_j_in_joint_j_0 * t381);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t388 + A_ji_0 * t389 + A_ji_2 * t392;
+    jac_phi_q_v_A_j[19] = t385 * v_3_in_j_2 + A_ji_5 * t392 + (A_ji_3 * t389 - t268 * v_3_in_j_0 - A_ji_4 * t388);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t388 + A_ji_6 * t389 + A_ji_8 * t392;
+    jac_phi_q_v_A_j[21] = -(omega_j_in_joint_j_0 * t402 - omega_j_in_joint_j_1 * t404 + (alphadot[0] * (H_22 * t407
+        + sine_0 * t406) - sine_2 * t407 * alphadot[1] - (omega_i_in_joint_j_0 * t402 + t403 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t404 + t405 * g_star_dot_f_j)) - alphadot[2] * t406));
+    jac_phi_q_v_A_j[22] = t405 * h_star_dot_h_j + omega_i_in_joint_j_1 * t406 - (t410 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t409) + (t114 * t408 + alphadot[0] * (t113 * t408 + sine_0 * t404) - alphadot[2] *
+        t404) - (omega_j_in_joint_j_1 * t406 - omega_j_in_joint_j_2 * t409);
+    jac_phi_q_v_A_j[23] = t410 * f_star_dot_f_j + omega_i_in_joint_j_2 * t408 - (t403 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t407) + (t121 * (cosine_2 * t402 - sine_2 * t409) - alphadot[1] * (cosine_2 * t409 +
+        sine_2 * t402)) - (omega_j_in_joint_j_2 * t408 - omega_j_in_joint_j_0 * t407);
+    const jg_real t411 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
+    const jg_real t412 = omega_i[1] * t411;
+    const jg_real t413 = t412 * e_ij_in_j_0;
+    const jg_real t414 = t413 + t310;
+    const jg_real t415 = t412 * e_ij_in_j_1 + t312 - t314;
+    const jg_real t416 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t417 = t313 * e_ij_in_j_0;
+    const jg_real t418 = t417 - (t416 - e_ij_in_j_1 * t309);
+    const jg_real t419 = t411 * f_star_in_i_1;
+    const jg_real t420 = t411 * h_star_in_i_1;
+    const jg_real t421 = t331 + t419 * h_star_in_j_1 - (t420 * f_star_in_j_1 + t329);
+    const jg_real t422 = t420 * f_star_in_j_0;
+    const jg_real t423 = t419 * h_star_in_j_0;
+    const jg_real t424 = t422 - t326 - (t423 - t320);
+    const jg_real t425 = t328 * h_star_in_j_0;
+    const jg_real t426 = f_star_in_j_0 * t330;
+    const jg_real t427 = t425 - t319 * f_star_in_j_1 - (t426 - t325 * h_star_in_j_1);
+    const jg_real t428 = C_j[3] * t421 + C_j[4] * t424 + C_j[5] * t427;
+    const jg_real t429 = C_j[1] * t313 - C_j[0] * t309 + t412 * C_j[2];
+    const jg_real t430 = C_j[0] * t421 + C_j[1] * t424 + C_j[2] * t427;
+    const jg_real t431 = C_j[4] * t313 - C_j[3] * t309 + t412 * C_j[5];
+    const jg_real t432 = C_j[7] * t330 - C_j[6] * t319 + C_j[8] * t420;
+    const jg_real t433 = C_j[7] * t328 - C_j[6] * t325 + C_j[8] * t419;
+    const jg_real t434 = C_j[1] * t328 - C_j[0] * t325 + C_j[2] * t419;
+    const jg_real t435 = C_j[4] * t330 - C_j[3] * t319 + C_j[5] * t420;
+    const jg_real t436 = C_j[7] * t313 - t309 * C_j[6] + t412 * C_j[8];
+    const jg_real t437 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t438 = omega_i[1] * t437;
+    const jg_real t439 = t438 * e_ij_in_j_0;
+    const jg_real t440 = t439 + t350;
+    const jg_real t441 = t438 * e_ij_in_j_1 + t352 - t354;
+    const jg_real t442 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t443 = t353 * e_ij_in_j_0;
+    const jg_real t444 = t443 - (t442 - e_ij_in_j_1 * t349);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t414 + A_ji_0 * t415 + A_ji_2 * t418;
+    jac_phi_q_v_A_j[25] = t411 * v_3_in_j_2 + A_ji_5 * t418 + (A_ji_3 * t415 - t308 * v_3_in_j_0 - A_ji_4 * t414);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t414 + A_ji_6 * t415 + A_ji_8 * t418;
+    jac_phi_q_v_A_j[27] = -(omega_j_in_joint_j_0 * t428 - omega_j_in_joint_j_1 * t430 + (alphadot[0] * (H_22 * t433
+        + sine_0 * t432) - sine_2 * t433 * alphadot[1] - (omega_i_in_joint_j_0 * t428 + t429 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t430 + t431 * g_star_dot_f_j)) - alphadot[2] * t432));
+    jac_phi_q_v_A_j[28] = t431 * h_star_dot_h_j + omega_i_in_joint_j_1 * t432 - (t436 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t435) + (t114 * t434 + alphadot[0] * (t113 * t434 + sine_0 * t430) - alphadot[2] *
+        t430) - (omega_j_in_joint_j_1 * t432 - omega_j_in_joint_j_2 * t435);
+    jac_phi_q_v_A_j[29] = t436 * f_star_dot_f_j + omega_i_in_joint_j_2 * t434 - (t429 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t433) + (t121 * (cosine_2 * t428 - sine_2 * t435) - alphadot[1] * (cosine_2 * t435 +
+        sine_2 * t428)) - (omega_j_in_joint_j_2 * t434 - omega_j_in_joint_j_0 * t433);
+    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t440 + A_ji_0 * t441 + A_ji_2 * t444;
+    jac_phi_q_v_A_j[31] = t437 * v_3_in_j_2 + A_ji_5 * t444 + (A_ji_3 * t441 - t348 * v_3_in_j_0 - A_ji_4 * t440);
+    const jg_real t445 = t437 * f_star_in_i_1;
+    const jg_real t446 = t437 * h_star_in_i_1;
+    const jg_real t447 = t371 + t445 * h_star_in_j_1 - (t446 * f_star_in_j_1 + t369);
+    const jg_real t448 = t446 * f_star_in_j_0;
+    const jg_real t449 = t445 * h_star_in_j_0;
+    const jg_real t450 = t448 - t366 - (t449 - t360);
+    const jg_real t451 = t368 * h_star_in_j_0;
+    const jg_real t452 = f_star_in_j_0 * t370;
+    const jg_real t453 = t451 - t359 * f_star_in_j_1 - (t452 - t365 * h_star_in_j_1);
+    const jg_real t454 = C_j[3] * t447 + C_j[4] * t450 + C_j[5] * t453;
+    const jg_real t455 = C_j[1] * t353 - C_j[0] * t349 + t438 * C_j[2];
+    const jg_real t456 = C_j[0] * t447 + C_j[1] * t450 + C_j[2] * t453;
+    const jg_real t457 = C_j[4] * t353 - C_j[3] * t349 + t438 * C_j[5];
+    const jg_real t458 = C_j[7] * t370 - C_j[6] * t359 + C_j[8] * t446;
+    const jg_real t459 = C_j[7] * t368 - C_j[6] * t365 + C_j[8] * t445;
+    const jg_real t460 = C_j[1] * t368 - C_j[0] * t365 + C_j[2] * t445;
+    const jg_real t461 = C_j[4] * t370 - C_j[3] * t359 + C_j[5] * t446;
+    const jg_real t462 = C_j[7] * t353 - t349 * C_j[6] + t438 * C_j[8];
+    const jg_real t463 = t267 - t387;
+    const jg_real t464 = t277 - (t276 - t386 * e_ij_in_j_2);
+    const jg_real t465 = t390 - t266 * e_ij_in_j_2 - t391;
+    const jg_real t466 = t294 - t394 * f_star_in_j_2 - (t293 - t393 * h_star_in_j_2);
+    const jg_real t467 = t400 - t281 * h_star_in_j_2 - (t399 - t283 * f_star_in_j_2);
+    const jg_real t468 = t282 + t396 - (t284 + t397);
+    const jg_real t469 = C_j[3] * t466 + C_j[4] * t467 + C_j[5] * t468;
+    const jg_real t470 = C_j[2] * t273 - (t266 * C_j[0] + t386 * C_j[1]);
+    const jg_real t471 = C_j[0] * t466 + C_j[1] * t467 + C_j[2] * t468;
+    const jg_real t472 = C_j[5] * t273 - (t266 * C_j[3] + t386 * C_j[4]);
+    const jg_real t473 = C_j[8] * t290 - (C_j[7] * t394 + C_j[6] * t283);
+    const jg_real t474 = C_j[8] * t288 - (C_j[7] * t393 + C_j[6] * t281);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t440 + A_ji_6 * t441 + A_ji_8 * t444;
+    jac_phi_q_v_A_j[33] = -(omega_j_in_joint_j_0 * t454 - omega_j_in_joint_j_1 * t456 + (alphadot[0] * (H_22 * t459
+        + sine_0 * t458) - sine_2 * t459 * alphadot[1] - (omega_i_in_joint_j_0 * t454 + t455 * g_star_dot_g_j -
+        (omega_i_in_joint_j_1 * t456 + t457 * g_star_dot_f_j)) - alphadot[2] * t458));
+    jac_phi_q_v_A_j[34] = t457 * h_star_dot_h_j + omega_i_in_joint_j_1 * t458 - (t462 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t461) + (t114 * t460 + alphadot[0] * (t113 * t460 + sine_0 * t456) - alphadot[2] *
+        t456) - (omega_j_in_joint_j_1 * t458 - omega_j_in_joint_j_2 * t461);
+    jac_phi_q_v_A_j[35] = t462 * f_star_dot_f_j + omega_i_in_joint_j_2 * t460 - (t455 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t459) + (t121 * (cosine_2 * t454 - sine_2 * t461) - alphadot[1] * (cosine_2 * t461 +
+        sine_2 * t454)) - (omega_j_in_joint_j_2 * t460 - omega_j_in_joint_j_0 * t459);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t463 + (A_ji_0 * t464 + A_ji_1 * t465);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t464 - t265 * v_3_in_j_0 + (A_ji_4 * t465 - t385 * v_3_in_j_1) + A_ji_5 * t463;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t463 + (A_ji_6 * t464 + A_ji_7 * t465);
+    jac_phi_q_v_A_j[39] = -(omega_j_in_joint_j_0 * t469 - omega_j_in_joint_j_1 * t471 + (alphadot[0] * (H_22 * t474
+        + sine_0 * t473) - sine_2 * t474 * alphadot[1] - (omega_i_in_joint_j_0 * t469 + t470 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t471 + t472 * g_star_dot_f_j)) - alphadot[2] * t473));
-    jac_phi_q_v_A_j[34] = t472 * h_star_dot_h_j + omega_i_in_joint_j_1 * t473 - (t477 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t476) + (t117 * t475 + alphadot[0] * (t116 * t475 + sine_1 * t471) - alphadot[2] *
+    const jg_real t475 = C_j[2] * t288 - (C_j[1] * t393 + C_j[0] * t281);
+    const jg_real t476 = C_j[5] * t290 - (C_j[3] * t283 + C_j[4] * t394);
+    const jg_real t477 = C_j[8] * t273 - (t266 * C_j[6] + t386 * C_j[7]);
+    const jg_real t478 = t307 - t413;
+    const jg_real t479 = t317 - (t316 - t412 * e_ij_in_j_2);
+    const jg_real t480 = t416 - t306 * e_ij_in_j_2 - t417;
+    const jg_real t481 = t334 - t420 * f_star_in_j_2 - (t333 - t419 * h_star_in_j_2);
+    const jg_real t482 = t426 - t321 * h_star_in_j_2 - (t425 - t323 * f_star_in_j_2);
+    const jg_real t483 = t322 + t422 - (t324 + t423);
+    const jg_real t484 = C_j[3] * t481 + C_j[4] * t482 + C_j[5] * t483;
+    const jg_real t485 = C_j[2] * t313 - (t306 * C_j[0] + t412 * C_j[1]);
+    const jg_real t486 = C_j[0] * t481 + C_j[1] * t482 + C_j[2] * t483;
+    const jg_real t487 = C_j[5] * t313 - (t306 * C_j[3] + t412 * C_j[4]);
+    const jg_real t488 = C_j[8] * t330 - (C_j[7] * t420 + C_j[6] * t323);
+    const jg_real t489 = C_j[8] * t328 - (C_j[7] * t419 + C_j[6] * t321);
+    const jg_real t490 = C_j[2] * t328 - (C_j[1] * t419 + C_j[0] * t321);
+    const jg_real t491 = C_j[5] * t330 - (C_j[3] * t323 + C_j[4] * t420);
+    const jg_real t492 = C_j[8] * t313 - (t306 * C_j[6] + t412 * C_j[7]);
+    jac_phi_q_v_A_j[40] = t472 * h_star_dot_h_j + omega_i_in_joint_j_1 * t473 - (t477 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t476) + (t114 * t475 + alphadot[0] * (t113 * t475 + sine_0 * t471) - alphadot[2] *
         t471) - (omega_j_in_joint_j_1 * t473 - omega_j_in_joint_j_2 * t476);
-    jac_phi_q_v_A_j[35] = t477 * f_star_dot_f_j + omega_i_in_joint_j_2 * t475 - (t470 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t474) + (t124 * (cosine_2 * t469 - sine_2 * t476) - alphadot[1] * (cosine_2 * t476 +
+    jac_phi_q_v_A_j[41] = t477 * f_star_dot_f_j + omega_i_in_joint_j_2 * t475 - (t470 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t474) + (t121 * (cosine_2 * t469 - sine_2 * t476) - alphadot[1] * (cosine_2 * t476 +
         sine_2 * t469)) - (omega_j_in_joint_j_2 * t475 - omega_j_in_joint_j_0 * t474);
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t478 + (A_ji_0 * t479 + A_ji_1 * t480);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t479 - t268 * v_3_in_j_0 + (A_ji_4 * t480 - t397 * v_3_in_j_1) + A_ji_5 * t478;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t478 + (A_ji_6 * t479 + A_ji_7 * t480);
-    jac_phi_q_v_A_j[39] = -(omega_j_in_joint_j_0 * t484 - omega_j_in_joint_j_1 * t486 + (alphadot[0] * (H_22 * t489
-        + sine_1 * t488) - sine_2 * t489 * alphadot[1] - (omega_i_in_joint_j_0 * t484 + t485 * g_star_dot_g_j -
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t478 + (A_ji_0 * t479 + A_ji_1 * t480);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t479 - t305 * v_3_in_j_0 + (A_ji_4 * t480 - t411 * v_3_in_j_1) + A_ji_5 * t478;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t478 + (A_ji_6 * t479 + A_ji_7 * t480);
+    jac_phi_q_v_A_j[45] = -(omega_j_in_joint_j_0 * t484 - omega_j_in_joint_j_1 * t486 + (alphadot[0] * (H_22 * t489
+        + sine_0 * t488) - sine_2 * t489 * alphadot[1] - (omega_i_in_joint_j_0 * t484 + t485 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t486 + t487 * g_star_dot_f_j)) - alphadot[2] * t488));
-    const jg_real t490 = C_j[2] * t294 - (C_j[1] * t406 + C_j[0] * t287);
-    const jg_real t491 = C_j[5] * t296 - (C_j[3] * t289 + C_j[4] * t407);
-    const jg_real t492 = t277 * C_j[8] - (t269 * C_j[6] + t398 * C_j[7]);
-    const jg_real t493 = t313 - t426 - t317;
-    const jg_real t494 = t325 - (t324 - t425 * e_ij_in_j_2) + t326;
-    const jg_real t495 = t429 - t312 * e_ij_in_j_2 - t430 + t431;
-    const jg_real t496 = t343 - t434 * f_star_in_j_2 - (t342 - t433 * h_star_in_j_2);
-    const jg_real t497 = t440 - t330 * h_star_in_j_2 - (t439 - t332 * f_star_in_j_2);
-    const jg_real t498 = t331 + t436 - (t333 + t437);
-    const jg_real t499 = C_j[3] * t496 + C_j[4] * t497 + C_j[5] * t498;
-    const jg_real t500 = t320 * C_j[2] - (t312 * C_j[0] + t425 * C_j[1]);
-    const jg_real t501 = C_j[0] * t496 + C_j[1] * t497 + C_j[2] * t498;
-    const jg_real t502 = t320 * C_j[5] - (t312 * C_j[3] + t425 * C_j[4]);
-    const jg_real t503 = C_j[8] * t339 - (C_j[7] * t434 + C_j[6] * t332);
-    const jg_real t504 = C_j[8] * t337 - (C_j[7] * t433 + C_j[6] * t330);
-    const jg_real t505 = C_j[2] * t337 - (C_j[1] * t433 + C_j[0] * t330);
-    const jg_real t506 = C_j[5] * t339 - (C_j[3] * t332 + C_j[4] * t434);
-    const jg_real t507 = t320 * C_j[8] - (t312 * C_j[6] + t425 * C_j[7]);
-    jac_phi_q_v_A_j[40] = t487 * h_star_dot_h_j + omega_i_in_joint_j_1 * t488 - (t492 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t491) + (t117 * t490 + alphadot[0] * (t116 * t490 + sine_1 * t486) - alphadot[2] *
+    jac_phi_q_v_A_j[46] = t487 * h_star_dot_h_j + omega_i_in_joint_j_1 * t488 - (t492 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t491) + (t114 * t490 + alphadot[0] * (t113 * t490 + sine_0 * t486) - alphadot[2] *
         t486) - (omega_j_in_joint_j_1 * t488 - omega_j_in_joint_j_2 * t491);
-    jac_phi_q_v_A_j[41] = t492 * f_star_dot_f_j + omega_i_in_joint_j_2 * t490 - (t485 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t489) + (t124 * (cosine_2 * t484 - sine_2 * t491) - alphadot[1] * (cosine_2 * t491 +
+    jac_phi_q_v_A_j[47] = t492 * f_star_dot_f_j + omega_i_in_joint_j_2 * t490 - (t485 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t489) + (t121 * (cosine_2 * t484 - sine_2 * t491) - alphadot[1] * (cosine_2 * t491 +
         sine_2 * t484)) - (omega_j_in_joint_j_2 * t490 - omega_j_in_joint_j_0 * t489);
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t493 + (A_ji_0 * t494 + A_ji_1 * t495);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t494 - t311 * v_3_in_j_0 + (A_ji_4 * t495 - t424 * v_3_in_j_1) + A_ji_5 * t493;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t493 + (A_ji_6 * t494 + A_ji_7 * t495);
-    jac_phi_q_v_A_j[45] = -(omega_j_in_joint_j_0 * t499 - omega_j_in_joint_j_1 * t501 + (alphadot[0] * (H_22 * t504
-        + sine_1 * t503) - sine_2 * t504 * alphadot[1] - (omega_i_in_joint_j_0 * t499 + t500 * g_star_dot_g_j -
+    const jg_real t493 = t347 - t439;
+    const jg_real t494 = t357 - (t356 - t438 * e_ij_in_j_2);
+    const jg_real t495 = t442 - t346 * e_ij_in_j_2 - t443;
+    const jg_real t496 = t374 - t446 * f_star_in_j_2 - (t373 - t445 * h_star_in_j_2);
+    const jg_real t497 = t452 - t361 * h_star_in_j_2 - (t451 - t363 * f_star_in_j_2);
+    const jg_real t498 = t362 + t448 - (t364 + t449);
+    const jg_real t499 = C_j[3] * t496 + C_j[4] * t497 + C_j[5] * t498;
+    const jg_real t500 = C_j[2] * t353 - (t346 * C_j[0] + t438 * C_j[1]);
+    const jg_real t501 = C_j[0] * t496 + C_j[1] * t497 + C_j[2] * t498;
+    const jg_real t502 = C_j[5] * t353 - (t346 * C_j[3] + t438 * C_j[4]);
+    const jg_real t503 = C_j[8] * t370 - (C_j[7] * t446 + C_j[6] * t363);
+    const jg_real t504 = C_j[8] * t368 - (C_j[7] * t445 + C_j[6] * t361);
+    const jg_real t505 = C_j[2] * t368 - (C_j[1] * t445 + C_j[0] * t361);
+    const jg_real t506 = C_j[5] * t370 - (C_j[3] * t363 + C_j[4] * t446);
+    const jg_real t507 = C_j[8] * t353 - (t346 * C_j[6] + t438 * C_j[7]);
+    const jg_real t508 = C_i[1] * t78 + C_i[4] * H_02;
+    const jg_real t509 = C_i[0] * t78 + C_i[3] * H_02;
+    const jg_real t510 = C_i[2] * t78 + C_i[5] * H_02;
+    const jg_real t511 = A_ji_4 * t508 + A_ji_1 * t509 + A_ji_7 * t510;
+    const jg_real t512 = C_i[4] * H_00 - C_i[1] * H_10;
+    const jg_real t513 = C_i[3] * H_00 - C_i[0] * H_10;
+    const jg_real t514 = C_i[5] * H_00 - C_i[2] * H_10;
+    const jg_real t515 = A_ji_5 * t512 + A_ji_2 * t513 + A_ji_8 * t514;
+    const jg_real t516 = A_ji_5 * t508 + A_ji_2 * t509 + A_ji_8 * t510;
+    const jg_real t517 = A_ji_4 * t512 + A_ji_1 * t513 + A_ji_7 * t514;
+    const jg_real t518 = f_star_in_j_2 * t511 + t515 * h_star_in_j_1 - (f_star_in_j_1 * t516 + t517 *
+        h_star_in_j_2);
+    const jg_real t519 = A_ji_3 * t512 + A_ji_0 * t513 + A_ji_6 * t514;
+    const jg_real t520 = A_ji_3 * t508 + A_ji_0 * t509 + A_ji_6 * t510;
+    const jg_real t521 = f_star_in_j_0 * t516 + t519 * h_star_in_j_2 - (f_star_in_j_2 * t520 + t515 *
+        h_star_in_j_0);
+    const jg_real t522 = f_star_in_j_1 * t520 + t517 * h_star_in_j_0 - (f_star_in_j_0 * t511 + t519 *
+        h_star_in_j_1);
+    const jg_real t523 = C_j[3] * t518 + C_j[4] * t521 + C_j[5] * t522;
+    const jg_real t524 = C_j[0] * t518 + C_j[1] * t521 + C_j[2] * t522;
+    const jg_real t525 = C_j[7] * t517 + C_j[6] * t519 + C_j[8] * t515;
+    const jg_real t526 = C_j[7] * t511 + C_j[6] * t520 + C_j[8] * t516;
+    const jg_real t527 = C_j[1] * t517 + C_j[0] * t519 + C_j[2] * t515;
+    const jg_real t528 = C_j[3] * t520 + C_j[4] * t511 + C_j[5] * t516;
+    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t493 + (A_ji_0 * t494 + A_ji_1 * t495);
+    jac_phi_q_v_A_j[49] = A_ji_3 * t494 - t345 * v_3_in_j_0 + (A_ji_4 * t495 - t437 * v_3_in_j_1) + A_ji_5 * t493;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t493 + (A_ji_6 * t494 + A_ji_7 * t495);
+    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t499 - omega_j_in_joint_j_1 * t501 + (alphadot[0] * (H_22 * t504
+        + sine_0 * t503) - sine_2 * t504 * alphadot[1] - (omega_i_in_joint_j_0 * t499 + t500 * g_star_dot_g_j -
         (omega_i_in_joint_j_1 * t501 + t502 * g_star_dot_f_j)) - alphadot[2] * t503));
-    jac_phi_q_v_A_j[46] = t502 * h_star_dot_h_j + omega_i_in_joint_j_1 * t503 - (t507 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t506) + (t117 * t505 + alphadot[0] * (t116 * t505 + sine_1 * t501) - alphadot[2] *
+    jac_phi_q_v_A_j[52] = t502 * h_star_dot_h_j + omega_i_in_joint_j_1 * t503 - (t507 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t506) + (t114 * t505 + alphadot[0] * (t113 * t505 + sine_0 * t501) - alphadot[2] *
         t501) - (omega_j_in_joint_j_1 * t503 - omega_j_in_joint_j_2 * t506);
-    jac_phi_q_v_A_j[47] = t507 * f_star_dot_f_j + omega_i_in_joint_j_2 * t505 - (t500 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t504) + (t124 * (cosine_2 * t499 - sine_2 * t506) - alphadot[1] * (cosine_2 * t506 +
+    jac_phi_q_v_A_j[53] = t507 * f_star_dot_f_j + omega_i_in_joint_j_2 * t505 - (t500 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t504) + (t121 * (cosine_2 * t499 - sine_2 * t506) - alphadot[1] * (cosine_2 * t506 +
         sine_2 * t499)) - (omega_j_in_joint_j_2 * t505 - omega_j_in_joint_j_0 * t504);
-    const jg_real t508 = t356 - t453 - t360;
-    const jg_real t509 = t368 - (t367 - t452 * e_ij_in_j_2) + t369;
-    const jg_real t510 = t456 - t355 * e_ij_in_j_2 - t457 + t458;
-    const jg_real t511 = t386 - t461 * f_star_in_j_2 - (t385 - t460 * h_star_in_j_2);
-    const jg_real t512 = t467 - t373 * h_star_in_j_2 - (t466 - t375 * f_star_in_j_2);
-    const jg_real t513 = t374 + t463 - (t376 + t464);
-    const jg_real t514 = C_j[3] * t511 + C_j[4] * t512 + C_j[5] * t513;
-    const jg_real t515 = t363 * C_j[2] - (t355 * C_j[0] + t452 * C_j[1]);
-    const jg_real t516 = C_j[0] * t511 + C_j[1] * t512 + C_j[2] * t513;
-    const jg_real t517 = t363 * C_j[5] - (t355 * C_j[3] + t452 * C_j[4]);
-    const jg_real t518 = C_j[8] * t382 - (C_j[7] * t461 + C_j[6] * t375);
-    const jg_real t519 = C_j[8] * t380 - (C_j[7] * t460 + C_j[6] * t373);
-    const jg_real t520 = C_j[2] * t380 - (C_j[1] * t460 + C_j[0] * t373);
-    const jg_real t521 = C_j[5] * t382 - (C_j[3] * t375 + C_j[4] * t461);
-    const jg_real t522 = t363 * C_j[8] - (t355 * C_j[6] + t452 * C_j[7]);
-    const jg_real t523 = C_i[1] * t81 + C_i[4] * H_02;
-    const jg_real t524 = C_i[0] * t81 + C_i[3] * H_02;
-    const jg_real t525 = C_i[2] * t81 + C_i[5] * H_02;
-    const jg_real t526 = A_ji_4 * t523 + A_ji_1 * t524 + A_ji_7 * t525;
-    const jg_real t527 = C_i[4] * H_00 - C_i[1] * H_10;
-    const jg_real t528 = C_i[3] * H_00 - C_i[0] * H_10;
-    const jg_real t529 = C_i[5] * H_00 - C_i[2] * H_10;
-    const jg_real t530 = A_ji_5 * t527 + A_ji_2 * t528 + A_ji_8 * t529;
-    const jg_real t531 = A_ji_5 * t523 + A_ji_2 * t524 + A_ji_8 * t525;
-    const jg_real t532 = A_ji_4 * t527 + A_ji_1 * t528 + A_ji_7 * t529;
-    const jg_real t533 = f_star_in_j_2 * t526 + t530 * h_star_in_j_1 - (f_star_in_j_1 * t531 + t532 *
+    jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t523 - omega_j_in_joint_j_1 * t524 + (alphadot[0] * (H_22 * t525
+        + sine_0 * t526) - sine_2 * t525 * alphadot[1] - (omega_i_in_joint_j_0 * t523 - omega_i_in_joint_j_1 * t524)
+        - alphadot[2] * t526));
+    jac_phi_q_v_alpha[1] = omega_i_in_joint_j_1 * t526 - omega_i_in_joint_j_2 * t528 + (t114 * t527 + alphadot[0] *
+        (t113 * t527 + sine_0 * t524) - alphadot[2] * t524) - (omega_j_in_joint_j_1 * t526 - omega_j_in_joint_j_2 *
+        t528);
+    const jg_real t529 = H_00 * cosine_2;
+    const jg_real t530 = cosine_2 * H_10;
+    const jg_real t531 = sine_0 * cosine_2;
+    const jg_real t532 = C_i[1] * t529 + C_i[4] * t530 - C_i[7] * t531;
+    const jg_real t533 = C_i[0] * t529 + C_i[3] * t530 - C_i[6] * t531;
+    const jg_real t534 = C_i[2] * t529 + C_i[5] * t530 - C_i[8] * t531;
+    const jg_real t535 = A_ji_4 * t532 + A_ji_1 * t533 + A_ji_7 * t534;
+    const jg_real t536 = C_i[1] * t75 + C_i[4] * t77 + C_i[7] * cosine_0;
+    const jg_real t537 = C_i[0] * t75 + C_i[3] * t77 + C_i[6] * cosine_0;
+    const jg_real t538 = C_i[2] * t75 + C_i[5] * t77 + C_i[8] * cosine_0;
+    const jg_real t539 = A_ji_5 * t536 + A_ji_2 * t537 + A_ji_8 * t538;
+    const jg_real t540 = A_ji_5 * t532 + A_ji_2 * t533 + A_ji_8 * t534;
+    const jg_real t541 = A_ji_4 * t536 + A_ji_1 * t537 + A_ji_7 * t538;
+    const jg_real t542 = f_star_in_j_2 * t535 - t539 * h_star_in_j_1 - (f_star_in_j_1 * t540 - t541 *
         h_star_in_j_2);
-    const jg_real t534 = A_ji_3 * t527 + A_ji_0 * t528 + A_ji_6 * t529;
-    const jg_real t535 = A_ji_3 * t523 + A_ji_0 * t524 + A_ji_6 * t525;
-    const jg_real t536 = f_star_in_j_0 * t531 + t534 * h_star_in_j_2 - (f_star_in_j_2 * t535 + t530 *
+    const jg_real t543 = A_ji_3 * t536 + A_ji_0 * t537 + A_ji_6 * t538;
+    const jg_real t544 = A_ji_3 * t532 + A_ji_0 * t533 + A_ji_6 * t534;
+    const jg_real t545 = f_star_in_j_0 * t540 - t543 * h_star_in_j_2 - (f_star_in_j_2 * t544 - t539 *
         h_star_in_j_0);
-    const jg_real t537 = f_star_in_j_1 * t535 + t532 * h_star_in_j_0 - (f_star_in_j_0 * t526 + t534 *
+    const jg_real t546 = f_star_in_j_1 * t544 - t541 * h_star_in_j_0 - (f_star_in_j_0 * t535 - t543 *
         h_star_in_j_1);
-    const jg_real t538 = C_j[3] * t533 + C_j[4] * t536 + C_j[5] * t537;
-    const jg_real t539 = C_j[0] * t533 + C_j[1] * t536 + C_j[2] * t537;
-    const jg_real t540 = C_j[7] * t532 + C_j[6] * t534 + C_j[8] * t530;
-    const jg_real t541 = C_j[7] * t526 + C_j[6] * t535 + C_j[8] * t531;
-    const jg_real t542 = C_j[1] * t532 + C_j[0] * t534 + C_j[2] * t530;
-    const jg_real t543 = C_j[3] * t535 + C_j[4] * t526 + C_j[5] * t531;
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t508 + (A_ji_0 * t509 + A_ji_1 * t510);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t509 - t354 * v_3_in_j_0 + (A_ji_4 * t510 - t451 * v_3_in_j_1) + A_ji_5 * t508;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t508 + (A_ji_6 * t509 + A_ji_7 * t510);
-    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t514 - omega_j_in_joint_j_1 * t516 + (alphadot[0] * (H_22 * t519
-        + sine_1 * t518) - sine_2 * t519 * alphadot[1] - (omega_i_in_joint_j_0 * t514 + t515 * g_star_dot_g_j -
-        (omega_i_in_joint_j_1 * t516 + t517 * g_star_dot_f_j)) - alphadot[2] * t518));
-    jac_phi_q_v_A_j[52] = t517 * h_star_dot_h_j + omega_i_in_joint_j_1 * t518 - (t522 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t521) + (t117 * t520 + alphadot[0] * (t116 * t520 + sine_1 * t516) - alphadot[2] *
-        t516) - (omega_j_in_joint_j_1 * t518 - omega_j_in_joint_j_2 * t521);
-    jac_phi_q_v_A_j[53] = t522 * f_star_dot_f_j + omega_i_in_joint_j_2 * t520 - (t515 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t519) + (t124 * (cosine_2 * t514 - sine_2 * t521) - alphadot[1] * (cosine_2 * t521 +
-        sine_2 * t514)) - (omega_j_in_joint_j_2 * t520 - omega_j_in_joint_j_0 * t519);
-    jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t538 - omega_j_in_joint_j_1 * t539 + (alphadot[0] * (H_22 * t540
-        + sine_1 * t541) - sine_2 * t540 * alphadot[1] - (omega_i_in_joint_j_0 * t538 - omega_i_in_joint_j_1 * t539)
-        - alphadot[2] * t541));
-    jac_phi_q_v_alpha[1] = omega_i_in_joint_j_1 * t541 - omega_i_in_joint_j_2 * t543 + (t117 * t542 + alphadot[0] *
-        (t116 * t542 + sine_1 * t539) - alphadot[2] * t539) - (omega_j_in_joint_j_1 * t541 - omega_j_in_joint_j_2 *
-        t543);
-    const jg_real t544 = cosine_2 * H_00;
-    const jg_real t545 = cosine_2 * H_10;
-    const jg_real t546 = cosine_2 * sine_1;
-    const jg_real t547 = C_i[1] * t544 + C_i[4] * t545 - C_i[7] * t546;
-    const jg_real t548 = C_i[0] * t544 + C_i[3] * t545 - C_i[6] * t546;
-    const jg_real t549 = C_i[2] * t544 + C_i[5] * t545 - C_i[8] * t546;
-    const jg_real t550 = A_ji_4 * t547 + A_ji_1 * t548 + A_ji_7 * t549;
-    const jg_real t551 = C_i[1] * t78 + C_i[4] * t80 + C_i[7] * cosine_1;
-    const jg_real t552 = C_i[0] * t78 + C_i[3] * t80 + C_i[6] * cosine_1;
-    const jg_real t553 = C_i[2] * t78 + C_i[5] * t80 + C_i[8] * cosine_1;
-    const jg_real t554 = A_ji_5 * t551 + A_ji_2 * t552 + A_ji_8 * t553;
-    const jg_real t555 = A_ji_5 * t547 + A_ji_2 * t548 + A_ji_8 * t549;
-    const jg_real t556 = A_ji_4 * t551 + A_ji_1 * t552 + A_ji_7 * t553;
-    const jg_real t557 = f_star_in_j_2 * t550 - t554 * h_star_in_j_1 - (f_star_in_j_1 * t555 - t556 *
+    const jg_real t547 = C_j[3] * t542 + C_j[4] * t545 + C_j[5] * t546;
+    const jg_real t548 = C_j[0] * t542 + C_j[1] * t545 + C_j[2] * t546;
+    const jg_real t549 = C_j[7] * t535 + C_j[6] * t544 + C_j[8] * t540;
+    const jg_real t550 = C_j[7] * t541 + C_j[6] * t543 + C_j[8] * t539;
+    const jg_real t551 = C_j[1] * t541 + C_j[0] * t543 + C_j[2] * t539;
+    const jg_real t552 = C_j[3] * t544 + C_j[4] * t535 + C_j[5] * t540;
+    const jg_real t553 = cosine_2 * g_star_dot_g_j;
+    const jg_real t554 = sine_2 * h_star_dot_g_j;
+    const jg_real t555 = t553 - t554;
+    const jg_real t556 = sine_1 * cosine_2 - t75 * sine_2;
+    const jg_real t557 = cosine_1 * cosine_2 + t77 * sine_2;
+    const jg_real t558 = C_i[1] * t556 - C_i[4] * t557 - C_i[7] * t113;
+    const jg_real t559 = C_i[0] * t556 - C_i[3] * t557 - C_i[6] * t113;
+    const jg_real t560 = C_i[2] * t556 - C_i[5] * t557 - C_i[8] * t113;
+    const jg_real t561 = A_ji_4 * t558 + A_ji_1 * t559 + A_ji_7 * t560;
+    const jg_real t562 = A_ji_5 * t558 + A_ji_2 * t559 + A_ji_8 * t560;
+    const jg_real t563 = f_star_in_j_2 * t561 - f_star_in_j_1 * t562;
+    const jg_real t564 = A_ji_3 * t558 + A_ji_0 * t559 + A_ji_6 * t560;
+    const jg_real t565 = f_star_in_j_0 * t562 - f_star_in_j_2 * t564;
+    const jg_real t566 = f_star_in_j_1 * t564 - f_star_in_j_0 * t561;
+    const jg_real t567 = C_j[3] * t563 + C_j[4] * t565 + C_j[5] * t566;
+    const jg_real t568 = C_j[0] * t563 + C_j[1] * t565 + C_j[2] * t566;
+    const jg_real t569 = C_j[7] * t561 + C_j[6] * t564 + C_j[8] * t562;
+    const jg_real t570 = C_j[3] * t564 + C_j[4] * t561 + C_j[5] * t562;
+    const jg_real t571 = sine_2 * g_star_dot_g_j;
+    const jg_real t572 = cosine_2 * h_star_dot_g_j;
+    const jg_real t573 = A_ji_1 * H_02;
+    const jg_real t574 = A_ji_2 * H_00;
+    const jg_real t575 = A_ji_2 * H_02;
+    const jg_real t576 = A_ji_1 * H_00;
+    const jg_real t577 = t573 * f_star_in_j_2 + t574 * h_star_in_j_1 - (t575 * f_star_in_j_1 + t576 *
         h_star_in_j_2);
-    const jg_real t558 = A_ji_3 * t551 + A_ji_0 * t552 + A_ji_6 * t553;
-    const jg_real t559 = A_ji_3 * t547 + A_ji_0 * t548 + A_ji_6 * t549;
-    const jg_real t560 = f_star_in_j_0 * t555 - t558 * h_star_in_j_2 - (f_star_in_j_2 * t559 - t554 *
+    const jg_real t578 = A_ji_0 * H_00;
+    const jg_real t579 = A_ji_0 * H_02;
+    const jg_real t580 = t575 * f_star_in_j_0 + t578 * h_star_in_j_2 - (t579 * f_star_in_j_2 + t574 *
         h_star_in_j_0);
-    const jg_real t561 = f_star_in_j_1 * t559 - t556 * h_star_in_j_0 - (f_star_in_j_0 * t550 - t558 *
+    const jg_real t581 = t579 * f_star_in_j_1 + t576 * h_star_in_j_0 - (t573 * f_star_in_j_0 + t578 *
         h_star_in_j_1);
-    const jg_real t562 = C_j[3] * t557 + C_j[4] * t560 + C_j[5] * t561;
-    const jg_real t563 = C_j[0] * t557 + C_j[1] * t560 + C_j[2] * t561;
-    const jg_real t564 = C_j[7] * t550 + C_j[6] * t559 + C_j[8] * t555;
-    const jg_real t565 = C_j[7] * t556 + C_j[6] * t558 + C_j[8] * t554;
-    const jg_real t566 = C_j[1] * t556 + C_j[0] * t558 + C_j[2] * t554;
-    const jg_real t567 = C_j[3] * t559 + C_j[4] * t550 + C_j[5] * t555;
-    const jg_real t568 = cosine_2 * g_star_dot_g_j;
-    const jg_real t569 = sine_2 * h_star_dot_g_j;
-    const jg_real t570 = t568 - t569;
-    const jg_real t571 = cosine_2 * sine_0 - sine_2 * t78;
-    const jg_real t572 = cosine_2 * cosine_0 + sine_2 * t80;
-    const jg_real t573 = C_i[1] * t571 - C_i[4] * t572 - C_i[7] * t116;
-    const jg_real t574 = C_i[0] * t571 - C_i[3] * t572 - C_i[6] * t116;
-    const jg_real t575 = C_i[2] * t571 - C_i[5] * t572 - C_i[8] * t116;
-    const jg_real t576 = A_ji_4 * t573 + A_ji_1 * t574 + A_ji_7 * t575;
-    const jg_real t577 = A_ji_5 * t573 + A_ji_2 * t574 + A_ji_8 * t575;
-    const jg_real t578 = f_star_in_j_2 * t576 - f_star_in_j_1 * t577;
-    const jg_real t579 = A_ji_3 * t573 + A_ji_0 * t574 + A_ji_6 * t575;
-    const jg_real t580 = f_star_in_j_0 * t577 - f_star_in_j_2 * t579;
-    const jg_real t581 = f_star_in_j_1 * t579 - f_star_in_j_0 * t576;
-    const jg_real t582 = C_j[3] * t578 + C_j[4] * t580 + C_j[5] * t581;
-    const jg_real t583 = C_j[0] * t578 + C_j[1] * t580 + C_j[2] * t581;
-    const jg_real t584 = C_j[7] * t576 + C_j[6] * t579 + C_j[8] * t577;
-    const jg_real t585 = C_j[3] * t579 + C_j[4] * t576 + C_j[5] * t577;
-    const jg_real t586 = sine_2 * g_star_dot_g_j;
-    const jg_real t587 = cosine_2 * h_star_dot_g_j;
-    const jg_real t588 = A_ji_1 * H_02;
-    const jg_real t589 = A_ji_2 * H_00;
-    const jg_real t590 = A_ji_2 * H_02;
-    const jg_real t591 = A_ji_1 * H_00;
+    const jg_real t582 = C_j[3] * t577 + C_j[4] * t580 + C_j[5] * t581;
+    const jg_real t583 = C_j[0] * t577 + C_j[1] * t580 + C_j[2] * t581;
+    const jg_real t584 = C_j[7] * t573 + C_j[6] * t579 + C_j[8] * t575;
+    const jg_real t585 = C_j[7] * t576 + C_j[6] * t578 + C_j[8] * t574;
+    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t527 - omega_i_in_joint_j_0 * t525 + (t121 * (cosine_2 * t523 -
+        sine_2 * t528) - alphadot[1] * (cosine_2 * t528 + sine_2 * t523)) - (omega_j_in_joint_j_2 * t527 -
+        omega_j_in_joint_j_0 * t525);
+    jac_phi_q_v_alpha[3] = -(omega_j_in_joint_j_0 * t547 - omega_j_in_joint_j_1 * t548 + (sine_2 * t550 *
+        alphadot[1] + alphadot[0] * (cosine_0 * h_star_dot_h_j + sine_0 * t549 - (t531 * f_star_dot_h_j + H_22 *
+        t550)) - (omega_i_in_joint_j_0 * t547 - omega_i_in_joint_j_1 * t548) - alphadot[2] * t549));
+    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t549 - omega_i_in_joint_j_2 * t552 + (alphadot[0] * (cosine_0 *
+        g_star_dot_f_j + sine_0 * t548 - (t113 * t551 + sine_0 * sine_2 * f_star_dot_f_j)) - t114 * t551 -
+        alphadot[2] * t548) - (omega_j_in_joint_j_1 * t549 - omega_j_in_joint_j_2 * t552);
+    jac_phi_q_v_alpha[5] = omega_i_in_joint_j_0 * t550 - omega_i_in_joint_j_2 * t551 + (t121 * (cosine_2 * t547 -
+        sine_2 * t552) - alphadot[0] * sine_0 * t555 - alphadot[1] * (cosine_2 * t552 + sine_2 * t547)) -
+        (omega_j_in_joint_j_0 * t550 - omega_j_in_joint_j_2 * t551);
+    jac_phi_q_v_alpha[6] = -(omega_j_in_joint_j_0 * t567 - omega_j_in_joint_j_1 * t568 + (alphadot[0] * (sine_0 *
+        t569 - t113 * f_star_dot_h_j) - cosine_2 * f_star_dot_h_j * alphadot[1] - (omega_i_in_joint_j_0 * t567 -
+        omega_i_in_joint_j_1 * t568) - alphadot[2] * t569));
+    jac_phi_q_v_alpha[7] = omega_i_in_joint_j_1 * t569 - omega_i_in_joint_j_2 * t570 + (alphadot[0] * (H_22 *
+        f_star_dot_f_j + sine_0 * t568) - alphadot[1] * sine_2 * f_star_dot_f_j - alphadot[2] * t568) -
+        (omega_j_in_joint_j_1 * t569 - omega_j_in_joint_j_2 * t570);
+    jac_phi_q_v_alpha[8] = t121 * (cosine_2 * t567 - t571 - (t572 + sine_2 * t570)) - alphadot[1] * (cosine_2 * t570
+        - t554 + (t553 + sine_2 * t567));
+    jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t582 - omega_j_in_joint_j_1 * t583 + (alphadot[0] * (H_22 *
+        t585 + sine_0 * t584) - sine_2 * t585 * alphadot[1] - (omega_i_in_joint_j_0 * t582 - omega_i_in_joint_j_1 *
+        t583) - alphadot[2] * t584));
+    const jg_real t586 = C_j[1] * t576 + C_j[0] * t578 + C_j[2] * t574;
+    const jg_real t587 = C_j[3] * t579 + C_j[4] * t573 + C_j[5] * t575;
+    const jg_real t588 = A_ji_4 * H_02;
+    const jg_real t589 = A_ji_5 * H_00;
+    const jg_real t590 = A_ji_5 * H_02;
+    const jg_real t591 = A_ji_4 * H_00;
     const jg_real t592 = t588 * f_star_in_j_2 + t589 * h_star_in_j_1 - (t590 * f_star_in_j_1 + t591 *
         h_star_in_j_2);
-    const jg_real t593 = A_ji_0 * H_00;
-    const jg_real t594 = A_ji_0 * H_02;
+    const jg_real t593 = A_ji_3 * H_00;
+    const jg_real t594 = A_ji_3 * H_02;
     const jg_real t595 = t590 * f_star_in_j_0 + t593 * h_star_in_j_2 - (t594 * f_star_in_j_2 + t589 *
         h_star_in_j_0);
     const jg_real t596 = t594 * f_star_in_j_1 + t591 * h_star_in_j_0 - (t588 * f_star_in_j_0 + t593 *
         h_star_in_j_1);
     const jg_real t597 = C_j[3] * t592 + C_j[4] * t595 + C_j[5] * t596;
     const jg_real t598 = C_j[0] * t592 + C_j[1] * t595 + C_j[2] * t596;
-    const jg_real t599 = C_j[7] * t588 + C_j[6] * t594 + C_j[8] * t590;
-    const jg_real t600 = C_j[7] * t591 + C_j[6] * t593 + C_j[8] * t589;
-    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t542 - omega_i_in_joint_j_0 * t540 + (t124 * (cosine_2 * t538 -
-        sine_2 * t543) - alphadot[1] * (cosine_2 * t543 + sine_2 * t538)) - (omega_j_in_joint_j_2 * t542 -
-        omega_j_in_joint_j_0 * t540);
-    jac_phi_q_v_alpha[3] = -(omega_j_in_joint_j_0 * t562 - omega_j_in_joint_j_1 * t563 + (sine_2 * t565 *
-        alphadot[1] + alphadot[0] * (cosine_1 * h_star_dot_h_j + sine_1 * t564 - (t546 * f_star_dot_h_j + H_22 *
-        t565)) - (omega_i_in_joint_j_0 * t562 - omega_i_in_joint_j_1 * t563) - alphadot[2] * t564));
-    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t564 - omega_i_in_joint_j_2 * t567 + (alphadot[0] * (cosine_1 *
-        g_star_dot_f_j + sine_1 * t563 - (t116 * t566 + sine_2 * sine_1 * f_star_dot_f_j)) - t117 * t566 -
-        alphadot[2] * t563) - (omega_j_in_joint_j_1 * t564 - omega_j_in_joint_j_2 * t567);
-    jac_phi_q_v_alpha[5] = omega_i_in_joint_j_0 * t565 - omega_i_in_joint_j_2 * t566 + (t124 * (cosine_2 * t562 -
-        sine_2 * t567) - alphadot[0] * sine_1 * t570 - alphadot[1] * (cosine_2 * t567 + sine_2 * t562)) -
-        (omega_j_in_joint_j_0 * t565 - omega_j_in_joint_j_2 * t566);
-    jac_phi_q_v_alpha[6] = -(omega_j_in_joint_j_0 * t582 - omega_j_in_joint_j_1 * t583 + (alphadot[0] * (sine_1 *
-        t584 - t116 * f_star_dot_h_j) - cosine_2 * f_star_dot_h_j * alphadot[1] - (omega_i_in_joint_j_0 * t582 -
-        omega_i_in_joint_j_1 * t583) - alphadot[2] * t584));
-    jac_phi_q_v_alpha[7] = omega_i_in_joint_j_1 * t584 - omega_i_in_joint_j_2 * t585 + (alphadot[0] * (H_22 *
-        f_star_dot_f_j + sine_1 * t583) - alphadot[1] * sine_2 * f_star_dot_f_j - alphadot[2] * t583) -
-        (omega_j_in_joint_j_1 * t584 - omega_j_in_joint_j_2 * t585);
-    jac_phi_q_v_alpha[8] = t124 * (cosine_2 * t582 - t586 - (t587 + sine_2 * t585)) - alphadot[1] * (cosine_2 * t585
-        - t569 + (t568 + sine_2 * t582));
-    jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t597 - omega_j_in_joint_j_1 * t598 + (alphadot[0] * (H_22 *
-        t600 + sine_1 * t599) - sine_2 * t600 * alphadot[1] - (omega_i_in_joint_j_0 * t597 - omega_i_in_joint_j_1 *
-        t598) - alphadot[2] * t599));
+    const jg_real t599 = C_j[7] * t591 + C_j[6] * t593 + C_j[8] * t589;
+    const jg_real t600 = C_j[7] * t588 + C_j[6] * t594 + C_j[8] * t590;
     const jg_real t601 = C_j[1] * t591 + C_j[0] * t593 + C_j[2] * t589;
     const jg_real t602 = C_j[3] * t594 + C_j[4] * t588 + C_j[5] * t590;
-    const jg_real t603 = A_ji_4 * H_02;
-    const jg_real t604 = A_ji_5 * H_00;
-    const jg_real t605 = A_ji_5 * H_02;
-    const jg_real t606 = A_ji_4 * H_00;
+    const jg_real t603 = A_ji_7 * H_02;
+    const jg_real t604 = A_ji_8 * H_00;
+    const jg_real t605 = A_ji_8 * H_02;
+    const jg_real t606 = A_ji_7 * H_00;
     const jg_real t607 = t603 * f_star_in_j_2 + t604 * h_star_in_j_1 - (t605 * f_star_in_j_1 + t606 *
         h_star_in_j_2);
-    const jg_real t608 = A_ji_3 * H_00;
-    const jg_real t609 = A_ji_3 * H_02;
-    const jg_real t610 = t605 * f_star_in_j_0 + t608 * h_star_in_j_2 - (t609 * f_star_in_j_2 + t604 *
+    const jg_real t608 = A_ji_6 * H_00;
+    const jg_real t609 = A_ji_6 * H_02;
+    const jg_real t610 = t605 * f_star_in_j_0 + t608 * h_star_in_j_2 - (f_star_in_j_2 * t609 + t604 *
         h_star_in_j_0);
     const jg_real t611 = t609 * f_star_in_j_1 + t606 * h_star_in_j_0 - (t603 * f_star_in_j_0 + t608 *
         h_star_in_j_1);
     const jg_real t612 = C_j[3] * t607 + C_j[4] * t610 + C_j[5] * t611;
     const jg_real t613 = C_j[0] * t607 + C_j[1] * t610 + C_j[2] * t611;
-    const jg_real t614 = C_j[7] * t606 + C_j[6] * t608 + C_j[8] * t604;
-    const jg_real t615 = C_j[7] * t603 + C_j[6] * t609 + C_j[8] * t605;
+    const jg_real t614 = C_j[7] * t603 + C_j[6] * t609 + C_j[8] * t605;
+    const jg_real t615 = C_j[7] * t606 + C_j[6] * t608 + C_j[8] * t604;
     const jg_real t616 = C_j[1] * t606 + C_j[0] * t608 + C_j[2] * t604;
     const jg_real t617 = C_j[3] * t609 + C_j[4] * t603 + C_j[5] * t605;
-    const jg_real t618 = A_ji_7 * H_02;
-    const jg_real t619 = A_ji_8 * H_00;
-    const jg_real t620 = A_ji_8 * H_02;
-    const jg_real t621 = A_ji_7 * H_00;
-    const jg_real t622 = t618 * f_star_in_j_2 + t619 * h_star_in_j_1 - (t620 * f_star_in_j_1 + t621 *
-        h_star_in_j_2);
-    const jg_real t623 = A_ji_6 * H_00;
-    const jg_real t624 = A_ji_6 * H_02;
-    const jg_real t625 = t620 * f_star_in_j_0 + t623 * h_star_in_j_2 - (f_star_in_j_2 * t624 + t619 *
-        h_star_in_j_0);
-    const jg_real t626 = f_star_in_j_1 * t624 + t621 * h_star_in_j_0 - (t618 * f_star_in_j_0 + t623 *
-        h_star_in_j_1);
+    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t584 - omega_i_in_joint_j_2 * t587 + (t114 * t586 + alphadot[0]
+        * (t113 * t586 + sine_0 * t583) - alphadot[2] * t583) - (omega_j_in_joint_j_1 * t584 - omega_j_in_joint_j_2
+        * t587);
+    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t586 - omega_i_in_joint_j_0 * t585 + (t121 * (cosine_2 * t582 -
+        sine_2 * t587) - alphadot[1] * (cosine_2 * t587 + sine_2 * t582)) - (omega_j_in_joint_j_2 * t586 -
+        omega_j_in_joint_j_0 * t585);
+    jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t597 - omega_j_in_joint_j_1 * t598 + (alphadot[0] * (H_22 *
+        t599 + sine_0 * t600) - sine_2 * t599 * alphadot[1] - (omega_i_in_joint_j_0 * t597 - omega_i_in_joint_j_1 *
+        t598) - alphadot[2] * t600));
+    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t600 - omega_i_in_joint_j_2 * t602 + (t114 * t601 + alphadot[0]
+        * (t113 * t601 + sine_0 * t598) - alphadot[2] * t598) - (omega_j_in_joint_j_1 * t600 - omega_j_in_joint_j_2
+        * t602);
+    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t601 - omega_i_in_joint_j_0 * t599 + (t121 * (cosine_2 * t597 -
+        sine_2 * t602) - alphadot[1] * (cosine_2 * t602 + sine_2 * t597)) - (omega_j_in_joint_j_2 * t601 -
+        omega_j_in_joint_j_0 * t599);
+    jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t612 - omega_j_in_joint_j_1 * t613 + (alphadot[0] * (H_22 *
+        t615 + sine_0 * t614) - sine_2 * t615 * alphadot[1] - (omega_i_in_joint_j_0 * t612 - omega_i_in_joint_j_1 *
+        t613) - alphadot[2] * t614));
+    jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t614 - omega_i_in_joint_j_2 * t617 + (t114 * t616 + alphadot[0]
+        * (t113 * t616 + sine_0 * t613) - alphadot[2] * t613) - (omega_j_in_joint_j_1 * t614 - omega_j_in_joint_j_2
+        * t617);
+    jac_phi_q_v_geometry[8] = omega_i_in_joint_j_2 * t616 - omega_i_in_joint_j_0 * t615 + (t121 * (cosine_2 * t612 -
+        sine_2 * t617) - alphadot[1] * (cosine_2 * t617 + sine_2 * t612)) - (omega_j_in_joint_j_2 * t616 -
+        omega_j_in_joint_j_0 * t615);
+    const jg_real t618 = A_ji_2 * H_10;
+    const jg_real t619 = A_ji_1 * t78;
+    const jg_real t620 = A_ji_1 * H_10;
+    const jg_real t621 = A_ji_2 * t78;
+    const jg_real t622 = t618 * h_star_in_j_1 - t619 * f_star_in_j_2 - (t620 * h_star_in_j_2 - t621 *
+        f_star_in_j_1);
+    const jg_real t623 = A_ji_0 * H_10;
+    const jg_real t624 = A_ji_0 * t78;
+    const jg_real t625 = t623 * h_star_in_j_2 - t621 * f_star_in_j_0 - (t618 * h_star_in_j_0 - t624 *
+        f_star_in_j_2);
+    const jg_real t626 = t620 * h_star_in_j_0 - t624 * f_star_in_j_1 - (t623 * h_star_in_j_1 - t619 *
+        f_star_in_j_0);
     const jg_real t627 = C_j[3] * t622 + C_j[4] * t625 + C_j[5] * t626;
     const jg_real t628 = C_j[0] * t622 + C_j[1] * t625 + C_j[2] * t626;
-    const jg_real t629 = C_j[7] * t618 + C_j[6] * t624 + C_j[8] * t620;
-    const jg_real t630 = C_j[7] * t621 + C_j[6] * t623 + C_j[8] * t619;
-    const jg_real t631 = C_j[1] * t621 + C_j[0] * t623 + C_j[2] * t619;
-    const jg_real t632 = C_j[3] * t624 + C_j[4] * t618 + C_j[5] * t620;
-    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t599 - omega_i_in_joint_j_2 * t602 + (t117 * t601 + alphadot[0]
-        * (t116 * t601 + sine_1 * t598) - alphadot[2] * t598) - (omega_j_in_joint_j_1 * t599 - omega_j_in_joint_j_2
-        * t602);
-    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t601 - omega_i_in_joint_j_0 * t600 + (t124 * (cosine_2 * t597 -
-        sine_2 * t602) - alphadot[1] * (cosine_2 * t602 + sine_2 * t597)) - (omega_j_in_joint_j_2 * t601 -
-        omega_j_in_joint_j_0 * t600);
-    jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t612 - omega_j_in_joint_j_1 * t613 + (alphadot[0] * (H_22 *
-        t614 + sine_1 * t615) - sine_2 * t614 * alphadot[1] - (omega_i_in_joint_j_0 * t612 - omega_i_in_joint_j_1 *
-        t613) - alphadot[2] * t615));
-    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t615 - omega_i_in_joint_j_2 * t617 + (t117 * t616 + alphadot[0]
-        * (t116 * t616 + sine_1 * t613) - alphadot[2] * t613) - (omega_j_in_joint_j_1 * t615 - omega_j_in_joint_j_2
-        * t617);
-    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t616 - omega_i_in_joint_j_0 * t614 + (t124 * (cosine_2 * t612 -
-        sine_2 * t617) - alphadot[1] * (cosine_2 * t617 + sine_2 * t612)) - (omega_j_in_joint_j_2 * t616 -
-        omega_j_in_joint_j_0 * t614);
-    jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t627 - omega_j_in_joint_j_1 * t628 + (alphadot[0] * (H_22 *
-        t630 + sine_1 * t629) - sine_2 * t630 * alphadot[1] - (omega_i_in_joint_j_0 * t627 - omega_i_in_joint_j_1 *
-        t628) - alphadot[2] * t629));
-    jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t629 - omega_i_in_joint_j_2 * t632 + (t117 * t631 + alphadot[0]
-        * (t116 * t631 + sine_1 * t628) - alphadot[2] * t628) - (omega_j_in_joint_j_1 * t629 - omega_j_in_joint_j_2
-        * t632);
-    jac_phi_q_v_geometry[8] = omega_i_in_joint_j_2 * t631 - omega_i_in_joint_j_0 * t630 + (t124 * (cosine_2 * t627 -
-        sine_2 * t632) - alphadot[1] * (cosine_2 * t632 + sine_2 * t627)) - (omega_j_in_joint_j_2 * t631 -
-        omega_j_in_joint_j_0 * t630);
-    const jg_real t633 = A_ji_2 * H_10;
-    const jg_real t634 = A_ji_1 * t81;
-    const jg_real t635 = A_ji_1 * H_10;
-    const jg_real t636 = A_ji_2 * t81;
+    const jg_real t629 = C_j[7] * t619 + C_j[6] * t624 + C_j[8] * t621;
+    const jg_real t630 = C_j[7] * t620 + C_j[6] * t623 + C_j[8] * t618;
+    const jg_real t631 = C_j[1] * t620 + C_j[0] * t623 + C_j[2] * t618;
+    const jg_real t632 = C_j[3] * t624 + C_j[4] * t619 + C_j[5] * t621;
+    const jg_real t633 = A_ji_5 * H_10;
+    const jg_real t634 = A_ji_4 * t78;
+    const jg_real t635 = A_ji_4 * H_10;
+    const jg_real t636 = A_ji_5 * t78;
     const jg_real t637 = t633 * h_star_in_j_1 - t634 * f_star_in_j_2 - (t635 * h_star_in_j_2 - t636 *
         f_star_in_j_1);
-    const jg_real t638 = A_ji_0 * H_10;
-    const jg_real t639 = A_ji_0 * t81;
+    const jg_real t638 = A_ji_3 * H_10;
+    const jg_real t639 = A_ji_3 * t78;
     const jg_real t640 = t638 * h_star_in_j_2 - t636 * f_star_in_j_0 - (t633 * h_star_in_j_0 - t639 *
         f_star_in_j_2);
     const jg_real t641 = t635 * h_star_in_j_0 - t639 * f_star_in_j_1 - (t638 * h_star_in_j_1 - t634 *
         f_star_in_j_0);
     const jg_real t642 = C_j[3] * t637 + C_j[4] * t640 + C_j[5] * t641;
     const jg_real t643 = C_j[0] * t637 + C_j[1] * t640 + C_j[2] * t641;
-    const jg_real t644 = C_j[7] * t634 + C_j[6] * t639 + C_j[8] * t636;
-    const jg_real t645 = C_j[7] * t635 + C_j[6] * t638 + C_j[8] * t633;
+    const jg_real t644 = C_j[7] * t635 + C_j[6] * t638 + C_j[8] * t633;
+    const jg_real t645 = C_j[7] * t634 + C_j[6] * t639 + C_j[8] * t636;
     const jg_real t646 = C_j[1] * t635 + C_j[0] * t638 + C_j[2] * t633;
     const jg_real t647 = C_j[3] * t639 + C_j[4] * t634 + C_j[5] * t636;
-    const jg_real t648 = A_ji_5 * H_10;
-    const jg_real t649 = A_ji_4 * t81;
-    const jg_real t650 = A_ji_4 * H_10;
-    const jg_real t651 = A_ji_5 * t81;
+    const jg_real t648 = A_ji_8 * H_10;
+    const jg_real t649 = A_ji_7 * t78;
+    const jg_real t650 = A_ji_7 * H_10;
+    const jg_real t651 = A_ji_8 * t78;
     const jg_real t652 = t648 * h_star_in_j_1 - t649 * f_star_in_j_2 - (t650 * h_star_in_j_2 - t651 *
         f_star_in_j_1);
-    const jg_real t653 = A_ji_3 * H_10;
-    const jg_real t654 = A_ji_3 * t81;
-    const jg_real t655 = t653 * h_star_in_j_2 - t651 * f_star_in_j_0 - (t648 * h_star_in_j_0 - t654 *
-        f_star_in_j_2);
+    const jg_real t653 = A_ji_6 * H_10;
+    const jg_real t654 = A_ji_6 * t78;
+    const jg_real t655 = t653 * h_star_in_j_2 - t651 * f_star_in_j_0 - (t648 * h_star_in_j_0 - f_star_in_j_2 *
+        t654);
     const jg_real t656 = t650 * h_star_in_j_0 - t654 * f_star_in_j_1 - (t653 * h_star_in_j_1 - t649 *
         f_star_in_j_0);
     const jg_real t657 = C_j[3] * t652 + C_j[4] * t655 + C_j[5] * t656;
     const jg_real t658 = C_j[0] * t652 + C_j[1] * t655 + C_j[2] * t656;
-    const jg_real t659 = C_j[7] * t650 + C_j[6] * t653 + C_j[8] * t648;
-    const jg_real t660 = C_j[7] * t649 + C_j[6] * t654 + C_j[8] * t651;
+    const jg_real t659 = C_j[7] * t649 + C_j[6] * t654 + C_j[8] * t651;
+    const jg_real t660 = C_j[7] * t650 + C_j[6] * t653 + C_j[8] * t648;
     const jg_real t661 = C_j[1] * t650 + C_j[0] * t653 + C_j[2] * t648;
     const jg_real t662 = C_j[3] * t654 + C_j[4] * t649 + C_j[5] * t651;
-    const jg_real t663 = A_ji_8 * H_10;
-    const jg_real t664 = A_ji_7 * t81;
-    const jg_real t665 = A_ji_7 * H_10;
-    const jg_real t666 = A_ji_8 * t81;
-    const jg_real t667 = t663 * h_star_in_j_1 - t664 * f_star_in_j_2 - (t665 * h_star_in_j_2 - t666 *
-        f_star_in_j_1);
-    const jg_real t668 = A_ji_6 * H_10;
-    const jg_real t669 = A_ji_6 * t81;
-    const jg_real t670 = t668 * h_star_in_j_2 - t666 * f_star_in_j_0 - (t663 * h_star_in_j_0 - f_star_in_j_2 *
-        t669);
-    const jg_real t671 = t665 * h_star_in_j_0 - f_star_in_j_1 * t669 - (t668 * h_star_in_j_1 - t664 *
-        f_star_in_j_0);
+    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t627 - omega_j_in_joint_j_1 * t628 + (alphadot[0] * (H_22 *
+        t630 - sine_0 * t629) - sine_2 * t630 * alphadot[1] - (omega_i_in_joint_j_0 * t627 - omega_i_in_joint_j_1 *
+        t628) + alphadot[2] * t629));
+    jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t632 - omega_i_in_joint_j_1 * t629 + (t114 * t631 +
+        alphadot[0] * (t113 * t631 + sine_0 * t628) - alphadot[2] * t628) - (omega_j_in_joint_j_2 * t632 -
+        omega_j_in_joint_j_1 * t629);
+    jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t631 - omega_i_in_joint_j_0 * t630 + (t121 * (sine_2 * t632 +
+        cosine_2 * t627) - alphadot[1] * (sine_2 * t627 - cosine_2 * t632)) - (omega_j_in_joint_j_2 * t631 -
+        omega_j_in_joint_j_0 * t630);
+    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t642 - omega_j_in_joint_j_1 * t643 + (alphadot[0] * (H_22 *
+        t644 - sine_0 * t645) - sine_2 * t644 * alphadot[1] - (omega_i_in_joint_j_0 * t642 - omega_i_in_joint_j_1 *
+        t643) + alphadot[2] * t645));
+    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t647 - omega_i_in_joint_j_1 * t645 + (t114 * t646 +
+        alphadot[0] * (t113 * t646 + sine_0 * t643) - alphadot[2] * t643) - (omega_j_in_joint_j_2 * t647 -
+        omega_j_in_joint_j_1 * t645);
+    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t646 - omega_i_in_joint_j_0 * t644 + (t121 * (sine_2 * t647 +
+        cosine_2 * t642) - alphadot[1] * (sine_2 * t642 - cosine_2 * t647)) - (omega_j_in_joint_j_2 * t646 -
+        omega_j_in_joint_j_0 * t644);
+    jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658 + (alphadot[0] * (H_22 *
+        t660 - sine_0 * t659) - sine_2 * t660 * alphadot[1] - (omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 *
+        t658) + alphadot[2] * t659));
+    jac_phi_q_v_geometry[16] = omega_i_in_joint_j_2 * t662 - omega_i_in_joint_j_1 * t659 + (t114 * t661 +
+        alphadot[0] * (t113 * t661 + sine_0 * t658) - alphadot[2] * t658) - (omega_j_in_joint_j_2 * t662 -
+        omega_j_in_joint_j_1 * t659);
+    const jg_real t663 = A_ji_1 * H_22;
+    const jg_real t664 = A_ji_2 * sine_0;
+    const jg_real t665 = A_ji_2 * H_22;
+    const jg_real t666 = A_ji_1 * sine_0;
+    const jg_real t667 = t663 * f_star_in_j_2 - t664 * h_star_in_j_1 - (t665 * f_star_in_j_1 - t666 *
+        h_star_in_j_2);
+    const jg_real t668 = A_ji_0 * sine_0;
+    const jg_real t669 = A_ji_0 * H_22;
+    const jg_real t670 = t665 * f_star_in_j_0 - t668 * h_star_in_j_2 - (t669 * f_star_in_j_2 - t664 *
+        h_star_in_j_0);
+    const jg_real t671 = t669 * f_star_in_j_1 - t666 * h_star_in_j_0 - (t663 * f_star_in_j_0 - t668 *
+        h_star_in_j_1);
     const jg_real t672 = C_j[3] * t667 + C_j[4] * t670 + C_j[5] * t671;
     const jg_real t673 = C_j[0] * t667 + C_j[1] * t670 + C_j[2] * t671;
-    const jg_real t674 = C_j[7] * t664 + C_j[6] * t669 + C_j[8] * t666;
-    const jg_real t675 = C_j[7] * t665 + C_j[6] * t668 + C_j[8] * t663;
-    const jg_real t676 = C_j[1] * t665 + C_j[0] * t668 + C_j[2] * t663;
-    const jg_real t677 = C_j[3] * t669 + C_j[4] * t664 + C_j[5] * t666;
-    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t642 - omega_j_in_joint_j_1 * t643 + (alphadot[0] * (H_22 *
-        t645 - sine_1 * t644) - sine_2 * t645 * alphadot[1] - (omega_i_in_joint_j_0 * t642 - omega_i_in_joint_j_1 *
-        t643) + alphadot[2] * t644));
-    jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t647 - omega_i_in_joint_j_1 * t644 + (t117 * t646 +
-        alphadot[0] * (t116 * t646 + sine_1 * t643) - alphadot[2] * t643) - (omega_j_in_joint_j_2 * t647 -
-        omega_j_in_joint_j_1 * t644);
-    jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t646 - omega_i_in_joint_j_0 * t645 + (t124 * (sine_2 * t647 +
-        cosine_2 * t642) - alphadot[1] * (sine_2 * t642 - cosine_2 * t647)) - (omega_j_in_joint_j_2 * t646 -
-        omega_j_in_joint_j_0 * t645);
-    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658 + (alphadot[0] * (H_22 *
-        t659 - sine_1 * t660) - sine_2 * t659 * alphadot[1] - (omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 *
-        t658) + alphadot[2] * t660));
-    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t662 - omega_i_in_joint_j_1 * t660 + (t117 * t661 +
-        alphadot[0] * (t116 * t661 + sine_1 * t658) - alphadot[2] * t658) - (omega_j_in_joint_j_2 * t662 -
-        omega_j_in_joint_j_1 * t660);
-    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t661 - omega_i_in_joint_j_0 * t659 + (t124 * (sine_2 * t662 +
-        cosine_2 * t657) - alphadot[1] * (sine_2 * t657 - cosine_2 * t662)) - (omega_j_in_joint_j_2 * t661 -
-        omega_j_in_joint_j_0 * t659);
-    jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t672 - omega_j_in_joint_j_1 * t673 + (alphadot[0] * (H_22 *
-        t675 - sine_1 * t674) - sine_2 * t675 * alphadot[1] - (omega_i_in_joint_j_0 * t672 - omega_i_in_joint_j_1 *
-        t673) + alphadot[2] * t674));
-    jac_phi_q_v_geometry[16] = omega_i_in_joint_j_2 * t677 - omega_i_in_joint_j_1 * t674 + (t117 * t676 +
-        alphadot[0] * (t116 * t676 + sine_1 * t673) - alphadot[2] * t673) - (omega_j_in_joint_j_2 * t677 -
-        omega_j_in_joint_j_1 * t674);
-    const jg_real t678 = A_ji_1 * H_22;
-    const jg_real t679 = A_ji_2 * sine_1;
-    const jg_real t680 = A_ji_2 * H_22;
-    const jg_real t681 = A_ji_1 * sine_1;
+    const jg_real t674 = C_j[7] * t663 + C_j[6] * t669 + C_j[8] * t665;
+    const jg_real t675 = C_j[7] * t666 + C_j[6] * t668 + C_j[8] * t664;
+    const jg_real t676 = C_j[1] * t666 + C_j[0] * t668 + C_j[2] * t664;
+    const jg_real t677 = C_j[3] * t669 + C_j[4] * t663 + C_j[5] * t665;
+    const jg_real t678 = A_ji_4 * H_22;
+    const jg_real t679 = A_ji_5 * sine_0;
+    const jg_real t680 = A_ji_5 * H_22;
+    const jg_real t681 = A_ji_4 * sine_0;
     const jg_real t682 = t678 * f_star_in_j_2 - t679 * h_star_in_j_1 - (t680 * f_star_in_j_1 - t681 *
         h_star_in_j_2);
-    const jg_real t683 = A_ji_0 * sine_1;
-    const jg_real t684 = A_ji_0 * H_22;
+    const jg_real t683 = A_ji_3 * sine_0;
+    const jg_real t684 = A_ji_3 * H_22;
     const jg_real t685 = t680 * f_star_in_j_0 - t683 * h_star_in_j_2 - (t684 * f_star_in_j_2 - t679 *
         h_star_in_j_0);
     const jg_real t686 = t684 * f_star_in_j_1 - t681 * h_star_in_j_0 - (t678 * f_star_in_j_0 - t683 *
@@ -1614,15 +1615,15 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t690 = C_j[7] * t681 + C_j[6] * t683 + C_j[8] * t679;
     const jg_real t691 = C_j[1] * t681 + C_j[0] * t683 + C_j[2] * t679;
     const jg_real t692 = C_j[3] * t684 + C_j[4] * t678 + C_j[5] * t680;
-    const jg_real t693 = A_ji_4 * H_22;
-    const jg_real t694 = A_ji_5 * sine_1;
-    const jg_real t695 = A_ji_5 * H_22;
-    const jg_real t696 = A_ji_4 * sine_1;
+    const jg_real t693 = A_ji_7 * H_22;
+    const jg_real t694 = A_ji_8 * sine_0;
+    const jg_real t695 = A_ji_8 * H_22;
+    const jg_real t696 = A_ji_7 * sine_0;
     const jg_real t697 = t693 * f_star_in_j_2 - t694 * h_star_in_j_1 - (t695 * f_star_in_j_1 - t696 *
         h_star_in_j_2);
-    const jg_real t698 = A_ji_3 * sine_1;
-    const jg_real t699 = A_ji_3 * H_22;
-    const jg_real t700 = t695 * f_star_in_j_0 - t698 * h_star_in_j_2 - (t699 * f_star_in_j_2 - t694 *
+    const jg_real t698 = A_ji_6 * sine_0;
+    const jg_real t699 = A_ji_6 * H_22;
+    const jg_real t700 = t695 * f_star_in_j_0 - t698 * h_star_in_j_2 - (f_star_in_j_2 * t699 - t694 *
         h_star_in_j_0);
     const jg_real t701 = t699 * f_star_in_j_1 - t696 * h_star_in_j_0 - (t693 * f_star_in_j_0 - t698 *
         h_star_in_j_1);
@@ -1630,83 +1631,65 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
     const jg_real t703 = C_j[0] * t697 + C_j[1] * t700 + C_j[2] * t701;
     const jg_real t704 = C_j[7] * t693 + C_j[6] * t699 + C_j[8] * t695;
     const jg_real t705 = C_j[7] * t696 + C_j[6] * t698 + C_j[8] * t694;
-    const jg_real t706 = C_j[1] * t696 + C_j[0] * t698 + C_j[2] * t694;
-    const jg_real t707 = C_j[3] * t699 + C_j[4] * t693 + C_j[5] * t695;
-    const jg_real t708 = A_ji_7 * H_22;
-    const jg_real t709 = A_ji_8 * sine_1;
-    const jg_real t710 = A_ji_8 * H_22;
-    const jg_real t711 = A_ji_7 * sine_1;
-    const jg_real t712 = t708 * f_star_in_j_2 - t709 * h_star_in_j_1 - (t710 * f_star_in_j_1 - t711 *
-        h_star_in_j_2);
-    const jg_real t713 = A_ji_6 * sine_1;
-    const jg_real t714 = A_ji_6 * H_22;
-    const jg_real t715 = t710 * f_star_in_j_0 - t713 * h_star_in_j_2 - (f_star_in_j_2 * t714 - t709 *
-        h_star_in_j_0);
-    const jg_real t716 = f_star_in_j_1 * t714 - t711 * h_star_in_j_0 - (t708 * f_star_in_j_0 - t713 *
-        h_star_in_j_1);
-    const jg_real t717 = C_j[3] * t712 + C_j[4] * t715 + C_j[5] * t716;
-    const jg_real t718 = C_j[0] * t712 + C_j[1] * t715 + C_j[2] * t716;
-    const jg_real t719 = C_j[7] * t708 + C_j[6] * t714 + C_j[8] * t710;
-    const jg_real t720 = C_j[7] * t711 + C_j[6] * t713 + C_j[8] * t709;
-    jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t676 - omega_i_in_joint_j_0 * t675 + (t124 * (sine_2 * t677 +
-        cosine_2 * t672) - alphadot[1] * (sine_2 * t672 - cosine_2 * t677)) - (omega_j_in_joint_j_2 * t676 -
-        omega_j_in_joint_j_0 * t675);
-    jac_phi_q_v_geometry[18] = -(omega_j_in_joint_j_0 * t687 - omega_j_in_joint_j_1 * t688 + (sine_2 * t690 *
-        alphadot[1] + alphadot[0] * (sine_1 * t689 - H_22 * t690) - (omega_i_in_joint_j_0 * t687 -
+    jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t661 - omega_i_in_joint_j_0 * t660 + (t121 * (sine_2 * t662 +
+        cosine_2 * t657) - alphadot[1] * (sine_2 * t657 - cosine_2 * t662)) - (omega_j_in_joint_j_2 * t661 -
+        omega_j_in_joint_j_0 * t660);
+    jac_phi_q_v_geometry[18] = -(omega_j_in_joint_j_0 * t672 - omega_j_in_joint_j_1 * t673 + (sine_2 * t675 *
+        alphadot[1] + alphadot[0] * (sine_0 * t674 - H_22 * t675) - (omega_i_in_joint_j_0 * t672 -
+        omega_i_in_joint_j_1 * t673) - alphadot[2] * t674));
+    jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t674 - omega_i_in_joint_j_2 * t677 + (alphadot[0] * (sine_0 *
+        t673 - t113 * t676) - t114 * t676 - alphadot[2] * t673) - (omega_j_in_joint_j_1 * t674 -
+        omega_j_in_joint_j_2 * t677);
+    jac_phi_q_v_geometry[20] = omega_i_in_joint_j_0 * t675 - omega_i_in_joint_j_2 * t676 + (t121 * (cosine_2 * t672
+        - sine_2 * t677) - alphadot[1] * (cosine_2 * t677 + sine_2 * t672)) - (omega_j_in_joint_j_0 * t675 -
+        omega_j_in_joint_j_2 * t676);
+    jac_phi_q_v_geometry[21] = -(omega_j_in_joint_j_0 * t687 - omega_j_in_joint_j_1 * t688 + (sine_2 * t690 *
+        alphadot[1] + alphadot[0] * (sine_0 * t689 - H_22 * t690) - (omega_i_in_joint_j_0 * t687 -
         omega_i_in_joint_j_1 * t688) - alphadot[2] * t689));
-    jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t689 - omega_i_in_joint_j_2 * t692 + (alphadot[0] * (sine_1 *
-        t688 - t116 * t691) - t117 * t691 - alphadot[2] * t688) - (omega_j_in_joint_j_1 * t689 -
+    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t689 - omega_i_in_joint_j_2 * t692 + (alphadot[0] * (sine_0 *
+        t688 - t113 * t691) - t114 * t691 - alphadot[2] * t688) - (omega_j_in_joint_j_1 * t689 -
         omega_j_in_joint_j_2 * t692);
-    jac_phi_q_v_geometry[20] = omega_i_in_joint_j_0 * t690 - omega_i_in_joint_j_2 * t691 + (t124 * (cosine_2 * t687
+    jac_phi_q_v_geometry[23] = omega_i_in_joint_j_0 * t690 - omega_i_in_joint_j_2 * t691 + (t121 * (cosine_2 * t687
         - sine_2 * t692) - alphadot[1] * (cosine_2 * t692 + sine_2 * t687)) - (omega_j_in_joint_j_0 * t690 -
         omega_j_in_joint_j_2 * t691);
-    jac_phi_q_v_geometry[21] = -(omega_j_in_joint_j_0 * t702 - omega_j_in_joint_j_1 * t703 + (sine_2 * t705 *
-        alphadot[1] + alphadot[0] * (sine_1 * t704 - H_22 * t705) - (omega_i_in_joint_j_0 * t702 -
+    jac_phi_q_v_geometry[24] = -(omega_j_in_joint_j_0 * t702 - omega_j_in_joint_j_1 * t703 + (sine_2 * t705 *
+        alphadot[1] + alphadot[0] * (sine_0 * t704 - H_22 * t705) - (omega_i_in_joint_j_0 * t702 -
         omega_i_in_joint_j_1 * t703) - alphadot[2] * t704));
-    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t704 - omega_i_in_joint_j_2 * t707 + (alphadot[0] * (sine_1 *
-        t703 - t116 * t706) - t117 * t706 - alphadot[2] * t703) - (omega_j_in_joint_j_1 * t704 -
+    const jg_real t706 = C_j[1] * t696 + C_j[0] * t698 + C_j[2] * t694;
+    const jg_real t707 = C_j[3] * t699 + C_j[4] * t693 + C_j[5] * t695;
+    const jg_real t708 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t709 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t710 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[25] = omega_i_in_joint_j_1 * t704 - omega_i_in_joint_j_2 * t707 + (alphadot[0] * (sine_0 *
+        t703 - t113 * t706) - t114 * t706 - alphadot[2] * t703) - (omega_j_in_joint_j_1 * t704 -
         omega_j_in_joint_j_2 * t707);
-    jac_phi_q_v_geometry[23] = omega_i_in_joint_j_0 * t705 - omega_i_in_joint_j_2 * t706 + (t124 * (cosine_2 * t702
+    jac_phi_q_v_geometry[26] = omega_i_in_joint_j_0 * t705 - omega_i_in_joint_j_2 * t706 + (t121 * (cosine_2 * t702
         - sine_2 * t707) - alphadot[1] * (cosine_2 * t707 + sine_2 * t702)) - (omega_j_in_joint_j_0 * t705 -
         omega_j_in_joint_j_2 * t706);
-    jac_phi_q_v_geometry[24] = -(omega_j_in_joint_j_0 * t717 - omega_j_in_joint_j_1 * t718 + (sine_2 * t720 *
-        alphadot[1] + alphadot[0] * (sine_1 * t719 - H_22 * t720) - (omega_i_in_joint_j_0 * t717 -
-        omega_i_in_joint_j_1 * t718) - alphadot[2] * t719));
-    const jg_real t721 = C_j[1] * t711 + C_j[0] * t713 + C_j[2] * t709;
-    const jg_real t722 = C_j[3] * t714 + C_j[4] * t708 + C_j[5] * t710;
-    const jg_real t723 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t724 = omega_j[1] - omega_i_in_j_1;
-    const jg_real t725 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[25] = omega_i_in_joint_j_1 * t719 - omega_i_in_joint_j_2 * t722 + (alphadot[0] * (sine_1 *
-        t718 - t116 * t721) - t117 * t721 - alphadot[2] * t718) - (omega_j_in_joint_j_1 * t719 -
-        omega_j_in_joint_j_2 * t722);
-    jac_phi_q_v_geometry[26] = omega_i_in_joint_j_0 * t720 - omega_i_in_joint_j_2 * t721 + (t124 * (cosine_2 * t717
-        - sine_2 * t722) - alphadot[1] * (cosine_2 * t722 + sine_2 * t717)) - (omega_j_in_joint_j_0 * t720 -
-        omega_j_in_joint_j_2 * t721);
-    jac_phi_q_v_geometry[27] = -(A_ji_1 * t723 + A_ji_2 * t724);
-    jac_phi_q_v_geometry[28] = -(A_ji_4 * t723 + A_ji_5 * t724);
-    jac_phi_q_v_geometry[29] = -(A_ji_7 * t723 + A_ji_8 * t724);
-    jac_phi_q_v_geometry[30] = A_ji_0 * t723 - A_ji_2 * t725;
-    jac_phi_q_v_geometry[31] = A_ji_3 * t723 - A_ji_5 * t725;
-    jac_phi_q_v_geometry[32] = A_ji_6 * t723 - A_ji_8 * t725;
-    jac_phi_q_v_geometry[33] = A_ji_0 * t724 + A_ji_1 * t725;
-    jac_phi_q_v_geometry[34] = A_ji_3 * t724 + A_ji_4 * t725;
-    jac_phi_q_v_geometry[35] = A_ji_6 * t724 + A_ji_7 * t725;
+    jac_phi_q_v_geometry[27] = -(A_ji_1 * t708 + A_ji_2 * t709);
+    jac_phi_q_v_geometry[28] = -(A_ji_4 * t708 + A_ji_5 * t709);
+    jac_phi_q_v_geometry[29] = -(A_ji_7 * t708 + A_ji_8 * t709);
+    jac_phi_q_v_geometry[30] = A_ji_0 * t708 - A_ji_2 * t710;
+    jac_phi_q_v_geometry[31] = A_ji_3 * t708 - A_ji_5 * t710;
+    jac_phi_q_v_geometry[32] = A_ji_6 * t708 - A_ji_8 * t710;
+    jac_phi_q_v_geometry[33] = A_ji_0 * t709 + A_ji_1 * t710;
+    jac_phi_q_v_geometry[34] = A_ji_3 * t709 + A_ji_4 * t710;
+    jac_phi_q_v_geometry[35] = A_ji_6 * t709 + A_ji_7 * t710;
     jac_phi_q_v_geometry[36] = omega_i_in_j_0 * g_star_dot_g_j - omega_i_in_joint_j_1 * g_star_in_j_0 - (omega_j[0]
         * g_star_dot_g_j - omega_j_in_joint_j_1 * g_star_in_j_0);
-    jac_phi_q_v_geometry[37] = t117 * f_star_in_j_0 + alphadot[0] * (t116 * f_star_in_j_0 + sine_1 * g_star_in_j_0)
+    jac_phi_q_v_geometry[37] = t114 * f_star_in_j_0 + alphadot[0] * (t113 * f_star_in_j_0 + sine_0 * g_star_in_j_0)
         - alphadot[2] * g_star_in_j_0;
     jac_phi_q_v_geometry[38] = omega_i_in_joint_j_2 * f_star_in_j_0 - omega_i_in_j_0 * f_star_dot_h_j -
         (omega_j_in_joint_j_2 * f_star_in_j_0 - omega_j[0] * f_star_dot_h_j);
     jac_phi_q_v_geometry[39] = omega_i_in_j_1 * g_star_dot_g_j - omega_i_in_joint_j_1 * g_star_in_j_1 - (omega_j[1]
         * g_star_dot_g_j - omega_j_in_joint_j_1 * g_star_in_j_1);
-    jac_phi_q_v_geometry[40] = t117 * f_star_in_j_1 + alphadot[0] * (t116 * f_star_in_j_1 + sine_1 * g_star_in_j_1)
+    jac_phi_q_v_geometry[40] = t114 * f_star_in_j_1 + alphadot[0] * (t113 * f_star_in_j_1 + sine_0 * g_star_in_j_1)
         - alphadot[2] * g_star_in_j_1;
     jac_phi_q_v_geometry[41] = omega_i_in_joint_j_2 * f_star_in_j_1 - omega_i_in_j_1 * f_star_dot_h_j -
         (omega_j_in_joint_j_2 * f_star_in_j_1 - omega_j[1] * f_star_dot_h_j);
     jac_phi_q_v_geometry[42] = omega_i_in_j_2 * g_star_dot_g_j - omega_i_in_joint_j_1 * g_star_in_j_2 - (omega_j[2]
         * g_star_dot_g_j - omega_j_in_joint_j_1 * g_star_in_j_2);
-    jac_phi_q_v_geometry[43] = t117 * f_star_in_j_2 + alphadot[0] * (t116 * f_star_in_j_2 + sine_1 * g_star_in_j_2)
+    jac_phi_q_v_geometry[43] = t114 * f_star_in_j_2 + alphadot[0] * (t113 * f_star_in_j_2 + sine_0 * g_star_in_j_2)
         - alphadot[2] * g_star_in_j_2;
     jac_phi_q_v_geometry[44] = omega_i_in_joint_j_2 * f_star_in_j_2 - omega_i_in_j_2 * f_star_dot_h_j -
         (omega_j_in_joint_j_2 * f_star_in_j_2 - omega_j[2] * f_star_dot_h_j);
@@ -1714,111 +1697,102 @@ static void jg_ball_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, 
         (omega_j_in_joint_j_0 * g_star_in_j_0 - omega_j[0] * g_star_dot_f_j);
     jac_phi_q_v_geometry[46] = omega_i_in_j_0 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_in_j_0 - (omega_j[0]
         * h_star_dot_h_j - omega_j_in_joint_j_2 * h_star_in_j_0);
-    jac_phi_q_v_geometry[47] = t124 * (cosine_2 * g_star_in_j_0 - sine_2 * h_star_in_j_0) - alphadot[1] * (cosine_2
+    jac_phi_q_v_geometry[47] = t121 * (cosine_2 * g_star_in_j_0 - sine_2 * h_star_in_j_0) - alphadot[1] * (cosine_2
         * h_star_in_j_0 + sine_2 * g_star_in_j_0);
     jac_phi_q_v_geometry[48] = omega_i_in_joint_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_dot_f_j -
         (omega_j_in_joint_j_0 * g_star_in_j_1 - omega_j[1] * g_star_dot_f_j);
     jac_phi_q_v_geometry[49] = omega_i_in_j_1 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_in_j_1 - (omega_j[1]
         * h_star_dot_h_j - omega_j_in_joint_j_2 * h_star_in_j_1);
-    jac_phi_q_v_geometry[50] = t124 * (cosine_2 * g_star_in_j_1 - sine_2 * h_star_in_j_1) - alphadot[1] * (cosine_2
+    jac_phi_q_v_geometry[50] = t121 * (cosine_2 * g_star_in_j_1 - sine_2 * h_star_in_j_1) - alphadot[1] * (cosine_2
         * h_star_in_j_1 + sine_2 * g_star_in_j_1);
     jac_phi_q_v_geometry[51] = omega_i_in_joint_j_0 * g_star_in_j_2 - omega_i_in_j_2 * g_star_dot_f_j -
         (omega_j_in_joint_j_0 * g_star_in_j_2 - omega_j[2] * g_star_dot_f_j);
     jac_phi_q_v_geometry[52] = omega_i_in_j_2 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_in_j_2 - (omega_j[2]
         * h_star_dot_h_j - omega_j_in_joint_j_2 * h_star_in_j_2);
-    jac_phi_q_v_geometry[53] = t124 * (cosine_2 * g_star_in_j_2 - sine_2 * h_star_in_j_2) - alphadot[1] * (cosine_2
+    jac_phi_q_v_geometry[53] = t121 * (cosine_2 * g_star_in_j_2 - sine_2 * h_star_in_j_2) - alphadot[1] * (cosine_2
         * h_star_in_j_2 + sine_2 * g_star_in_j_2);
-    jac_phi_q_v_geometry[54] = alphadot[2] * h_star_in_j_0 - (alphadot[0] * (H_22 * f_star_in_j_0 + sine_1 *
+    jac_phi_q_v_geometry[54] = alphadot[2] * h_star_in_j_0 - (alphadot[0] * (H_22 * f_star_in_j_0 + sine_0 *
         h_star_in_j_0) - sine_2 * f_star_in_j_0 * alphadot[1]);
     jac_phi_q_v_geometry[55] = omega_i_in_joint_j_1 * h_star_in_j_0 - omega_i_in_j_0 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_0 - omega_j[0] * h_star_dot_g_j);
     jac_phi_q_v_geometry[56] = omega_i_in_j_0 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_0 - (omega_j[0]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_0);
-    const jg_real t726 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
-    jac_phi_q_v_geometry[57] = alphadot[2] * h_star_in_j_1 - (alphadot[0] * (H_22 * f_star_in_j_1 + sine_1 *
+    jac_phi_q_v_geometry[57] = alphadot[2] * h_star_in_j_1 - (alphadot[0] * (H_22 * f_star_in_j_1 + sine_0 *
         h_star_in_j_1) - sine_2 * f_star_in_j_1 * alphadot[1]);
     jac_phi_q_v_geometry[58] = omega_i_in_joint_j_1 * h_star_in_j_1 - omega_i_in_j_1 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_1 - omega_j[1] * h_star_dot_g_j);
     jac_phi_q_v_geometry[59] = omega_i_in_j_1 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_1 - (omega_j[1]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_1);
-    jac_phi_q_v_geometry[60] = alphadot[2] * h_star_in_j_2 - (alphadot[0] * (H_22 * f_star_in_j_2 + sine_1 *
+    jac_phi_q_v_geometry[60] = alphadot[2] * h_star_in_j_2 - (alphadot[0] * (H_22 * f_star_in_j_2 + sine_0 *
         h_star_in_j_2) - sine_2 * f_star_in_j_2 * alphadot[1]);
     jac_phi_q_v_geometry[61] = omega_i_in_joint_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_2 - omega_j[2] * h_star_dot_g_j);
     jac_phi_q_v_geometry[62] = omega_i_in_j_2 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_2 - (omega_j[2]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_2);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t726;
-    jac_phi_q_v_velocity[3] = t726;
-    const jg_real t727 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
-    const jg_real t728 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    const jg_real t729 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t730 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t731 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[2] = t727;
-    jac_phi_q_v_velocity[6] = t727;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t728;
-    jac_phi_q_v_velocity[7] = t728;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t729 + A_ji_1 * t730 + A_ji_2 * t731;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t729 + A_ji_4 * t730 + A_ji_5 * t731;
-    const jg_real t732 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    const jg_real t733 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    const jg_real t734 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    const jg_real t735 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t736 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t737 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    const jg_real t738 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real t739 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
-    jac_phi_q_v_velocity[11] = A_ji_6 * t729 + A_ji_7 * t730 + A_ji_8 * t731;
-    jac_phi_q_v_velocity[12] = t732 * g_star_dot_g_j - t733 * g_star_dot_f_j;
-    jac_phi_q_v_velocity[13] = t733 * h_star_dot_h_j - t734 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[14] = t734 * f_star_dot_f_j - t732 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t735 + A_ji_1 * t736 + A_ji_2 * t737;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t735 + A_ji_4 * t736 + A_ji_5 * t737;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t735 + A_ji_7 * t736 + A_ji_8 * t737;
-    jac_phi_q_v_velocity[18] = t738 * g_star_dot_g_j - t739 * g_star_dot_f_j;
-    const jg_real t740 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    const jg_real t741 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t742 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t743 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    const jg_real t744 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real t745 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
-    const jg_real t746 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    jac_phi_q_v_velocity[19] = t739 * h_star_dot_h_j - t740 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[20] = t740 * f_star_dot_f_j - t738 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t741 + A_ji_1 * t742 + A_ji_2 * t743;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t741 + A_ji_4 * t742 + A_ji_5 * t743;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t741 + A_ji_7 * t742 + A_ji_8 * t743;
-    jac_phi_q_v_velocity[24] = t744 * g_star_dot_g_j - t745 * g_star_dot_f_j;
-    jac_phi_q_v_velocity[25] = t745 * h_star_dot_h_j - t746 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[26] = t746 * f_star_dot_f_j - t744 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = C_j[3] * g_star_dot_f_j - C_j[0] * g_star_dot_g_j;
-    jac_phi_q_v_velocity[40] = C_j[6] * h_star_dot_g_j - C_j[3] * h_star_dot_h_j;
-    jac_phi_q_v_velocity[41] = C_j[0] * f_star_dot_h_j - C_j[6] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = C_j[4] * g_star_dot_f_j - C_j[1] * g_star_dot_g_j;
-    jac_phi_q_v_velocity[46] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
-    jac_phi_q_v_velocity[47] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = C_j[5] * g_star_dot_f_j - C_j[2] * g_star_dot_g_j;
-    jac_phi_q_v_velocity[52] = C_j[8] * h_star_dot_g_j - C_j[5] * h_star_dot_h_j;
-    jac_phi_q_v_velocity[53] = C_j[2] * f_star_dot_h_j - C_j[8] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[54] = -(H_22 * f_star_dot_h_j + sine_1 * h_star_dot_h_j);
-    jac_phi_q_v_velocity[55] = t116 * f_star_dot_f_j + sine_1 * g_star_dot_f_j;
-    jac_phi_q_v_velocity[56] = cosine_1 * t570;
-    jac_phi_q_v_velocity[57] = sine_2 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[58] = cosine_2 * f_star_dot_f_j;
-    jac_phi_q_v_velocity[59] = -(t587 + t586);
-    jac_phi_q_v_velocity[61] = -g_star_dot_f_j;
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    const jg_real t711 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t712 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t713 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t714 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real t715 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
+    const jg_real t716 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real t717 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t718 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t719 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[3] = A_ji_0 * t711 + A_ji_1 * t712 + A_ji_2 * t713;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t711 + A_ji_4 * t712 + A_ji_5 * t713;
+    jac_phi_q_v_velocity[5] = A_ji_6 * t711 + A_ji_7 * t712 + A_ji_8 * t713;
+    jac_phi_q_v_velocity[6] = t714 * g_star_dot_g_j - t715 * g_star_dot_f_j;
+    jac_phi_q_v_velocity[7] = t715 * h_star_dot_h_j - t716 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[8] = t716 * f_star_dot_f_j - t714 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[9] = A_ji_0 * t717 + A_ji_1 * t718 + A_ji_2 * t719;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t717 + A_ji_4 * t718 + A_ji_5 * t719;
+    const jg_real t720 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real t721 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    const jg_real t722 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    const jg_real t723 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t724 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t725 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    const jg_real t726 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real t727 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    jac_phi_q_v_velocity[11] = A_ji_6 * t717 + A_ji_7 * t718 + A_ji_8 * t719;
+    jac_phi_q_v_velocity[12] = t720 * g_star_dot_g_j - t721 * g_star_dot_f_j;
+    jac_phi_q_v_velocity[13] = t721 * h_star_dot_h_j - t722 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[14] = t722 * f_star_dot_f_j - t720 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[15] = A_ji_0 * t723 + A_ji_1 * t724 + A_ji_2 * t725;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t723 + A_ji_4 * t724 + A_ji_5 * t725;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t723 + A_ji_7 * t724 + A_ji_8 * t725;
+    jac_phi_q_v_velocity[18] = t726 * g_star_dot_g_j - t727 * g_star_dot_f_j;
+    const jg_real t728 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    jac_phi_q_v_velocity[19] = t727 * h_star_dot_h_j - t728 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[20] = t728 * f_star_dot_f_j - t726 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = C_j[3] * g_star_dot_f_j - C_j[0] * g_star_dot_g_j;
+    jac_phi_q_v_velocity[34] = C_j[6] * h_star_dot_g_j - C_j[3] * h_star_dot_h_j;
+    jac_phi_q_v_velocity[35] = C_j[0] * f_star_dot_h_j - C_j[6] * f_star_dot_f_j;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = C_j[4] * g_star_dot_f_j - C_j[1] * g_star_dot_g_j;
+    jac_phi_q_v_velocity[40] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
+    jac_phi_q_v_velocity[41] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
+    jac_phi_q_v_velocity[42] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_v_velocity[44] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[45] = C_j[5] * g_star_dot_f_j - C_j[2] * g_star_dot_g_j;
+    jac_phi_q_v_velocity[46] = C_j[8] * h_star_dot_g_j - C_j[5] * h_star_dot_h_j;
+    jac_phi_q_v_velocity[47] = C_j[2] * f_star_dot_h_j - C_j[8] * f_star_dot_f_j;
+    jac_phi_q_v_velocity[48] = -(H_22 * f_star_dot_h_j + sine_0 * h_star_dot_h_j);
+    jac_phi_q_v_velocity[49] = t113 * f_star_dot_f_j + sine_0 * g_star_dot_f_j;
+    jac_phi_q_v_velocity[50] = cosine_0 * t555;
+    jac_phi_q_v_velocity[51] = sine_2 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[52] = cosine_2 * f_star_dot_f_j;
+    jac_phi_q_v_velocity[53] = -(t572 + t571);
+    jac_phi_q_v_velocity[55] = -g_star_dot_f_j;
 }
 
 static void jg_ball_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -3736,7 +3710,7 @@ int jac_jg_ball_parametric_phi_q_v_external(const double **arg, double **res, ca
     double unwanted_3[54];
     double unwanted_4[9];
     double unwanted_5[63];
-    double unwanted_6[62];
+    double unwanted_6[56];
     (void)iw;
     (void)w;
     (void)mem;
@@ -3844,9 +3818,9 @@ const casadi_int *jac_jg_ball_parametric_phi_q_v_external_sparsity_out(casadi_in
         3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_6[] = {
-        6, 15, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 57, 60, 62, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4,
-        5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
-        2, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4
+        6, 15, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 51, 54, 56, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4,
+        5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 3, 4,
+        5, 3, 4, 5, 3, 4
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

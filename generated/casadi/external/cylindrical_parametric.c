@@ -385,88 +385,87 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real A_ij_2 = A_ij_7 * A_ij_3 - A_ij_4 * A_ij_6;
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_0 = omega_i[0] * A_ij_0 + omega_i[1] * A_ij_1 + omega_i[2] * A_ij_2;
+    /* v_0_in_j = omega_i - omega_j, axes of body j */
+    const jg_real v_0_in_j_0 = omega_i_in_j_0 - omega_j[0];
     const jg_real omega_i_in_j_1 = omega_i[1] * A_ij_4 + omega_i[0] * A_ij_3 + omega_i[2] * A_ij_5;
-    /* s_j_cross_omega_i_in_j = s_j x omega_i, axes of body j */
-    const jg_real s_j_cross_omega_i_in_j_2 = s_j[0] * omega_i_in_j_1 - s_j[1] * omega_i_in_j_0;
-    const jg_real t21 = A_j[6] * s_j_cross_omega_i_in_j_2;
-    const jg_real t22 = A_j[3] * A_ij_8 - A_j[6] * A_ij_5;
-    const jg_real t23 = A_j[6] * A_ij_4 - A_j[3] * A_ij_7;
-    const jg_real t24 = omega_i[1] * t22 + omega_i[2] * t23;
-    const jg_real t25 = A_j[3] * omega_i[0];
-    const jg_real t26 = s_j[0] * t25 + s_j[1] * t24;
+    const jg_real v_0_in_j_1 = omega_i_in_j_1 - omega_j[1];
+    /* v_1_in_j = s_j x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_1_in_j_2 = s_j[0] * v_0_in_j_1 - s_j[1] * v_0_in_j_0;
+    /* v_2_in_j = v_j + s_j x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_2 = v_j[2] + v_1_in_j_2;
+    const jg_real t24 = A_j[6] * v_2_in_j_2;
+    const jg_real t25 = A_j[3] * A_ij_8 - A_j[6] * A_ij_5;
+    const jg_real t26 = A_j[6] * A_ij_4 - A_j[3] * A_ij_7;
+    const jg_real t27 = omega_i[1] * t25 + omega_i[2] * t26;
+    const jg_real t28 = A_j[3] * omega_i[0];
+    const jg_real t29 = s_j[0] * t28 + s_j[1] * t27;
     const jg_real omega_i_in_j_2 = omega_i[1] * A_ij_7 + omega_i[0] * A_ij_6 + omega_i[2] * A_ij_8;
-    const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - s_j[0] * omega_i_in_j_2;
-    const jg_real t29 = A_j[3] * s_j_cross_omega_i_in_j_1;
-    const jg_real t30 = A_j[6] * omega_i[0];
-    const jg_real t31 = s_j[0] * t30 + s_j[2] * t24;
-    const jg_real t32 = s_j[1] * t30 - s_j[2] * t25;
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    /* v_0_in_j = v_j - s_j x omega_j, axes of body j */
-    const jg_real v_0_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
-    const jg_real t37 = A_j[3] * v_0_in_j_1 + A_j[6] * v_0_in_j_2;
-    const jg_real s_j_cross_omega_i_in_j_0 = s_j[1] * omega_i_in_j_2 - s_j[2] * omega_i_in_j_1;
-    const jg_real t39 = t22 * s_j_cross_omega_i_in_j_0;
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    const jg_real v_0_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
-    /* v_2_world = r_j - r_i, world axes */
-    const jg_real v_2_world_0 = r_j[0] - r_i[0];
-    const jg_real t43 = v_0_in_j_0 * t22 + omega_i[2] * v_2_world_0;
-    const jg_real t44 = t23 * s_j_cross_omega_i_in_j_0;
-    const jg_real t45 = v_0_in_j_0 * t23 - omega_i[1] * v_2_world_0;
+    const jg_real v_0_in_j_2 = omega_i_in_j_2 - omega_j[2];
+    const jg_real v_1_in_j_1 = s_j[2] * v_0_in_j_0 - s_j[0] * v_0_in_j_2;
+    const jg_real v_2_in_j_1 = v_j[1] + v_1_in_j_1;
+    const jg_real t34 = A_j[3] * v_2_in_j_1;
+    const jg_real t35 = A_j[6] * omega_i[0];
+    const jg_real t36 = s_j[0] * t35 + s_j[2] * t27;
+    const jg_real t37 = s_j[1] * t35 - s_j[2] * t28;
+    const jg_real v_1_in_j_0 = s_j[1] * v_0_in_j_2 - s_j[2] * v_0_in_j_1;
+    const jg_real v_2_in_j_0 = v_j[0] + v_1_in_j_0;
+    const jg_real t40 = t25 * v_2_in_j_0;
+    /* v_4_world = r_j - r_i, world axes */
+    const jg_real v_4_world_0 = r_j[0] - r_i[0];
+    const jg_real t42 = omega_i[2] * v_4_world_0;
+    const jg_real t43 = t26 * v_2_in_j_0;
+    const jg_real t44 = omega_i[1] * v_4_world_0;
     /* h_star_in_j = h_star, axes of body j */
-    const jg_real h_star_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + A_ij_2 * C_i[8];
+    const jg_real h_star_in_j_0 = C_i[6] * A_ij_0 + C_i[7] * A_ij_1 + C_i[8] * A_ij_2;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[1], &sine_0, &cosine_0);
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real t50 = A_j[3] * g_star_in_i_0;
-    const jg_real t51 = t22 * C_i[7] + t23 * C_i[8];
+    const jg_real t49 = A_j[3] * g_star_in_i_0;
+    const jg_real t50 = C_i[7] * t25 + C_i[8] * t26;
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = A_ij_3 * g_star_in_i_0 + A_ij_4 * g_star_in_i_1 + A_ij_5 * g_star_in_i_2;
     const jg_real g_star_in_j_0 = A_ij_0 * g_star_in_i_0 + A_ij_1 * g_star_in_i_1 + A_ij_2 * g_star_in_i_2;
-    const jg_real t56 = A_j[3] * C_i[6];
-    const jg_real t57 = t22 * g_star_in_i_1 + t23 * g_star_in_i_2;
+    const jg_real t55 = A_j[3] * C_i[6];
+    const jg_real t56 = t25 * g_star_in_i_1 + t26 * g_star_in_i_2;
     const jg_real h_star_in_j_1 = C_i[6] * A_ij_3 + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
-    const jg_real t59 = t56 * g_star_in_j_0 - h_star_in_j_1 * t57 - (h_star_in_j_0 * t50 - t51 * g_star_in_j_1);
-    const jg_real t60 = A_j[6] * g_star_in_i_0;
+    const jg_real t58 = t55 * g_star_in_j_0 - h_star_in_j_1 * t56 - (h_star_in_j_0 * t49 - t50 * g_star_in_j_1);
+    const jg_real t59 = A_j[6] * g_star_in_i_0;
     const jg_real g_star_in_j_2 = A_ij_6 * g_star_in_i_0 + A_ij_7 * g_star_in_i_1 + A_ij_8 * g_star_in_i_2;
-    const jg_real t62 = A_j[6] * C_i[6];
-    const jg_real h_star_in_j_2 = C_i[6] * A_ij_6 + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
-    const jg_real t64 = h_star_in_j_0 * t60 - t51 * g_star_in_j_2 - (t62 * g_star_in_j_0 - h_star_in_j_2 * t57);
-    const jg_real t65 = h_star_in_j_2 * t50 + t62 * g_star_in_j_1 - (h_star_in_j_1 * t60 + t56 * g_star_in_j_2);
-    const jg_real t66 = C_j[8] * t50 - C_j[7] * t60;
+    const jg_real t61 = A_j[6] * C_i[6];
+    const jg_real h_star_in_j_2 = C_i[6] * A_ij_6 + C_i[7] * A_ij_7 + A_ij_8 * C_i[8];
+    const jg_real t63 = h_star_in_j_0 * t59 - t50 * g_star_in_j_2 - (t61 * g_star_in_j_0 - h_star_in_j_2 * t56);
+    const jg_real t64 = h_star_in_j_2 * t49 + t61 * g_star_in_j_1 - (h_star_in_j_1 * t59 + t55 * g_star_in_j_2);
+    const jg_real t65 = C_j[8] * t49 - C_j[7] * t59;
     /* g_star_cross_h_j_in_j = g_star x h_j, axes of body j */
     const jg_real g_star_cross_h_j_in_j_0 = C_j[8] * g_star_in_j_1 - C_j[7] * g_star_in_j_2;
     const jg_real g_star_cross_h_j_in_j_1 = C_j[6] * g_star_in_j_2 - C_j[8] * g_star_in_j_0;
-    const jg_real t69 = C_j[8] * t57 + C_j[6] * t60;
+    const jg_real t68 = C_j[8] * t56 + C_j[6] * t59;
     const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
-    const jg_real t71 = C_j[7] * t57 + C_j[6] * t50;
-    const jg_real t72 = t56 * C_j[2] - t62 * C_j[1];
+    const jg_real t70 = C_j[7] * t56 + C_j[6] * t49;
+    const jg_real t71 = t55 * C_j[2] - t61 * C_j[1];
     /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
     const jg_real h_star_cross_f_j_in_j_0 = h_star_in_j_1 * C_j[2] - C_j[1] * h_star_in_j_2;
     const jg_real h_star_cross_f_j_in_j_1 = C_j[0] * h_star_in_j_2 - C_j[2] * h_star_in_j_0;
-    const jg_real t75 = C_j[2] * t51 + t62 * C_j[0];
+    const jg_real t74 = C_j[2] * t50 + t61 * C_j[0];
     const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - h_star_in_j_1 * C_j[0];
-    const jg_real t77 = t56 * C_j[0] + C_j[1] * t51;
+    const jg_real t76 = t55 * C_j[0] + C_j[1] * t50;
     jac_phi_q_v_velocity[24] = A_ij_3;
     jac_phi_q_v_velocity[22] = A_ij_1;
     jac_phi_q_v_velocity[23] = A_ij_2;
-    jac_phi_q_v_A_i[0] = t21 + A_ij_6 * t26 + (t29 - A_ij_3 * t31 + A_ij_0 * t32) + t37;
-    jac_phi_q_v_A_i[1] = A_ij_1 * t32 - t39 - A_ij_4 * t31 + A_ij_7 * t26 - t43;
-    jac_phi_q_v_A_i[2] = A_ij_2 * t32 - t44 - A_ij_5 * t31 + A_ij_8 * t26 - t45;
-    jac_phi_q_v_A_i[3] = t30 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t71 + (omega_i_in_j_0 * t66 - t24 *
-        g_star_cross_h_j_in_j_0 + (t25 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t69)) - alphadot[1] * (C_j[7] *
-        t64 + C_j[6] * t65 + C_j[8] * t59) - (omega_j[0] * t66 + omega_j[1] * t69 - omega_j[2] * t71);
-    jac_phi_q_v_A_i[4] = t30 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t77 + (omega_i_in_j_0 * t72 - t24 *
-        h_star_cross_f_j_in_j_0 + (t25 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t75)) - (omega_j[1] * t75 +
-        omega_j[0] * t72 - omega_j[2] * t77);
-    const jg_real t78 = C_j[5] * t64 - C_j[4] * t59;
+    jac_phi_q_v_A_i[0] = t24 + A_ij_6 * t29 + (t34 - A_ij_3 * t36 + A_ij_0 * t37);
+    jac_phi_q_v_A_i[1] = A_ij_1 * t37 - t40 - A_ij_4 * t36 + A_ij_7 * t29 - t42;
+    jac_phi_q_v_A_i[2] = A_ij_2 * t37 - t43 - A_ij_5 * t36 + A_ij_8 * t29 + t44;
+    jac_phi_q_v_A_i[3] = t35 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t70 + (omega_i_in_j_0 * t65 - t27 *
+        g_star_cross_h_j_in_j_0 + (t28 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t68)) - alphadot[1] * (C_j[7] *
+        t63 + C_j[6] * t64 + C_j[8] * t58) - (omega_j[0] * t65 + omega_j[1] * t68 - omega_j[2] * t70);
+    jac_phi_q_v_A_i[4] = t35 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t76 + (omega_i_in_j_0 * t71 - t27 *
+        h_star_cross_f_j_in_j_0 + (t28 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t74)) - (omega_j[1] * t74 +
+        omega_j[0] * t71 - omega_j[2] * t76);
+    const jg_real t77 = C_j[5] * t63 - C_j[4] * t58;
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
     const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
@@ -474,791 +473,762 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real f_star_cross_g_j_in_j_0 = C_j[5] * f_star_in_j_1 - C_j[4] * f_star_in_j_2;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real f_star_cross_g_j_in_j_1 = C_j[3] * f_star_in_j_2 - C_j[5] * f_star_in_j_0;
-    const jg_real t84 = C_j[3] * t59 - C_j[5] * t65;
+    const jg_real t83 = C_j[3] * t58 - C_j[5] * t64;
     const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
-    const jg_real t86 = C_j[4] * t65 - C_j[3] * t64;
-    const jg_real t87 = A_j[7] * s_j_cross_omega_i_in_j_2;
-    const jg_real t88 = A_j[4] * A_ij_8 - A_j[7] * A_ij_5;
-    const jg_real t89 = A_j[7] * A_ij_4 - A_j[4] * A_ij_7;
-    const jg_real t90 = omega_i[1] * t88 + omega_i[2] * t89;
-    const jg_real t91 = A_j[4] * omega_i[0];
-    const jg_real t92 = s_j[0] * t91 + s_j[1] * t90;
-    const jg_real t93 = A_j[4] * s_j_cross_omega_i_in_j_1;
-    const jg_real t94 = A_j[7] * omega_i[0];
-    const jg_real t95 = s_j[0] * t94 + s_j[2] * t90;
-    const jg_real t96 = s_j[1] * t94 - s_j[2] * t91;
-    const jg_real t97 = A_j[4] * v_0_in_j_1 + A_j[7] * v_0_in_j_2;
-    const jg_real t98 = t88 * s_j_cross_omega_i_in_j_0;
-    const jg_real v_2_world_1 = r_j[1] - r_i[1];
-    const jg_real t100 = v_0_in_j_0 * t88 + omega_i[2] * v_2_world_1;
-    const jg_real t101 = t89 * s_j_cross_omega_i_in_j_0;
-    const jg_real t102 = v_0_in_j_0 * t89 - omega_i[1] * v_2_world_1;
-    const jg_real t103 = A_j[4] * g_star_in_i_0;
-    const jg_real t104 = t88 * C_i[7] + t89 * C_i[8];
-    const jg_real t105 = A_j[4] * C_i[6];
-    const jg_real t106 = t88 * g_star_in_i_1 + t89 * g_star_in_i_2;
-    const jg_real t107 = t105 * g_star_in_j_0 - h_star_in_j_1 * t106 - (h_star_in_j_0 * t103 - t104 *
+    const jg_real t85 = C_j[4] * t64 - C_j[3] * t63;
+    const jg_real t86 = A_j[7] * v_2_in_j_2;
+    const jg_real t87 = A_j[4] * A_ij_8 - A_j[7] * A_ij_5;
+    const jg_real t88 = A_j[7] * A_ij_4 - A_j[4] * A_ij_7;
+    const jg_real t89 = omega_i[1] * t87 + omega_i[2] * t88;
+    const jg_real t90 = A_j[4] * omega_i[0];
+    const jg_real t91 = s_j[0] * t90 + s_j[1] * t89;
+    const jg_real t92 = A_j[4] * v_2_in_j_1;
+    const jg_real t93 = A_j[7] * omega_i[0];
+    const jg_real t94 = s_j[0] * t93 + s_j[2] * t89;
+    const jg_real t95 = s_j[1] * t93 - s_j[2] * t90;
+    const jg_real t96 = t87 * v_2_in_j_0;
+    const jg_real v_4_world_1 = r_j[1] - r_i[1];
+    const jg_real t98 = omega_i[2] * v_4_world_1;
+    const jg_real t99 = t88 * v_2_in_j_0;
+    const jg_real t100 = omega_i[1] * v_4_world_1;
+    const jg_real t101 = A_j[4] * g_star_in_i_0;
+    const jg_real t102 = C_i[7] * t87 + C_i[8] * t88;
+    const jg_real t103 = A_j[4] * C_i[6];
+    const jg_real t104 = t87 * g_star_in_i_1 + t88 * g_star_in_i_2;
+    const jg_real t105 = t103 * g_star_in_j_0 - h_star_in_j_1 * t104 - (h_star_in_j_0 * t101 - t102 *
         g_star_in_j_1);
-    const jg_real t108 = A_j[7] * g_star_in_i_0;
-    const jg_real t109 = A_j[7] * C_i[6];
-    const jg_real t110 = h_star_in_j_0 * t108 - t104 * g_star_in_j_2 - (t109 * g_star_in_j_0 - h_star_in_j_2 *
-        t106);
-    const jg_real t111 = h_star_in_j_2 * t103 + t109 * g_star_in_j_1 - (h_star_in_j_1 * t108 + t105 *
+    const jg_real t106 = A_j[7] * g_star_in_i_0;
+    const jg_real t107 = A_j[7] * C_i[6];
+    const jg_real t108 = h_star_in_j_0 * t106 - t102 * g_star_in_j_2 - (t107 * g_star_in_j_0 - h_star_in_j_2 *
+        t104);
+    const jg_real t109 = h_star_in_j_2 * t101 + t107 * g_star_in_j_1 - (h_star_in_j_1 * t106 + t103 *
         g_star_in_j_2);
-    const jg_real t112 = C_j[8] * t103 - C_j[7] * t108;
-    const jg_real t113 = C_j[8] * t106 + C_j[6] * t108;
-    const jg_real t114 = C_j[7] * t106 + C_j[6] * t103;
-    const jg_real t115 = t105 * C_j[2] - t109 * C_j[1];
-    const jg_real t116 = C_j[2] * t104 + t109 * C_j[0];
-    const jg_real t117 = t105 * C_j[0] + C_j[1] * t104;
-    const jg_real t118 = C_j[5] * t110 - C_j[4] * t107;
-    const jg_real t119 = C_j[3] * t107 - C_j[5] * t111;
-    const jg_real t120 = C_j[4] * t111 - C_j[3] * t110;
-    const jg_real t121 = A_j[8] * s_j_cross_omega_i_in_j_2;
-    const jg_real t122 = A_j[5] * A_ij_8 - A_j[8] * A_ij_5;
-    const jg_real t123 = A_j[8] * A_ij_4 - A_j[5] * A_ij_7;
-    const jg_real t124 = omega_i[1] * t122 + omega_i[2] * t123;
-    const jg_real t125 = A_j[5] * omega_i[0];
-    const jg_real t126 = s_j[0] * t125 + s_j[1] * t124;
-    const jg_real t127 = A_j[5] * s_j_cross_omega_i_in_j_1;
-    const jg_real t128 = A_j[8] * omega_i[0];
-    const jg_real t129 = s_j[0] * t128 + s_j[2] * t124;
-    const jg_real t130 = s_j[1] * t128 - s_j[2] * t125;
-    const jg_real t131 = A_j[5] * v_0_in_j_1 + A_j[8] * v_0_in_j_2;
-    jac_phi_q_v_A_i[5] = t30 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t86 + (omega_i_in_j_0 * t78 - t24 *
-        f_star_cross_g_j_in_j_0 + (t25 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t84)) + alphadot[1] * (C_j[4] *
-        t50 - C_j[3] * t57 + C_j[5] * t60) - (omega_j[0] * t78 + omega_j[1] * t84 + omega_j[2] * t86);
-    jac_phi_q_v_A_i[6] = t87 + A_ij_6 * t92 + (t93 - A_ij_3 * t95 + A_ij_0 * t96) + t97;
-    jac_phi_q_v_A_i[7] = A_ij_1 * t96 - t98 - A_ij_4 * t95 + A_ij_7 * t92 - t100;
-    jac_phi_q_v_A_i[8] = A_ij_2 * t96 - t101 - A_ij_5 * t95 + A_ij_8 * t92 - t102;
-    jac_phi_q_v_A_i[9] = t94 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t114 + (omega_i_in_j_0 * t112 - t90 *
-        g_star_cross_h_j_in_j_0 + (t91 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t113)) - alphadot[1] * (C_j[7] *
-        t110 + C_j[6] * t111 + C_j[8] * t107) - (omega_j[0] * t112 + omega_j[1] * t113 - omega_j[2] * t114);
-    jac_phi_q_v_A_i[10] = t94 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t117 + (omega_i_in_j_0 * t115 - t90 *
-        h_star_cross_f_j_in_j_0 + (t91 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t116)) - (omega_j[1] * t116 +
-        omega_j[0] * t115 - omega_j[2] * t117);
-    jac_phi_q_v_A_i[11] = t94 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t120 + (omega_i_in_j_0 * t118 - t90 *
-        f_star_cross_g_j_in_j_0 + (t91 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t119)) + alphadot[1] * (C_j[4] *
-        t103 - C_j[3] * t106 + C_j[5] * t108) - (omega_j[0] * t118 + omega_j[1] * t119 + omega_j[2] * t120);
-    jac_phi_q_v_A_i[12] = t121 + A_ij_6 * t126 + (t127 - A_ij_3 * t129 + A_ij_0 * t130) + t131;
-    const jg_real t132 = t122 * s_j_cross_omega_i_in_j_0;
-    const jg_real v_2_world_2 = r_j[2] - r_i[2];
-    const jg_real t134 = v_0_in_j_0 * t122 + omega_i[2] * v_2_world_2;
-    const jg_real t135 = t123 * s_j_cross_omega_i_in_j_0;
-    const jg_real t136 = v_0_in_j_0 * t123 - omega_i[1] * v_2_world_2;
-    const jg_real t137 = A_j[5] * g_star_in_i_0;
-    const jg_real t138 = t122 * C_i[7] + t123 * C_i[8];
-    const jg_real t139 = A_j[5] * C_i[6];
-    const jg_real t140 = t122 * g_star_in_i_1 + t123 * g_star_in_i_2;
-    const jg_real t141 = t139 * g_star_in_j_0 - h_star_in_j_1 * t140 - (h_star_in_j_0 * t137 - t138 *
+    const jg_real t110 = C_j[8] * t101 - C_j[7] * t106;
+    const jg_real t111 = C_j[8] * t104 + C_j[6] * t106;
+    const jg_real t112 = C_j[7] * t104 + C_j[6] * t101;
+    const jg_real t113 = t103 * C_j[2] - t107 * C_j[1];
+    const jg_real t114 = C_j[2] * t102 + t107 * C_j[0];
+    const jg_real t115 = t103 * C_j[0] + C_j[1] * t102;
+    const jg_real t116 = C_j[5] * t108 - C_j[4] * t105;
+    const jg_real t117 = C_j[3] * t105 - C_j[5] * t109;
+    const jg_real t118 = C_j[4] * t109 - C_j[3] * t108;
+    const jg_real t119 = A_j[8] * v_2_in_j_2;
+    const jg_real t120 = A_j[5] * A_ij_8 - A_j[8] * A_ij_5;
+    const jg_real t121 = A_j[8] * A_ij_4 - A_j[5] * A_ij_7;
+    const jg_real t122 = omega_i[1] * t120 + omega_i[2] * t121;
+    const jg_real t123 = A_j[5] * omega_i[0];
+    const jg_real t124 = s_j[0] * t123 + s_j[1] * t122;
+    const jg_real t125 = A_j[5] * v_2_in_j_1;
+    const jg_real t126 = A_j[8] * omega_i[0];
+    const jg_real t127 = s_j[0] * t126 + s_j[2] * t122;
+    const jg_real t128 = s_j[1] * t126 - s_j[2] * t123;
+    jac_phi_q_v_A_i[5] = t35 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t85 + (omega_i_in_j_0 * t77 - t27 *
+        f_star_cross_g_j_in_j_0 + (t28 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t83)) + alphadot[1] * (C_j[4] *
+        t49 - C_j[3] * t56 + C_j[5] * t59) - (omega_j[0] * t77 + omega_j[1] * t83 + omega_j[2] * t85);
+    jac_phi_q_v_A_i[6] = t86 + A_ij_6 * t91 + (t92 - A_ij_3 * t94 + A_ij_0 * t95);
+    jac_phi_q_v_A_i[7] = A_ij_1 * t95 - t96 - A_ij_4 * t94 + A_ij_7 * t91 - t98;
+    jac_phi_q_v_A_i[8] = A_ij_2 * t95 - t99 - A_ij_5 * t94 + A_ij_8 * t91 + t100;
+    jac_phi_q_v_A_i[9] = t93 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t112 + (omega_i_in_j_0 * t110 - t89 *
+        g_star_cross_h_j_in_j_0 + (t90 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t111)) - alphadot[1] * (C_j[7] *
+        t108 + C_j[6] * t109 + C_j[8] * t105) - (omega_j[0] * t110 + omega_j[1] * t111 - omega_j[2] * t112);
+    jac_phi_q_v_A_i[10] = t93 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t115 + (omega_i_in_j_0 * t113 - t89 *
+        h_star_cross_f_j_in_j_0 + (t90 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t114)) - (omega_j[1] * t114 +
+        omega_j[0] * t113 - omega_j[2] * t115);
+    jac_phi_q_v_A_i[11] = t93 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t118 + (omega_i_in_j_0 * t116 - t89 *
+        f_star_cross_g_j_in_j_0 + (t90 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t117)) + alphadot[1] * (C_j[4] *
+        t101 - C_j[3] * t104 + C_j[5] * t106) - (omega_j[0] * t116 + omega_j[1] * t117 + omega_j[2] * t118);
+    jac_phi_q_v_A_i[12] = t119 + A_ij_6 * t124 + (t125 - A_ij_3 * t127 + A_ij_0 * t128);
+    const jg_real t129 = t120 * v_2_in_j_0;
+    const jg_real v_4_world_2 = r_j[2] - r_i[2];
+    const jg_real t131 = omega_i[2] * v_4_world_2;
+    const jg_real t132 = t121 * v_2_in_j_0;
+    const jg_real t133 = omega_i[1] * v_4_world_2;
+    const jg_real t134 = A_j[5] * g_star_in_i_0;
+    const jg_real t135 = C_i[7] * t120 + C_i[8] * t121;
+    const jg_real t136 = A_j[5] * C_i[6];
+    const jg_real t137 = t120 * g_star_in_i_1 + t121 * g_star_in_i_2;
+    const jg_real t138 = t136 * g_star_in_j_0 - h_star_in_j_1 * t137 - (h_star_in_j_0 * t134 - t135 *
         g_star_in_j_1);
-    const jg_real t142 = A_j[8] * g_star_in_i_0;
-    const jg_real t143 = A_j[8] * C_i[6];
-    const jg_real t144 = h_star_in_j_0 * t142 - t138 * g_star_in_j_2 - (t143 * g_star_in_j_0 - h_star_in_j_2 *
-        t140);
-    const jg_real t145 = h_star_in_j_2 * t137 + t143 * g_star_in_j_1 - (h_star_in_j_1 * t142 + t139 *
+    const jg_real t139 = A_j[8] * g_star_in_i_0;
+    const jg_real t140 = A_j[8] * C_i[6];
+    const jg_real t141 = h_star_in_j_0 * t139 - t135 * g_star_in_j_2 - (t140 * g_star_in_j_0 - h_star_in_j_2 *
+        t137);
+    const jg_real t142 = h_star_in_j_2 * t134 + t140 * g_star_in_j_1 - (h_star_in_j_1 * t139 + t136 *
         g_star_in_j_2);
-    const jg_real t146 = C_j[8] * t137 - C_j[7] * t142;
-    const jg_real t147 = C_j[8] * t140 + C_j[6] * t142;
-    const jg_real t148 = C_j[7] * t140 + C_j[6] * t137;
-    const jg_real t149 = t139 * C_j[2] - t143 * C_j[1];
-    const jg_real t150 = C_j[2] * t138 + t143 * C_j[0];
-    const jg_real t151 = t139 * C_j[0] + C_j[1] * t138;
-    const jg_real t152 = C_j[5] * t144 - C_j[4] * t141;
-    const jg_real t153 = C_j[3] * t141 - C_j[5] * t145;
-    const jg_real t154 = C_j[4] * t145 - C_j[3] * t144;
-    const jg_real t155 = A_j[6] * omega_i[1];
-    const jg_real t156 = A_j[3] * omega_i[1];
-    const jg_real t157 = s_j[1] * t155 - s_j[2] * t156;
-    const jg_real t158 = A_j[3] * A_ij_6 - A_j[6] * A_ij_3;
-    const jg_real t159 = omega_i[0] * t22 - omega_i[2] * t158;
-    const jg_real t160 = s_j[2] * t159 - s_j[0] * t155;
-    const jg_real t161 = s_j[0] * t156 - s_j[1] * t159;
-    const jg_real t162 = t158 * s_j_cross_omega_i_in_j_0;
-    const jg_real t163 = v_0_in_j_0 * t158 + omega_i[0] * v_2_world_0;
-    jac_phi_q_v_A_i[13] = A_ij_1 * t130 - t132 - A_ij_4 * t129 + A_ij_7 * t126 - t134;
-    jac_phi_q_v_A_i[14] = A_ij_2 * t130 - t135 - A_ij_5 * t129 + A_ij_8 * t126 - t136;
-    jac_phi_q_v_A_i[15] = t128 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t148 + (omega_i_in_j_0 * t146 - t124 *
-        g_star_cross_h_j_in_j_0 + (t125 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t147)) - alphadot[1] * (C_j[7]
-        * t144 + C_j[6] * t145 + C_j[8] * t141) - (omega_j[0] * t146 + omega_j[1] * t147 - omega_j[2] * t148);
-    jac_phi_q_v_A_i[16] = t128 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t151 + (omega_i_in_j_0 * t149 - t124 *
-        h_star_cross_f_j_in_j_0 + (t125 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t150)) - (omega_j[1] * t150 +
-        omega_j[0] * t149 - omega_j[2] * t151);
-    jac_phi_q_v_A_i[17] = t128 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t154 + (omega_i_in_j_0 * t152 - t124 *
-        f_star_cross_g_j_in_j_0 + (t125 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t153)) + alphadot[1] * (C_j[4]
-        * t137 - C_j[3] * t140 + C_j[5] * t142) - (omega_j[0] * t152 + omega_j[1] * t153 + omega_j[2] * t154);
-    jac_phi_q_v_A_i[18] = t39 + A_ij_0 * t157 + A_ij_3 * t160 + A_ij_6 * t161 + t43;
-    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t161 + (t29 + A_ij_4 * t160 + A_ij_1 * t157) + t37;
-    jac_phi_q_v_A_i[20] = A_ij_2 * t157 - t162 + A_ij_5 * t160 + A_ij_8 * t161 - t163;
-    const jg_real t164 = A_j[3] * g_star_in_i_1;
-    const jg_real t165 = C_i[6] * t22 - t158 * C_i[8];
-    const jg_real t166 = A_j[3] * C_i[7];
-    const jg_real t167 = t22 * g_star_in_i_0 - t158 * g_star_in_i_2;
-    const jg_real t168 = h_star_in_j_1 * t167 + t166 * g_star_in_j_0 - (h_star_in_j_0 * t164 + t165 *
+    const jg_real t143 = C_j[8] * t134 - C_j[7] * t139;
+    const jg_real t144 = C_j[8] * t137 + C_j[6] * t139;
+    const jg_real t145 = C_j[7] * t137 + C_j[6] * t134;
+    const jg_real t146 = t136 * C_j[2] - t140 * C_j[1];
+    const jg_real t147 = C_j[2] * t135 + t140 * C_j[0];
+    const jg_real t148 = t136 * C_j[0] + C_j[1] * t135;
+    const jg_real t149 = C_j[5] * t141 - C_j[4] * t138;
+    const jg_real t150 = C_j[3] * t138 - C_j[5] * t142;
+    const jg_real t151 = C_j[4] * t142 - C_j[3] * t141;
+    const jg_real t152 = A_j[6] * omega_i[1];
+    const jg_real t153 = A_j[3] * omega_i[1];
+    const jg_real t154 = s_j[1] * t152 - s_j[2] * t153;
+    const jg_real t155 = A_j[3] * A_ij_6 - A_j[6] * A_ij_3;
+    const jg_real t156 = omega_i[0] * t25 - omega_i[2] * t155;
+    const jg_real t157 = s_j[2] * t156 - s_j[0] * t152;
+    const jg_real t158 = s_j[0] * t153 - s_j[1] * t156;
+    const jg_real t159 = t155 * v_2_in_j_0;
+    const jg_real t160 = omega_i[0] * v_4_world_0;
+    jac_phi_q_v_A_i[13] = A_ij_1 * t128 - t129 - A_ij_4 * t127 + A_ij_7 * t124 - t131;
+    jac_phi_q_v_A_i[14] = A_ij_2 * t128 - t132 - A_ij_5 * t127 + A_ij_8 * t124 + t133;
+    jac_phi_q_v_A_i[15] = t126 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t145 + (omega_i_in_j_0 * t143 - t122 *
+        g_star_cross_h_j_in_j_0 + (t123 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t144)) - alphadot[1] * (C_j[7]
+        * t141 + C_j[6] * t142 + C_j[8] * t138) - (omega_j[0] * t143 + omega_j[1] * t144 - omega_j[2] * t145);
+    jac_phi_q_v_A_i[16] = t126 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t148 + (omega_i_in_j_0 * t146 - t122 *
+        h_star_cross_f_j_in_j_0 + (t123 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t147)) - (omega_j[1] * t147 +
+        omega_j[0] * t146 - omega_j[2] * t148);
+    jac_phi_q_v_A_i[17] = t126 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t151 + (omega_i_in_j_0 * t149 - t122 *
+        f_star_cross_g_j_in_j_0 + (t123 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t150)) + alphadot[1] * (C_j[4]
+        * t134 - C_j[3] * t137 + C_j[5] * t139) - (omega_j[0] * t149 + omega_j[1] * t150 + omega_j[2] * t151);
+    jac_phi_q_v_A_i[18] = t40 + A_ij_0 * t154 + A_ij_3 * t157 + A_ij_6 * t158 + t42;
+    jac_phi_q_v_A_i[19] = t24 + A_ij_7 * t158 + (t34 + A_ij_4 * t157 + A_ij_1 * t154);
+    jac_phi_q_v_A_i[20] = A_ij_2 * t154 - t159 + A_ij_5 * t157 + A_ij_8 * t158 - t160;
+    const jg_real t161 = A_j[3] * g_star_in_i_1;
+    const jg_real t162 = C_i[6] * t25 - C_i[8] * t155;
+    const jg_real t163 = A_j[3] * C_i[7];
+    const jg_real t164 = t25 * g_star_in_i_0 - t155 * g_star_in_i_2;
+    const jg_real t165 = h_star_in_j_1 * t164 + t163 * g_star_in_j_0 - (h_star_in_j_0 * t161 + t162 *
         g_star_in_j_1);
-    const jg_real t169 = A_j[6] * g_star_in_i_1;
-    const jg_real t170 = A_j[6] * C_i[7];
-    const jg_real t171 = h_star_in_j_0 * t169 + t165 * g_star_in_j_2 - (h_star_in_j_2 * t167 + t170 *
+    const jg_real t166 = A_j[6] * g_star_in_i_1;
+    const jg_real t167 = A_j[6] * C_i[7];
+    const jg_real t168 = h_star_in_j_0 * t166 + t162 * g_star_in_j_2 - (h_star_in_j_2 * t164 + t167 *
         g_star_in_j_0);
-    const jg_real t172 = h_star_in_j_2 * t164 + t170 * g_star_in_j_1 - (h_star_in_j_1 * t169 + t166 *
+    const jg_real t169 = h_star_in_j_2 * t161 + t167 * g_star_in_j_1 - (h_star_in_j_1 * t166 + t163 *
         g_star_in_j_2);
-    const jg_real t173 = C_j[8] * t164 - C_j[7] * t169;
-    const jg_real t174 = C_j[6] * t169 - C_j[8] * t167;
-    const jg_real t175 = C_j[7] * t167 - C_j[6] * t164;
-    const jg_real t176 = t166 * C_j[2] - t170 * C_j[1];
-    const jg_real t177 = t170 * C_j[0] - C_j[2] * t165;
-    const jg_real t178 = C_j[1] * t165 - t166 * C_j[0];
-    const jg_real t179 = C_j[5] * t171 - C_j[4] * t168;
-    const jg_real t180 = C_j[3] * t168 - C_j[5] * t172;
-    const jg_real t181 = C_j[4] * t172 - C_j[3] * t171;
-    const jg_real t182 = A_j[7] * omega_i[1];
-    const jg_real t183 = A_j[4] * omega_i[1];
-    const jg_real t184 = s_j[1] * t182 - s_j[2] * t183;
-    const jg_real t185 = A_j[4] * A_ij_6 - A_j[7] * A_ij_3;
-    const jg_real t186 = omega_i[0] * t88 - omega_i[2] * t185;
-    const jg_real t187 = s_j[2] * t186 - s_j[0] * t182;
-    const jg_real t188 = s_j[0] * t183 - s_j[1] * t186;
-    const jg_real t189 = t185 * s_j_cross_omega_i_in_j_0;
-    const jg_real t190 = v_0_in_j_0 * t185 + omega_i[0] * v_2_world_1;
-    const jg_real t191 = A_j[4] * g_star_in_i_1;
-    const jg_real t192 = C_i[6] * t88 - t185 * C_i[8];
-    const jg_real t193 = A_j[4] * C_i[7];
-    const jg_real t194 = t88 * g_star_in_i_0 - t185 * g_star_in_i_2;
-    const jg_real t195 = h_star_in_j_1 * t194 + t193 * g_star_in_j_0 - (h_star_in_j_0 * t191 + t192 *
+    const jg_real t170 = C_j[8] * t161 - C_j[7] * t166;
+    const jg_real t171 = C_j[6] * t166 - C_j[8] * t164;
+    const jg_real t172 = C_j[7] * t164 - C_j[6] * t161;
+    const jg_real t173 = t163 * C_j[2] - t167 * C_j[1];
+    const jg_real t174 = t167 * C_j[0] - C_j[2] * t162;
+    const jg_real t175 = C_j[1] * t162 - t163 * C_j[0];
+    const jg_real t176 = C_j[5] * t168 - C_j[4] * t165;
+    const jg_real t177 = C_j[3] * t165 - C_j[5] * t169;
+    const jg_real t178 = C_j[4] * t169 - C_j[3] * t168;
+    const jg_real t179 = A_j[7] * omega_i[1];
+    const jg_real t180 = A_j[4] * omega_i[1];
+    const jg_real t181 = s_j[1] * t179 - s_j[2] * t180;
+    const jg_real t182 = A_j[4] * A_ij_6 - A_j[7] * A_ij_3;
+    const jg_real t183 = omega_i[0] * t87 - omega_i[2] * t182;
+    const jg_real t184 = s_j[2] * t183 - s_j[0] * t179;
+    const jg_real t185 = s_j[0] * t180 - s_j[1] * t183;
+    const jg_real t186 = t182 * v_2_in_j_0;
+    const jg_real t187 = omega_i[0] * v_4_world_1;
+    const jg_real t188 = A_j[4] * g_star_in_i_1;
+    const jg_real t189 = C_i[6] * t87 - C_i[8] * t182;
+    const jg_real t190 = A_j[4] * C_i[7];
+    const jg_real t191 = t87 * g_star_in_i_0 - t182 * g_star_in_i_2;
+    const jg_real t192 = h_star_in_j_1 * t191 + t190 * g_star_in_j_0 - (h_star_in_j_0 * t188 + t189 *
         g_star_in_j_1);
-    const jg_real t196 = A_j[7] * g_star_in_i_1;
-    const jg_real t197 = A_j[7] * C_i[7];
-    const jg_real t198 = h_star_in_j_0 * t196 + t192 * g_star_in_j_2 - (h_star_in_j_2 * t194 + t197 *
+    const jg_real t193 = A_j[7] * g_star_in_i_1;
+    const jg_real t194 = A_j[7] * C_i[7];
+    const jg_real t195 = h_star_in_j_0 * t193 + t189 * g_star_in_j_2 - (h_star_in_j_2 * t191 + t194 *
         g_star_in_j_0);
-    const jg_real t199 = h_star_in_j_2 * t191 + t197 * g_star_in_j_1 - (h_star_in_j_1 * t196 + t193 *
+    const jg_real t196 = h_star_in_j_2 * t188 + t194 * g_star_in_j_1 - (h_star_in_j_1 * t193 + t190 *
         g_star_in_j_2);
-    const jg_real t200 = C_j[8] * t191 - C_j[7] * t196;
-    const jg_real t201 = C_j[6] * t196 - C_j[8] * t194;
-    const jg_real t202 = C_j[7] * t194 - C_j[6] * t191;
-    const jg_real t203 = t193 * C_j[2] - t197 * C_j[1];
-    const jg_real t204 = t197 * C_j[0] - C_j[2] * t192;
-    const jg_real t205 = C_j[1] * t192 - t193 * C_j[0];
-    jac_phi_q_v_A_i[21] = t155 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t175 + (t159 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t173 + (t156 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t174)) - alphadot[1] * (C_j[7] *
-        t171 + C_j[6] * t172 + C_j[8] * t168) - (omega_j[0] * t173 + omega_j[1] * t174 + omega_j[2] * t175);
-    jac_phi_q_v_A_i[22] = t155 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t178 + (t159 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t176 + (t156 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t177)) - (omega_j[1] * t177 +
-        omega_j[0] * t176 + omega_j[2] * t178);
-    jac_phi_q_v_A_i[23] = t155 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t181 + (t159 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t179 + (t156 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t180)) + alphadot[1] * (C_j[3] *
-        t167 + C_j[4] * t164 + C_j[5] * t169) - (omega_j[0] * t179 + omega_j[1] * t180 + omega_j[2] * t181);
-    jac_phi_q_v_A_i[24] = t98 + A_ij_0 * t184 + A_ij_3 * t187 + A_ij_6 * t188 + t100;
-    jac_phi_q_v_A_i[25] = t87 + A_ij_7 * t188 + (t93 + A_ij_4 * t187 + A_ij_1 * t184) + t97;
-    jac_phi_q_v_A_i[26] = A_ij_2 * t184 - t189 + A_ij_5 * t187 + A_ij_8 * t188 - t190;
-    jac_phi_q_v_A_i[27] = t182 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t202 + (t186 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t200 + (t183 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t201)) - alphadot[1] * (C_j[7] *
-        t198 + C_j[6] * t199 + C_j[8] * t195) - (omega_j[0] * t200 + omega_j[1] * t201 + omega_j[2] * t202);
-    jac_phi_q_v_A_i[28] = t182 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t205 + (t186 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t203 + (t183 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t204)) - (omega_j[1] * t204 +
-        omega_j[0] * t203 + omega_j[2] * t205);
-    const jg_real t206 = C_j[5] * t198 - C_j[4] * t195;
-    const jg_real t207 = C_j[3] * t195 - C_j[5] * t199;
-    const jg_real t208 = C_j[4] * t199 - C_j[3] * t198;
-    const jg_real t209 = A_j[8] * omega_i[1];
-    const jg_real t210 = A_j[5] * omega_i[1];
-    const jg_real t211 = s_j[1] * t209 - s_j[2] * t210;
-    const jg_real t212 = A_j[5] * A_ij_6 - A_j[8] * A_ij_3;
-    const jg_real t213 = omega_i[0] * t122 - omega_i[2] * t212;
-    const jg_real t214 = s_j[2] * t213 - s_j[0] * t209;
-    const jg_real t215 = s_j[0] * t210 - s_j[1] * t213;
-    const jg_real t216 = t212 * s_j_cross_omega_i_in_j_0;
-    const jg_real t217 = v_0_in_j_0 * t212 + omega_i[0] * v_2_world_2;
-    const jg_real t218 = A_j[5] * g_star_in_i_1;
-    const jg_real t219 = C_i[6] * t122 - t212 * C_i[8];
-    const jg_real t220 = A_j[5] * C_i[7];
-    const jg_real t221 = t122 * g_star_in_i_0 - t212 * g_star_in_i_2;
-    const jg_real t222 = h_star_in_j_1 * t221 + t220 * g_star_in_j_0 - (h_star_in_j_0 * t218 + t219 *
+    const jg_real t197 = C_j[8] * t188 - C_j[7] * t193;
+    const jg_real t198 = C_j[6] * t193 - C_j[8] * t191;
+    const jg_real t199 = C_j[7] * t191 - C_j[6] * t188;
+    const jg_real t200 = t190 * C_j[2] - t194 * C_j[1];
+    const jg_real t201 = t194 * C_j[0] - C_j[2] * t189;
+    const jg_real t202 = C_j[1] * t189 - t190 * C_j[0];
+    jac_phi_q_v_A_i[21] = t152 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t172 + (t156 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t170 + (t153 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t171)) - alphadot[1] * (C_j[7] *
+        t168 + C_j[6] * t169 + C_j[8] * t165) - (omega_j[0] * t170 + omega_j[1] * t171 + omega_j[2] * t172);
+    jac_phi_q_v_A_i[22] = t152 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t175 + (t156 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t173 + (t153 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t174)) - (omega_j[1] * t174 +
+        omega_j[0] * t173 + omega_j[2] * t175);
+    jac_phi_q_v_A_i[23] = t152 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t178 + (t156 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t176 + (t153 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t177)) + alphadot[1] * (C_j[3] *
+        t164 + C_j[4] * t161 + C_j[5] * t166) - (omega_j[0] * t176 + omega_j[1] * t177 + omega_j[2] * t178);
+    jac_phi_q_v_A_i[24] = t96 + A_ij_0 * t181 + A_ij_3 * t184 + A_ij_6 * t185 + t98;
+    jac_phi_q_v_A_i[25] = t86 + A_ij_7 * t185 + (t92 + A_ij_4 * t184 + A_ij_1 * t181);
+    jac_phi_q_v_A_i[26] = A_ij_2 * t181 - t186 + A_ij_5 * t184 + A_ij_8 * t185 - t187;
+    jac_phi_q_v_A_i[27] = t179 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t199 + (t183 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t197 + (t180 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t198)) - alphadot[1] * (C_j[7] *
+        t195 + C_j[6] * t196 + C_j[8] * t192) - (omega_j[0] * t197 + omega_j[1] * t198 + omega_j[2] * t199);
+    jac_phi_q_v_A_i[28] = t179 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t202 + (t183 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t200 + (t180 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t201)) - (omega_j[1] * t201 +
+        omega_j[0] * t200 + omega_j[2] * t202);
+    const jg_real t203 = C_j[5] * t195 - C_j[4] * t192;
+    const jg_real t204 = C_j[3] * t192 - C_j[5] * t196;
+    const jg_real t205 = C_j[4] * t196 - C_j[3] * t195;
+    const jg_real t206 = A_j[8] * omega_i[1];
+    const jg_real t207 = A_j[5] * omega_i[1];
+    const jg_real t208 = s_j[1] * t206 - s_j[2] * t207;
+    const jg_real t209 = A_j[5] * A_ij_6 - A_j[8] * A_ij_3;
+    const jg_real t210 = omega_i[0] * t120 - omega_i[2] * t209;
+    const jg_real t211 = s_j[2] * t210 - s_j[0] * t206;
+    const jg_real t212 = s_j[0] * t207 - s_j[1] * t210;
+    const jg_real t213 = t209 * v_2_in_j_0;
+    const jg_real t214 = omega_i[0] * v_4_world_2;
+    const jg_real t215 = A_j[5] * g_star_in_i_1;
+    const jg_real t216 = C_i[6] * t120 - C_i[8] * t209;
+    const jg_real t217 = A_j[5] * C_i[7];
+    const jg_real t218 = t120 * g_star_in_i_0 - t209 * g_star_in_i_2;
+    const jg_real t219 = h_star_in_j_1 * t218 + t217 * g_star_in_j_0 - (h_star_in_j_0 * t215 + t216 *
         g_star_in_j_1);
-    const jg_real t223 = A_j[8] * g_star_in_i_1;
-    const jg_real t224 = A_j[8] * C_i[7];
-    const jg_real t225 = h_star_in_j_0 * t223 + t219 * g_star_in_j_2 - (h_star_in_j_2 * t221 + t224 *
+    const jg_real t220 = A_j[8] * g_star_in_i_1;
+    const jg_real t221 = A_j[8] * C_i[7];
+    const jg_real t222 = h_star_in_j_0 * t220 + t216 * g_star_in_j_2 - (h_star_in_j_2 * t218 + t221 *
         g_star_in_j_0);
-    const jg_real t226 = h_star_in_j_2 * t218 + t224 * g_star_in_j_1 - (h_star_in_j_1 * t223 + t220 *
+    const jg_real t223 = h_star_in_j_2 * t215 + t221 * g_star_in_j_1 - (h_star_in_j_1 * t220 + t217 *
         g_star_in_j_2);
-    const jg_real t227 = C_j[8] * t218 - C_j[7] * t223;
-    const jg_real t228 = C_j[6] * t223 - C_j[8] * t221;
-    const jg_real t229 = C_j[7] * t221 - C_j[6] * t218;
-    const jg_real t230 = t220 * C_j[2] - t224 * C_j[1];
-    const jg_real t231 = t224 * C_j[0] - C_j[2] * t219;
-    const jg_real t232 = C_j[1] * t219 - t220 * C_j[0];
-    const jg_real t233 = C_j[5] * t225 - C_j[4] * t222;
-    const jg_real t234 = C_j[3] * t222 - C_j[5] * t226;
-    const jg_real t235 = C_j[4] * t226 - C_j[3] * t225;
-    const jg_real t236 = A_j[6] * omega_i[2];
-    const jg_real t237 = A_j[3] * omega_i[2];
-    const jg_real t238 = s_j[1] * t236 - s_j[2] * t237;
-    const jg_real t239 = omega_i[0] * t23 + omega_i[1] * t158;
-    const jg_real t240 = s_j[2] * t239 - s_j[0] * t236;
-    const jg_real t241 = s_j[0] * t237 - s_j[1] * t239;
-    jac_phi_q_v_A_i[29] = t182 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t208 + (t186 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t206 + (t183 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t207)) + alphadot[1] * (C_j[3] *
-        t194 + C_j[4] * t191 + C_j[5] * t196) - (omega_j[0] * t206 + omega_j[1] * t207 + omega_j[2] * t208);
-    jac_phi_q_v_A_i[30] = t132 + A_ij_0 * t211 + A_ij_3 * t214 + A_ij_6 * t215 + t134;
-    jac_phi_q_v_A_i[31] = t121 + A_ij_7 * t215 + (t127 + A_ij_4 * t214 + A_ij_1 * t211) + t131;
-    jac_phi_q_v_A_i[32] = A_ij_2 * t211 - t216 + A_ij_5 * t214 + A_ij_8 * t215 - t217;
-    jac_phi_q_v_A_i[33] = t209 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t229 + (t213 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t227 + (t210 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t228)) - alphadot[1] * (C_j[7] *
-        t225 + C_j[6] * t226 + C_j[8] * t222) - (omega_j[0] * t227 + omega_j[1] * t228 + omega_j[2] * t229);
-    jac_phi_q_v_A_i[34] = t209 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t232 + (t213 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t230 + (t210 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t231)) - (omega_j[1] * t231 +
-        omega_j[0] * t230 + omega_j[2] * t232);
-    jac_phi_q_v_A_i[35] = t209 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t235 + (t213 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t233 + (t210 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t234)) + alphadot[1] * (C_j[3] *
-        t221 + C_j[4] * t218 + C_j[5] * t223) - (omega_j[0] * t233 + omega_j[1] * t234 + omega_j[2] * t235);
-    jac_phi_q_v_A_i[36] = t44 + A_ij_0 * t238 + A_ij_3 * t240 + A_ij_6 * t241 + t45;
-    const jg_real t242 = A_j[3] * g_star_in_i_2;
-    const jg_real t243 = C_i[6] * t23 + C_i[7] * t158;
-    const jg_real t244 = A_j[3] * C_i[8];
-    const jg_real t245 = t23 * g_star_in_i_0 + t158 * g_star_in_i_1;
-    const jg_real t246 = h_star_in_j_1 * t245 + t244 * g_star_in_j_0 - (h_star_in_j_0 * t242 + t243 *
+    const jg_real t224 = C_j[8] * t215 - C_j[7] * t220;
+    const jg_real t225 = C_j[6] * t220 - C_j[8] * t218;
+    const jg_real t226 = C_j[7] * t218 - C_j[6] * t215;
+    const jg_real t227 = t217 * C_j[2] - t221 * C_j[1];
+    const jg_real t228 = t221 * C_j[0] - C_j[2] * t216;
+    const jg_real t229 = C_j[1] * t216 - t217 * C_j[0];
+    const jg_real t230 = C_j[5] * t222 - C_j[4] * t219;
+    const jg_real t231 = C_j[3] * t219 - C_j[5] * t223;
+    const jg_real t232 = C_j[4] * t223 - C_j[3] * t222;
+    const jg_real t233 = A_j[6] * omega_i[2];
+    const jg_real t234 = A_j[3] * omega_i[2];
+    const jg_real t235 = s_j[1] * t233 - s_j[2] * t234;
+    const jg_real t236 = omega_i[0] * t26 + omega_i[1] * t155;
+    const jg_real t237 = s_j[2] * t236 - s_j[0] * t233;
+    const jg_real t238 = s_j[0] * t234 - s_j[1] * t236;
+    jac_phi_q_v_A_i[29] = t179 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t205 + (t183 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t203 + (t180 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t204)) + alphadot[1] * (C_j[3] *
+        t191 + C_j[4] * t188 + C_j[5] * t193) - (omega_j[0] * t203 + omega_j[1] * t204 + omega_j[2] * t205);
+    jac_phi_q_v_A_i[30] = t129 + A_ij_0 * t208 + A_ij_3 * t211 + A_ij_6 * t212 + t131;
+    jac_phi_q_v_A_i[31] = t119 + A_ij_7 * t212 + (t125 + A_ij_4 * t211 + A_ij_1 * t208);
+    jac_phi_q_v_A_i[32] = A_ij_2 * t208 - t213 + A_ij_5 * t211 + A_ij_8 * t212 - t214;
+    jac_phi_q_v_A_i[33] = t206 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t226 + (t210 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t224 + (t207 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t225)) - alphadot[1] * (C_j[7] *
+        t222 + C_j[6] * t223 + C_j[8] * t219) - (omega_j[0] * t224 + omega_j[1] * t225 + omega_j[2] * t226);
+    jac_phi_q_v_A_i[34] = t206 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t229 + (t210 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t227 + (t207 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t228)) - (omega_j[1] * t228 +
+        omega_j[0] * t227 + omega_j[2] * t229);
+    jac_phi_q_v_A_i[35] = t206 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t232 + (t210 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t230 + (t207 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t231)) + alphadot[1] * (C_j[3] *
+        t218 + C_j[4] * t215 + C_j[5] * t220) - (omega_j[0] * t230 + omega_j[1] * t231 + omega_j[2] * t232);
+    jac_phi_q_v_A_i[36] = t43 + A_ij_0 * t235 + A_ij_3 * t237 + A_ij_6 * t238 - t44;
+    const jg_real t239 = A_j[3] * g_star_in_i_2;
+    const jg_real t240 = C_i[6] * t26 + C_i[7] * t155;
+    const jg_real t241 = A_j[3] * C_i[8];
+    const jg_real t242 = t26 * g_star_in_i_0 + t155 * g_star_in_i_1;
+    const jg_real t243 = h_star_in_j_1 * t242 + t241 * g_star_in_j_0 - (h_star_in_j_0 * t239 + t240 *
         g_star_in_j_1);
-    const jg_real t247 = A_j[6] * g_star_in_i_2;
-    const jg_real t248 = A_j[6] * C_i[8];
-    const jg_real t249 = h_star_in_j_0 * t247 + t243 * g_star_in_j_2 - (h_star_in_j_2 * t245 + t248 *
+    const jg_real t244 = A_j[6] * g_star_in_i_2;
+    const jg_real t245 = A_j[6] * C_i[8];
+    const jg_real t246 = h_star_in_j_0 * t244 + t240 * g_star_in_j_2 - (h_star_in_j_2 * t242 + t245 *
         g_star_in_j_0);
-    const jg_real t250 = h_star_in_j_2 * t242 + t248 * g_star_in_j_1 - (h_star_in_j_1 * t247 + t244 *
+    const jg_real t247 = h_star_in_j_2 * t239 + t245 * g_star_in_j_1 - (h_star_in_j_1 * t244 + t241 *
         g_star_in_j_2);
-    const jg_real t251 = C_j[8] * t242 - C_j[7] * t247;
-    const jg_real t252 = C_j[6] * t247 - C_j[8] * t245;
-    const jg_real t253 = C_j[7] * t245 - C_j[6] * t242;
-    const jg_real t254 = t244 * C_j[2] - t248 * C_j[1];
-    const jg_real t255 = t248 * C_j[0] - t243 * C_j[2];
-    const jg_real t256 = t243 * C_j[1] - t244 * C_j[0];
-    const jg_real t257 = C_j[5] * t249 - C_j[4] * t246;
-    const jg_real t258 = C_j[3] * t246 - C_j[5] * t250;
-    const jg_real t259 = C_j[4] * t250 - C_j[3] * t249;
-    const jg_real t260 = A_j[7] * omega_i[2];
-    const jg_real t261 = A_j[4] * omega_i[2];
-    const jg_real t262 = s_j[1] * t260 - s_j[2] * t261;
-    const jg_real t263 = omega_i[0] * t89 + omega_i[1] * t185;
-    const jg_real t264 = s_j[2] * t263 - s_j[0] * t260;
-    const jg_real t265 = s_j[0] * t261 - s_j[1] * t263;
-    jac_phi_q_v_A_i[37] = t162 + A_ij_1 * t238 + A_ij_4 * t240 + A_ij_7 * t241 + t163;
-    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t241 + (t29 + A_ij_5 * t240 + A_ij_2 * t238) + t37;
-    jac_phi_q_v_A_i[39] = t236 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t253 + (t239 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t251 + (t237 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t252)) - alphadot[1] * (C_j[7] *
-        t249 + C_j[6] * t250 + C_j[8] * t246) - (omega_j[0] * t251 + omega_j[1] * t252 + omega_j[2] * t253);
-    jac_phi_q_v_A_i[40] = t236 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t256 + (t239 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t254 + (t237 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t255)) - (omega_j[1] * t255 +
-        omega_j[0] * t254 + omega_j[2] * t256);
-    jac_phi_q_v_A_i[41] = t236 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t259 + (t239 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t257 + (t237 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t258)) + alphadot[1] * (C_j[3] *
-        t245 + C_j[4] * t242 + C_j[5] * t247) - (omega_j[0] * t257 + omega_j[1] * t258 + omega_j[2] * t259);
-    jac_phi_q_v_A_i[42] = t101 + A_ij_0 * t262 + A_ij_3 * t264 + A_ij_6 * t265 + t102;
-    jac_phi_q_v_A_i[43] = t189 + A_ij_1 * t262 + A_ij_4 * t264 + A_ij_7 * t265 + t190;
-    jac_phi_q_v_A_i[44] = t87 + A_ij_8 * t265 + (t93 + A_ij_5 * t264 + A_ij_2 * t262) + t97;
-    const jg_real t266 = A_j[4] * g_star_in_i_2;
-    const jg_real t267 = C_i[6] * t89 + C_i[7] * t185;
-    const jg_real t268 = A_j[4] * C_i[8];
-    const jg_real t269 = t89 * g_star_in_i_0 + t185 * g_star_in_i_1;
-    const jg_real t270 = h_star_in_j_1 * t269 + t268 * g_star_in_j_0 - (h_star_in_j_0 * t266 + t267 *
+    const jg_real t248 = C_j[8] * t239 - C_j[7] * t244;
+    const jg_real t249 = C_j[6] * t244 - C_j[8] * t242;
+    const jg_real t250 = C_j[7] * t242 - C_j[6] * t239;
+    const jg_real t251 = t241 * C_j[2] - t245 * C_j[1];
+    const jg_real t252 = t245 * C_j[0] - t240 * C_j[2];
+    const jg_real t253 = t240 * C_j[1] - t241 * C_j[0];
+    const jg_real t254 = C_j[5] * t246 - C_j[4] * t243;
+    const jg_real t255 = C_j[3] * t243 - C_j[5] * t247;
+    const jg_real t256 = C_j[4] * t247 - C_j[3] * t246;
+    const jg_real t257 = A_j[7] * omega_i[2];
+    const jg_real t258 = A_j[4] * omega_i[2];
+    const jg_real t259 = s_j[1] * t257 - s_j[2] * t258;
+    const jg_real t260 = omega_i[0] * t88 + omega_i[1] * t182;
+    const jg_real t261 = s_j[2] * t260 - s_j[0] * t257;
+    const jg_real t262 = s_j[0] * t258 - s_j[1] * t260;
+    jac_phi_q_v_A_i[37] = t159 + A_ij_1 * t235 + A_ij_4 * t237 + A_ij_7 * t238 + t160;
+    jac_phi_q_v_A_i[38] = t24 + A_ij_8 * t238 + (t34 + A_ij_5 * t237 + A_ij_2 * t235);
+    jac_phi_q_v_A_i[39] = t233 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t250 + (t236 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t248 + (t234 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t249)) - alphadot[1] * (C_j[7] *
+        t246 + C_j[6] * t247 + C_j[8] * t243) - (omega_j[0] * t248 + omega_j[1] * t249 + omega_j[2] * t250);
+    jac_phi_q_v_A_i[40] = t233 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t253 + (t236 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t251 + (t234 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t252)) - (omega_j[1] * t252 +
+        omega_j[0] * t251 + omega_j[2] * t253);
+    jac_phi_q_v_A_i[41] = t233 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t256 + (t236 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t254 + (t234 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t255)) + alphadot[1] * (C_j[3] *
+        t242 + C_j[4] * t239 + C_j[5] * t244) - (omega_j[0] * t254 + omega_j[1] * t255 + omega_j[2] * t256);
+    jac_phi_q_v_A_i[42] = t99 + A_ij_0 * t259 + A_ij_3 * t261 + A_ij_6 * t262 - t100;
+    jac_phi_q_v_A_i[43] = t186 + A_ij_1 * t259 + A_ij_4 * t261 + A_ij_7 * t262 + t187;
+    jac_phi_q_v_A_i[44] = t86 + A_ij_8 * t262 + (t92 + A_ij_5 * t261 + A_ij_2 * t259);
+    const jg_real t263 = A_j[4] * g_star_in_i_2;
+    const jg_real t264 = C_i[6] * t88 + C_i[7] * t182;
+    const jg_real t265 = A_j[4] * C_i[8];
+    const jg_real t266 = t88 * g_star_in_i_0 + t182 * g_star_in_i_1;
+    const jg_real t267 = h_star_in_j_1 * t266 + t265 * g_star_in_j_0 - (h_star_in_j_0 * t263 + t264 *
         g_star_in_j_1);
-    const jg_real t271 = A_j[7] * g_star_in_i_2;
-    const jg_real t272 = A_j[7] * C_i[8];
-    const jg_real t273 = h_star_in_j_0 * t271 + t267 * g_star_in_j_2 - (h_star_in_j_2 * t269 + t272 *
+    const jg_real t268 = A_j[7] * g_star_in_i_2;
+    const jg_real t269 = A_j[7] * C_i[8];
+    const jg_real t270 = h_star_in_j_0 * t268 + t264 * g_star_in_j_2 - (h_star_in_j_2 * t266 + t269 *
         g_star_in_j_0);
-    const jg_real t274 = h_star_in_j_2 * t266 + t272 * g_star_in_j_1 - (h_star_in_j_1 * t271 + t268 *
+    const jg_real t271 = h_star_in_j_2 * t263 + t269 * g_star_in_j_1 - (h_star_in_j_1 * t268 + t265 *
         g_star_in_j_2);
-    const jg_real t275 = C_j[8] * t266 - C_j[7] * t271;
-    const jg_real t276 = C_j[6] * t271 - C_j[8] * t269;
-    const jg_real t277 = C_j[7] * t269 - C_j[6] * t266;
-    const jg_real t278 = t268 * C_j[2] - t272 * C_j[1];
-    const jg_real t279 = t272 * C_j[0] - t267 * C_j[2];
-    const jg_real t280 = t267 * C_j[1] - t268 * C_j[0];
-    const jg_real t281 = C_j[5] * t273 - C_j[4] * t270;
-    const jg_real t282 = C_j[3] * t270 - C_j[5] * t274;
-    const jg_real t283 = C_j[4] * t274 - C_j[3] * t273;
-    const jg_real t284 = A_j[8] * omega_i[2];
-    const jg_real t285 = A_j[5] * omega_i[2];
-    const jg_real t286 = s_j[1] * t284 - s_j[2] * t285;
-    const jg_real t287 = omega_i[0] * t123 + omega_i[1] * t212;
-    const jg_real t288 = s_j[2] * t287 - s_j[0] * t284;
-    const jg_real t289 = s_j[0] * t285 - s_j[1] * t287;
-    const jg_real t290 = A_j[5] * g_star_in_i_2;
-    const jg_real t291 = C_i[6] * t123 + C_i[7] * t212;
-    const jg_real t292 = A_j[5] * C_i[8];
-    const jg_real t293 = t123 * g_star_in_i_0 + t212 * g_star_in_i_1;
-    const jg_real t294 = h_star_in_j_1 * t293 + t292 * g_star_in_j_0 - (h_star_in_j_0 * t290 + t291 *
+    const jg_real t272 = C_j[8] * t263 - C_j[7] * t268;
+    const jg_real t273 = C_j[6] * t268 - C_j[8] * t266;
+    const jg_real t274 = C_j[7] * t266 - C_j[6] * t263;
+    const jg_real t275 = t265 * C_j[2] - t269 * C_j[1];
+    const jg_real t276 = t269 * C_j[0] - t264 * C_j[2];
+    const jg_real t277 = t264 * C_j[1] - t265 * C_j[0];
+    const jg_real t278 = C_j[5] * t270 - C_j[4] * t267;
+    const jg_real t279 = C_j[3] * t267 - C_j[5] * t271;
+    const jg_real t280 = C_j[4] * t271 - C_j[3] * t270;
+    const jg_real t281 = A_j[8] * omega_i[2];
+    const jg_real t282 = A_j[5] * omega_i[2];
+    const jg_real t283 = s_j[1] * t281 - s_j[2] * t282;
+    const jg_real t284 = omega_i[0] * t121 + omega_i[1] * t209;
+    const jg_real t285 = s_j[2] * t284 - s_j[0] * t281;
+    const jg_real t286 = s_j[0] * t282 - s_j[1] * t284;
+    const jg_real t287 = A_j[5] * g_star_in_i_2;
+    const jg_real t288 = C_i[6] * t121 + C_i[7] * t209;
+    const jg_real t289 = A_j[5] * C_i[8];
+    const jg_real t290 = t121 * g_star_in_i_0 + t209 * g_star_in_i_1;
+    const jg_real t291 = h_star_in_j_1 * t290 + t289 * g_star_in_j_0 - (h_star_in_j_0 * t287 + t288 *
         g_star_in_j_1);
-    const jg_real t295 = A_j[8] * g_star_in_i_2;
-    const jg_real t296 = A_j[8] * C_i[8];
-    const jg_real t297 = h_star_in_j_0 * t295 + t291 * g_star_in_j_2 - (h_star_in_j_2 * t293 + t296 *
+    const jg_real t292 = A_j[8] * g_star_in_i_2;
+    const jg_real t293 = A_j[8] * C_i[8];
+    const jg_real t294 = h_star_in_j_0 * t292 + t288 * g_star_in_j_2 - (h_star_in_j_2 * t290 + t293 *
         g_star_in_j_0);
-    const jg_real t298 = h_star_in_j_2 * t290 + t296 * g_star_in_j_1 - (h_star_in_j_1 * t295 + t292 *
+    const jg_real t295 = h_star_in_j_2 * t287 + t293 * g_star_in_j_1 - (h_star_in_j_1 * t292 + t289 *
         g_star_in_j_2);
-    const jg_real t299 = C_j[8] * t290 - C_j[7] * t295;
-    const jg_real t300 = C_j[6] * t295 - C_j[8] * t293;
-    const jg_real t301 = C_j[7] * t293 - C_j[6] * t290;
-    const jg_real t302 = t292 * C_j[2] - t296 * C_j[1];
-    const jg_real t303 = t296 * C_j[0] - t291 * C_j[2];
-    const jg_real t304 = t291 * C_j[1] - t292 * C_j[0];
-    jac_phi_q_v_A_i[45] = t260 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t277 + (t263 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t275 + (t261 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t276)) - alphadot[1] * (C_j[7] *
-        t273 + C_j[6] * t274 + C_j[8] * t270) - (omega_j[0] * t275 + omega_j[1] * t276 + omega_j[2] * t277);
-    jac_phi_q_v_A_i[46] = t260 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t280 + (t263 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t278 + (t261 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t279)) - (omega_j[1] * t279 +
-        omega_j[0] * t278 + omega_j[2] * t280);
-    jac_phi_q_v_A_i[47] = t260 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t283 + (t263 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t281 + (t261 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t282)) + alphadot[1] * (C_j[3] *
-        t269 + C_j[4] * t266 + C_j[5] * t271) - (omega_j[0] * t281 + omega_j[1] * t282 + omega_j[2] * t283);
-    jac_phi_q_v_A_i[48] = t135 + A_ij_0 * t286 + A_ij_3 * t288 + A_ij_6 * t289 + t136;
-    jac_phi_q_v_A_i[49] = t216 + A_ij_1 * t286 + A_ij_4 * t288 + A_ij_7 * t289 + t217;
-    jac_phi_q_v_A_i[50] = t121 + A_ij_8 * t289 + (t127 + A_ij_5 * t288 + A_ij_2 * t286) + t131;
-    jac_phi_q_v_A_i[51] = t284 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t301 + (t287 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t299 + (t285 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t300)) - alphadot[1] * (C_j[7] *
-        t297 + C_j[6] * t298 + C_j[8] * t294) - (omega_j[0] * t299 + omega_j[1] * t300 + omega_j[2] * t301);
-    jac_phi_q_v_A_i[52] = t284 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t304 + (t287 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t302 + (t285 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t303)) - (omega_j[1] * t303 +
-        omega_j[0] * t302 + omega_j[2] * t304);
-    const jg_real t305 = C_j[5] * t297 - C_j[4] * t294;
-    const jg_real t306 = C_j[3] * t294 - C_j[5] * t298;
-    const jg_real t307 = C_j[4] * t298 - C_j[3] * t297;
-    const jg_real t308 = A_i[3] * A_ij_8 - A_i[6] * A_ij_7;
-    const jg_real t309 = A_i[3] * omega_i[1] + A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
-    const jg_real t310 = s_j[2] * t309;
-    const jg_real t311 = A_i[6] * A_ij_6 - A_i[0] * A_ij_8;
-    const jg_real t312 = A_i[0] * A_ij_7 - A_i[3] * A_ij_6;
-    const jg_real t313 = omega_i[0] * t308 + omega_i[1] * t311 + omega_i[2] * t312;
-    const jg_real t314 = s_j[2] * t313;
-    const jg_real t315 = s_j[0] * t309;
-    const jg_real t316 = t315 - s_j[1] * t313;
-    const jg_real t317 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
-    const jg_real t318 = h_star_in_j_0 * t317;
-    const jg_real t319 = C_i[6] * t308 + C_i[7] * t311 + t312 * C_i[8];
-    const jg_real t320 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t321 = t320 * g_star_in_j_0;
-    const jg_real t322 = t308 * g_star_in_i_0 + t311 * g_star_in_i_1 + t312 * g_star_in_i_2;
-    const jg_real t323 = h_star_in_j_1 * t322 + t321 - (t318 + t319 * g_star_in_j_1);
-    const jg_real t324 = t319 * g_star_in_j_2 - h_star_in_j_2 * t322;
-    const jg_real t325 = h_star_in_j_2 * t317 - t320 * g_star_in_j_2;
-    const jg_real t326 = C_j[8] * t317;
-    const jg_real t327 = C_j[8] * t322;
-    const jg_real t328 = C_j[6] * t317;
-    const jg_real t329 = C_j[7] * t322 - t328;
-    const jg_real t330 = t320 * C_j[2];
-    const jg_real t331 = C_j[2] * t319;
-    const jg_real t332 = t320 * C_j[0];
-    const jg_real t333 = C_j[1] * t319 - t332;
-    const jg_real t334 = C_j[5] * t324 - C_j[4] * t323;
-    const jg_real t335 = C_j[3] * t323 - C_j[5] * t325;
-    const jg_real t336 = C_j[4] * t325 - C_j[3] * t324;
-    const jg_real t337 = A_i[4] * A_ij_8 - A_i[7] * A_ij_7;
-    const jg_real t338 = A_i[4] * omega_i[1] + A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
-    const jg_real t339 = s_j[2] * t338;
-    const jg_real t340 = A_i[7] * A_ij_6 - A_i[1] * A_ij_8;
-    const jg_real t341 = A_i[1] * A_ij_7 - A_i[4] * A_ij_6;
-    const jg_real t342 = omega_i[0] * t337 + omega_i[1] * t340 + omega_i[2] * t341;
-    const jg_real t343 = s_j[2] * t342;
-    const jg_real t344 = s_j[0] * t338;
-    const jg_real t345 = t344 - s_j[1] * t342;
-    jac_phi_q_v_A_i[53] = t284 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t307 + (t287 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t305 + (t285 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t306)) + alphadot[1] * (C_j[3] *
-        t293 + C_j[4] * t290 + C_j[5] * t295) - (omega_j[0] * t305 + omega_j[1] * t306 + omega_j[2] * t307);
-    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_1 + v_0_in_j_0 * t308 + (t308 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t310
-        + (A_i[0] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t314) + A_ij_6 * t316);
-    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_1 + v_0_in_j_0 * t311 + (t311 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t310
-        + (A_i[3] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t314) + A_ij_7 * t316);
-    jac_phi_q_v_A_j[2] = v_0_in_j_0 * t312 + A_i[6] * v_0_in_j_1 + (t312 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t310
-        + (A_i[6] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t314) + A_ij_8 * t316);
-    jac_phi_q_v_A_j[3] = t313 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t326 + (t309 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t327) + omega_i_in_j_2 * t329 - alphadot[1] * (C_j[7] * t324 + C_j[6] * t325 + C_j[8] *
-        t323) - (omega_j[0] * t326 - omega_j[1] * t327 + omega_j[2] * t329);
-    jac_phi_q_v_A_j[4] = t313 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t330 + (t309 * h_star_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t331) + omega_i_in_j_2 * t333 - (omega_j[0] * t330 - omega_j[1] * t331 + omega_j[2] *
-        t333);
-    jac_phi_q_v_A_j[5] = t313 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t334 + (t309 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t335) + omega_i_in_j_2 * t336 + alphadot[1] * (C_j[3] * t322 + C_j[4] * t317) - (omega_j[0]
-        * t334 + omega_j[1] * t335 + omega_j[2] * t336);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_1 + v_0_in_j_0 * t337 + (t337 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t339
-        + (A_i[1] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t343) + A_ij_6 * t345);
-    const jg_real t346 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
-    const jg_real t347 = h_star_in_j_0 * t346;
-    const jg_real t348 = C_i[6] * t337 + C_i[7] * t340 + t341 * C_i[8];
-    const jg_real t349 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t350 = t349 * g_star_in_j_0;
-    const jg_real t351 = t337 * g_star_in_i_0 + t340 * g_star_in_i_1 + t341 * g_star_in_i_2;
-    const jg_real t352 = h_star_in_j_1 * t351 + t350 - (t347 + t348 * g_star_in_j_1);
-    const jg_real t353 = t348 * g_star_in_j_2 - h_star_in_j_2 * t351;
-    const jg_real t354 = h_star_in_j_2 * t346 - t349 * g_star_in_j_2;
-    const jg_real t355 = C_j[8] * t346;
-    const jg_real t356 = C_j[8] * t351;
-    const jg_real t357 = C_j[6] * t346;
-    const jg_real t358 = C_j[7] * t351 - t357;
-    const jg_real t359 = t349 * C_j[2];
-    const jg_real t360 = C_j[2] * t348;
-    const jg_real t361 = t349 * C_j[0];
-    const jg_real t362 = C_j[1] * t348 - t361;
-    const jg_real t363 = C_j[5] * t353 - C_j[4] * t352;
-    const jg_real t364 = C_j[3] * t352 - C_j[5] * t354;
-    const jg_real t365 = C_j[4] * t354 - C_j[3] * t353;
-    const jg_real t366 = A_i[5] * A_ij_8 - A_i[8] * A_ij_7;
-    const jg_real t367 = A_i[5] * omega_i[1] + A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
-    const jg_real t368 = s_j[2] * t367;
-    const jg_real t369 = A_i[8] * A_ij_6 - A_i[2] * A_ij_8;
-    const jg_real t370 = A_i[2] * A_ij_7 - A_i[5] * A_ij_6;
-    const jg_real t371 = omega_i[0] * t366 + omega_i[1] * t369 + omega_i[2] * t370;
-    const jg_real t372 = s_j[2] * t371;
-    const jg_real t373 = s_j[0] * t367;
-    const jg_real t374 = t373 - s_j[1] * t371;
-    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_1 + v_0_in_j_0 * t340 + (t340 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t339
-        + (A_i[4] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t343) + A_ij_7 * t345);
-    jac_phi_q_v_A_j[8] = v_0_in_j_0 * t341 + A_i[7] * v_0_in_j_1 + (t341 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t339
-        + (A_i[7] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t343) + A_ij_8 * t345);
-    jac_phi_q_v_A_j[9] = t342 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t355 + (t338 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t356) + omega_i_in_j_2 * t358 - alphadot[1] * (C_j[7] * t353 + C_j[6] * t354 + C_j[8] *
-        t352) - (omega_j[0] * t355 - omega_j[1] * t356 + omega_j[2] * t358);
-    jac_phi_q_v_A_j[10] = t342 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t359 + (t338 * h_star_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t360) + omega_i_in_j_2 * t362 - (omega_j[0] * t359 - omega_j[1] * t360 + omega_j[2] *
-        t362);
-    jac_phi_q_v_A_j[11] = t342 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t363 + (t338 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t364) + omega_i_in_j_2 * t365 + alphadot[1] * (C_j[3] * t351 + C_j[4] * t346) - (omega_j[0]
-        * t363 + omega_j[1] * t364 + omega_j[2] * t365);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_1 + v_0_in_j_0 * t366 + (t366 * s_j_cross_omega_i_in_j_0 - A_ij_0 * t368
-        + (A_i[2] * s_j_cross_omega_i_in_j_1 + A_ij_3 * t372) + A_ij_6 * t374);
-    jac_phi_q_v_A_j[13] = A_i[5] * v_0_in_j_1 + v_0_in_j_0 * t369 + (t369 * s_j_cross_omega_i_in_j_0 - A_ij_1 * t368
-        + (A_i[5] * s_j_cross_omega_i_in_j_1 + A_ij_4 * t372) + A_ij_7 * t374);
-    jac_phi_q_v_A_j[14] = v_0_in_j_0 * t370 + A_i[8] * v_0_in_j_1 + (t370 * s_j_cross_omega_i_in_j_0 - A_ij_2 * t368
-        + (A_i[8] * s_j_cross_omega_i_in_j_1 + A_ij_5 * t372) + A_ij_8 * t374);
-    const jg_real t375 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
-    const jg_real t376 = h_star_in_j_0 * t375;
-    const jg_real t377 = C_i[6] * t366 + C_i[7] * t369 + t370 * C_i[8];
-    const jg_real t378 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t379 = t378 * g_star_in_j_0;
-    const jg_real t380 = t366 * g_star_in_i_0 + t369 * g_star_in_i_1 + t370 * g_star_in_i_2;
-    const jg_real t381 = h_star_in_j_1 * t380 + t379 - (t376 + t377 * g_star_in_j_1);
-    const jg_real t382 = t377 * g_star_in_j_2 - h_star_in_j_2 * t380;
-    const jg_real t383 = h_star_in_j_2 * t375 - t378 * g_star_in_j_2;
-    const jg_real t384 = C_j[8] * t375;
-    const jg_real t385 = C_j[8] * t380;
-    const jg_real t386 = C_j[6] * t375;
-    const jg_real t387 = C_j[7] * t380 - t386;
-    const jg_real t388 = t378 * C_j[2];
-    const jg_real t389 = C_j[2] * t377;
-    const jg_real t390 = t378 * C_j[0];
-    const jg_real t391 = C_j[1] * t377 - t390;
-    const jg_real t392 = C_j[5] * t382 - C_j[4] * t381;
-    const jg_real t393 = C_j[3] * t381 - C_j[5] * t383;
-    const jg_real t394 = C_j[4] * t383 - C_j[3] * t382;
-    const jg_real t395 = A_i[6] * A_ij_4 - A_i[3] * A_ij_5;
-    const jg_real t396 = A_i[0] * A_ij_5 - A_i[6] * A_ij_3;
-    const jg_real t397 = A_i[3] * A_ij_3 - A_i[0] * A_ij_4;
-    const jg_real t398 = omega_i[0] * t395 + omega_i[1] * t396 + omega_i[2] * t397;
-    const jg_real t399 = s_j[1] * t398;
-    const jg_real t400 = s_j[1] * t309;
-    const jg_real t401 = s_j[2] * t398 - t315;
-    const jg_real t402 = C_j[7] * t317;
-    const jg_real t403 = t395 * g_star_in_i_0 + t396 * g_star_in_i_1 + t397 * g_star_in_i_2;
-    const jg_real t404 = t328 - C_j[8] * t403;
-    const jg_real t405 = C_j[7] * t403;
-    const jg_real t406 = C_i[6] * t395 + C_i[7] * t396 + t397 * C_i[8];
-    const jg_real t407 = t318 + t406 * g_star_in_j_2 - (t321 + h_star_in_j_2 * t403);
-    const jg_real t408 = t320 * g_star_in_j_1 - h_star_in_j_1 * t317;
-    const jg_real t409 = h_star_in_j_1 * t403 - t406 * g_star_in_j_1;
-    const jg_real t410 = t320 * C_j[1];
-    const jg_real t411 = t332 - C_j[2] * t406;
-    const jg_real t412 = C_j[1] * t406;
-    jac_phi_q_v_A_j[15] = t371 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t384 + (t367 * g_star_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t385) + omega_i_in_j_2 * t387 - alphadot[1] * (C_j[7] * t382 + C_j[6] * t383 + C_j[8] *
-        t381) - (omega_j[0] * t384 - omega_j[1] * t385 + omega_j[2] * t387);
-    jac_phi_q_v_A_j[16] = t371 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t388 + (t367 * h_star_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t389) + omega_i_in_j_2 * t391 - (omega_j[0] * t388 - omega_j[1] * t389 + omega_j[2] *
-        t391);
-    jac_phi_q_v_A_j[17] = t371 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t392 + (t367 * f_star_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t393) + omega_i_in_j_2 * t394 + alphadot[1] * (C_j[3] * t380 + C_j[4] * t375) - (omega_j[0]
-        * t392 + omega_j[1] * t393 + omega_j[2] * t394);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_0_in_j_2 + v_0_in_j_0 * t395 + (A_i[0] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
-        t399 + (t395 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t400 + A_ij_3 * t401));
-    jac_phi_q_v_A_j[19] = v_0_in_j_0 * t396 + A_i[3] * v_0_in_j_2 + (A_i[3] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
-        t399 + (t396 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t400 + A_ij_4 * t401));
-    jac_phi_q_v_A_j[20] = v_0_in_j_0 * t397 + A_i[6] * v_0_in_j_2 + (A_i[6] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
-        t399 + (t397 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t400 + A_ij_5 * t401));
-    jac_phi_q_v_A_j[21] = t309 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t405 + (t398 * g_star_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t402 + omega_i_in_j_1 * t404) - alphadot[1] * (C_j[7] * t407 + C_j[6] * t408 + C_j[8] *
-        t409) - (omega_j[1] * t404 - omega_j[0] * t402 + omega_j[2] * t405);
-    jac_phi_q_v_A_j[22] = t309 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t412 + (t398 * h_star_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t410 + omega_i_in_j_1 * t411) - (omega_j[1] * t411 - omega_j[0] * t410 + omega_j[2] *
-        t412);
-    const jg_real t413 = C_j[4] * t408 - C_j[3] * t407;
-    const jg_real t414 = C_j[5] * t407 - C_j[4] * t409;
-    const jg_real t415 = C_j[3] * t409 - C_j[5] * t408;
-    const jg_real t416 = A_i[7] * A_ij_4 - A_i[4] * A_ij_5;
-    const jg_real t417 = A_i[1] * A_ij_5 - A_i[7] * A_ij_3;
-    const jg_real t418 = A_i[4] * A_ij_3 - A_i[1] * A_ij_4;
-    const jg_real t419 = omega_i[0] * t416 + omega_i[1] * t417 + omega_i[2] * t418;
-    const jg_real t420 = s_j[1] * t419;
-    const jg_real t421 = s_j[1] * t338;
-    const jg_real t422 = s_j[2] * t419 - t344;
-    const jg_real t423 = C_j[7] * t346;
-    const jg_real t424 = t416 * g_star_in_i_0 + t417 * g_star_in_i_1 + t418 * g_star_in_i_2;
-    const jg_real t425 = t357 - C_j[8] * t424;
-    const jg_real t426 = C_j[7] * t424;
-    const jg_real t427 = C_i[6] * t416 + C_i[7] * t417 + t418 * C_i[8];
-    const jg_real t428 = t347 + t427 * g_star_in_j_2 - (t350 + h_star_in_j_2 * t424);
-    const jg_real t429 = t349 * g_star_in_j_1 - h_star_in_j_1 * t346;
-    const jg_real t430 = h_star_in_j_1 * t424 - t427 * g_star_in_j_1;
-    const jg_real t431 = t349 * C_j[1];
-    const jg_real t432 = t361 - C_j[2] * t427;
-    const jg_real t433 = C_j[1] * t427;
-    const jg_real t434 = C_j[4] * t429 - C_j[3] * t428;
-    const jg_real t435 = C_j[5] * t428 - C_j[4] * t430;
-    const jg_real t436 = C_j[3] * t430 - C_j[5] * t429;
-    const jg_real t437 = A_i[8] * A_ij_4 - A_i[5] * A_ij_5;
-    const jg_real t438 = A_i[2] * A_ij_5 - A_i[8] * A_ij_3;
-    const jg_real t439 = A_i[5] * A_ij_3 - A_i[2] * A_ij_4;
-    const jg_real t440 = omega_i[0] * t437 + omega_i[1] * t438 + omega_i[2] * t439;
-    const jg_real t441 = s_j[1] * t440;
-    const jg_real t442 = s_j[1] * t367;
-    const jg_real t443 = s_j[2] * t440 - t373;
-    jac_phi_q_v_A_j[23] = t309 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t413 + (t398 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t414 + omega_i_in_j_1 * t415) + alphadot[1] * (C_j[3] * t403 + C_j[5] * t317) - (omega_j[0]
-        * t414 + omega_j[1] * t415 + omega_j[2] * t413);
-    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_0 * t416 + (A_i[1] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
-        t420 + (t416 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t421 + A_ij_3 * t422));
-    jac_phi_q_v_A_j[25] = v_0_in_j_0 * t417 + A_i[4] * v_0_in_j_2 + (A_i[4] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
-        t420 + (t417 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t421 + A_ij_4 * t422));
-    jac_phi_q_v_A_j[26] = v_0_in_j_0 * t418 + A_i[7] * v_0_in_j_2 + (A_i[7] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
-        t420 + (t418 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t421 + A_ij_5 * t422));
-    jac_phi_q_v_A_j[27] = t338 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t426 + (t419 * g_star_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t423 + omega_i_in_j_1 * t425) - alphadot[1] * (C_j[7] * t428 + C_j[6] * t429 + C_j[8] *
-        t430) - (omega_j[1] * t425 - omega_j[0] * t423 + omega_j[2] * t426);
-    jac_phi_q_v_A_j[28] = t338 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t433 + (t419 * h_star_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t431 + omega_i_in_j_1 * t432) - (omega_j[1] * t432 - omega_j[0] * t431 + omega_j[2] *
-        t433);
-    jac_phi_q_v_A_j[29] = t338 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t434 + (t419 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t435 + omega_i_in_j_1 * t436) + alphadot[1] * (C_j[3] * t424 + C_j[5] * t346) - (omega_j[0]
-        * t435 + omega_j[1] * t436 + omega_j[2] * t434);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_0_in_j_2 + v_0_in_j_0 * t437 + (A_i[2] * s_j_cross_omega_i_in_j_2 - A_ij_6 *
-        t441 + (t437 * s_j_cross_omega_i_in_j_0 + A_ij_0 * t442 + A_ij_3 * t443));
-    const jg_real t444 = C_j[7] * t375;
-    const jg_real t445 = t437 * g_star_in_i_0 + t438 * g_star_in_i_1 + t439 * g_star_in_i_2;
-    const jg_real t446 = t386 - C_j[8] * t445;
-    const jg_real t447 = C_j[7] * t445;
-    const jg_real t448 = C_i[6] * t437 + C_i[7] * t438 + t439 * C_i[8];
-    const jg_real t449 = t376 + t448 * g_star_in_j_2 - (t379 + h_star_in_j_2 * t445);
-    const jg_real t450 = t378 * g_star_in_j_1 - h_star_in_j_1 * t375;
-    const jg_real t451 = h_star_in_j_1 * t445 - t448 * g_star_in_j_1;
-    const jg_real t452 = t378 * C_j[1];
-    const jg_real t453 = t390 - C_j[2] * t448;
-    const jg_real t454 = C_j[1] * t448;
-    const jg_real t455 = C_j[4] * t450 - C_j[3] * t449;
-    const jg_real t456 = C_j[5] * t449 - C_j[4] * t451;
-    const jg_real t457 = C_j[3] * t451 - C_j[5] * t450;
-    const jg_real t458 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    const jg_real t459 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    const jg_real t460 = C_i[5] * sine_0 + C_i[2] * cosine_0;
-    const jg_real t461 = A_ij_3 * t458 + A_ij_4 * t459 + A_ij_5 * t460;
-    const jg_real t462 = A_ij_0 * t458 + A_ij_1 * t459 + A_ij_2 * t460;
-    const jg_real t463 = h_star_in_j_0 * t461 - h_star_in_j_1 * t462;
-    const jg_real t464 = A_ij_6 * t458 + A_ij_7 * t459 + A_ij_8 * t460;
-    const jg_real t465 = h_star_in_j_2 * t462 - h_star_in_j_0 * t464;
-    const jg_real t466 = h_star_in_j_1 * t464 - h_star_in_j_2 * t461;
-    const jg_real t467 = C_j[7] * t464 - C_j[8] * t461;
-    const jg_real t468 = C_j[8] * t462 - C_j[6] * t464;
-    const jg_real t469 = C_j[6] * t461 - C_j[7] * t462;
-    const jg_real t470 = C_j[5] * t465 - C_j[4] * t463;
-    const jg_real t471 = C_j[3] * t463 - C_j[5] * t466;
-    const jg_real t472 = C_j[4] * t466 - C_j[3] * t465;
-    const jg_real t473 = A_ij_3 * sine_0;
-    const jg_real t474 = A_ij_0 * sine_0;
-    const jg_real t475 = h_star_in_j_0 * t473 - h_star_in_j_1 * t474;
-    const jg_real t476 = A_ij_6 * sine_0;
-    const jg_real t477 = h_star_in_j_2 * t474 - h_star_in_j_0 * t476;
-    const jg_real t478 = h_star_in_j_1 * t476 - h_star_in_j_2 * t473;
-    const jg_real t479 = C_j[7] * t476 - C_j[8] * t473;
-    const jg_real t480 = C_j[8] * t474 - C_j[6] * t476;
-    const jg_real t481 = C_j[6] * t473 - C_j[7] * t474;
-    jac_phi_q_v_A_j[31] = v_0_in_j_0 * t438 + A_i[5] * v_0_in_j_2 + (A_i[5] * s_j_cross_omega_i_in_j_2 - A_ij_7 *
-        t441 + (t438 * s_j_cross_omega_i_in_j_0 + A_ij_1 * t442 + A_ij_4 * t443));
-    jac_phi_q_v_A_j[32] = v_0_in_j_0 * t439 + A_i[8] * v_0_in_j_2 + (A_i[8] * s_j_cross_omega_i_in_j_2 - A_ij_8 *
-        t441 + (t439 * s_j_cross_omega_i_in_j_0 + A_ij_2 * t442 + A_ij_5 * t443));
-    jac_phi_q_v_A_j[33] = t367 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t447 + (t440 * g_star_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t444 + omega_i_in_j_1 * t446) - alphadot[1] * (C_j[7] * t449 + C_j[6] * t450 + C_j[8] *
-        t451) - (omega_j[1] * t446 - omega_j[0] * t444 + omega_j[2] * t447);
-    jac_phi_q_v_A_j[34] = t367 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t454 + (t440 * h_star_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453) - (omega_j[1] * t453 - omega_j[0] * t452 + omega_j[2] *
-        t454);
-    jac_phi_q_v_A_j[35] = t367 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t455 + (t440 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t456 + omega_i_in_j_1 * t457) + alphadot[1] * (C_j[3] * t445 + C_j[5] * t375) - (omega_j[0]
-        * t456 + omega_j[1] * t457 + omega_j[2] * t455);
-    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t467 + omega_i_in_j_1 * t468 + omega_i_in_j_2 * t469 - alphadot[1] *
-        (C_j[7] * t465 + C_j[6] * t466 + C_j[8] * t463) - (omega_j[0] * t467 + omega_j[1] * t468 + omega_j[2] *
+    const jg_real t296 = C_j[8] * t287 - C_j[7] * t292;
+    const jg_real t297 = C_j[6] * t292 - C_j[8] * t290;
+    const jg_real t298 = C_j[7] * t290 - C_j[6] * t287;
+    const jg_real t299 = t289 * C_j[2] - t293 * C_j[1];
+    const jg_real t300 = t293 * C_j[0] - t288 * C_j[2];
+    const jg_real t301 = t288 * C_j[1] - t289 * C_j[0];
+    jac_phi_q_v_A_i[45] = t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t274 + (t260 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t272 + (t258 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t273)) - alphadot[1] * (C_j[7] *
+        t270 + C_j[6] * t271 + C_j[8] * t267) - (omega_j[0] * t272 + omega_j[1] * t273 + omega_j[2] * t274);
+    jac_phi_q_v_A_i[46] = t257 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t277 + (t260 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t275 + (t258 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t276)) - (omega_j[1] * t276 +
+        omega_j[0] * t275 + omega_j[2] * t277);
+    jac_phi_q_v_A_i[47] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t280 + (t260 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t278 + (t258 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t279)) + alphadot[1] * (C_j[3] *
+        t266 + C_j[4] * t263 + C_j[5] * t268) - (omega_j[0] * t278 + omega_j[1] * t279 + omega_j[2] * t280);
+    jac_phi_q_v_A_i[48] = t132 + A_ij_0 * t283 + A_ij_3 * t285 + A_ij_6 * t286 - t133;
+    jac_phi_q_v_A_i[49] = t213 + A_ij_1 * t283 + A_ij_4 * t285 + A_ij_7 * t286 + t214;
+    jac_phi_q_v_A_i[50] = t119 + A_ij_8 * t286 + (t125 + A_ij_5 * t285 + A_ij_2 * t283);
+    jac_phi_q_v_A_i[51] = t281 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t298 + (t284 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t296 + (t282 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t297)) - alphadot[1] * (C_j[7] *
+        t294 + C_j[6] * t295 + C_j[8] * t291) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
+    jac_phi_q_v_A_i[52] = t281 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t301 + (t284 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t299 + (t282 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t300)) - (omega_j[1] * t300 +
+        omega_j[0] * t299 + omega_j[2] * t301);
+    const jg_real t302 = C_j[5] * t294 - C_j[4] * t291;
+    const jg_real t303 = C_j[3] * t291 - C_j[5] * t295;
+    const jg_real t304 = C_j[4] * t295 - C_j[3] * t294;
+    const jg_real t305 = A_i[3] * A_ij_8 - A_i[6] * A_ij_7;
+    const jg_real t306 = A_i[3] * omega_i[1] + A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t307 = s_j[2] * t306;
+    const jg_real t308 = A_i[6] * A_ij_6 - A_i[0] * A_ij_8;
+    const jg_real t309 = A_i[0] * A_ij_7 - A_i[3] * A_ij_6;
+    const jg_real t310 = omega_i[0] * t305 + omega_i[1] * t308 + omega_i[2] * t309;
+    const jg_real t311 = s_j[2] * t310;
+    const jg_real t312 = s_j[0] * t306;
+    const jg_real t313 = t312 - s_j[1] * t310;
+    const jg_real t314 = A_i[0] * g_star_in_i_0 + A_i[3] * g_star_in_i_1 + A_i[6] * g_star_in_i_2;
+    const jg_real t315 = h_star_in_j_0 * t314;
+    const jg_real t316 = C_i[6] * t305 + C_i[7] * t308 + C_i[8] * t309;
+    const jg_real t317 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t318 = t317 * g_star_in_j_0;
+    const jg_real t319 = t305 * g_star_in_i_0 + t308 * g_star_in_i_1 + t309 * g_star_in_i_2;
+    const jg_real t320 = h_star_in_j_1 * t319 + t318 - (t315 + t316 * g_star_in_j_1);
+    const jg_real t321 = t316 * g_star_in_j_2 - h_star_in_j_2 * t319;
+    const jg_real t322 = h_star_in_j_2 * t314 - t317 * g_star_in_j_2;
+    const jg_real t323 = C_j[8] * t314;
+    const jg_real t324 = C_j[8] * t319;
+    const jg_real t325 = C_j[6] * t314;
+    const jg_real t326 = C_j[7] * t319 - t325;
+    const jg_real t327 = t317 * C_j[2];
+    const jg_real t328 = C_j[2] * t316;
+    const jg_real t329 = t317 * C_j[0];
+    const jg_real t330 = C_j[1] * t316 - t329;
+    const jg_real t331 = C_j[5] * t321 - C_j[4] * t320;
+    const jg_real t332 = C_j[3] * t320 - C_j[5] * t322;
+    const jg_real t333 = C_j[4] * t322 - C_j[3] * t321;
+    const jg_real t334 = A_i[4] * A_ij_8 - A_i[7] * A_ij_7;
+    const jg_real t335 = A_i[4] * omega_i[1] + A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t336 = s_j[2] * t335;
+    const jg_real t337 = A_i[7] * A_ij_6 - A_i[1] * A_ij_8;
+    const jg_real t338 = A_i[1] * A_ij_7 - A_i[4] * A_ij_6;
+    const jg_real t339 = omega_i[0] * t334 + omega_i[1] * t337 + omega_i[2] * t338;
+    const jg_real t340 = s_j[2] * t339;
+    const jg_real t341 = s_j[0] * t335;
+    const jg_real t342 = t341 - s_j[1] * t339;
+    jac_phi_q_v_A_i[53] = t281 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t304 + (t284 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t302 + (t282 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t303)) + alphadot[1] * (C_j[3] *
+        t290 + C_j[4] * t287 + C_j[5] * t292) - (omega_j[0] * t302 + omega_j[1] * t303 + omega_j[2] * t304);
+    jac_phi_q_v_A_j[0] = t305 * v_2_in_j_0 - A_ij_0 * t307 + (A_i[0] * v_2_in_j_1 + A_ij_3 * t311) + A_ij_6 * t313;
+    jac_phi_q_v_A_j[1] = t308 * v_2_in_j_0 - A_ij_1 * t307 + (A_i[3] * v_2_in_j_1 + A_ij_4 * t311) + A_ij_7 * t313;
+    jac_phi_q_v_A_j[2] = t309 * v_2_in_j_0 - A_ij_2 * t307 + (A_i[6] * v_2_in_j_1 + A_ij_5 * t311) + A_ij_8 * t313;
+    jac_phi_q_v_A_j[3] = t310 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t323 + (t306 * g_star_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t324) + omega_i_in_j_2 * t326 - alphadot[1] * (C_j[7] * t321 + C_j[6] * t322 + C_j[8] *
+        t320) - (omega_j[0] * t323 - omega_j[1] * t324 + omega_j[2] * t326);
+    jac_phi_q_v_A_j[4] = t310 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t327 + (t306 * h_star_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t328) + omega_i_in_j_2 * t330 - (omega_j[0] * t327 - omega_j[1] * t328 + omega_j[2] *
+        t330);
+    jac_phi_q_v_A_j[5] = t310 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t331 + (t306 * f_star_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t332) + omega_i_in_j_2 * t333 + alphadot[1] * (C_j[3] * t319 + C_j[4] * t314) - (omega_j[0]
+        * t331 + omega_j[1] * t332 + omega_j[2] * t333);
+    jac_phi_q_v_A_j[6] = t334 * v_2_in_j_0 - A_ij_0 * t336 + (A_i[1] * v_2_in_j_1 + A_ij_3 * t340) + A_ij_6 * t342;
+    const jg_real t343 = A_i[1] * g_star_in_i_0 + A_i[4] * g_star_in_i_1 + A_i[7] * g_star_in_i_2;
+    const jg_real t344 = h_star_in_j_0 * t343;
+    const jg_real t345 = C_i[6] * t334 + C_i[7] * t337 + C_i[8] * t338;
+    const jg_real t346 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real t347 = t346 * g_star_in_j_0;
+    const jg_real t348 = t334 * g_star_in_i_0 + t337 * g_star_in_i_1 + t338 * g_star_in_i_2;
+    const jg_real t349 = h_star_in_j_1 * t348 + t347 - (t344 + t345 * g_star_in_j_1);
+    const jg_real t350 = t345 * g_star_in_j_2 - h_star_in_j_2 * t348;
+    const jg_real t351 = h_star_in_j_2 * t343 - t346 * g_star_in_j_2;
+    const jg_real t352 = C_j[8] * t343;
+    const jg_real t353 = C_j[8] * t348;
+    const jg_real t354 = C_j[6] * t343;
+    const jg_real t355 = C_j[7] * t348 - t354;
+    const jg_real t356 = t346 * C_j[2];
+    const jg_real t357 = C_j[2] * t345;
+    const jg_real t358 = t346 * C_j[0];
+    const jg_real t359 = C_j[1] * t345 - t358;
+    const jg_real t360 = C_j[5] * t350 - C_j[4] * t349;
+    const jg_real t361 = C_j[3] * t349 - C_j[5] * t351;
+    const jg_real t362 = C_j[4] * t351 - C_j[3] * t350;
+    const jg_real t363 = A_i[5] * A_ij_8 - A_i[8] * A_ij_7;
+    const jg_real t364 = A_i[5] * omega_i[1] + A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t365 = s_j[2] * t364;
+    const jg_real t366 = A_i[8] * A_ij_6 - A_i[2] * A_ij_8;
+    const jg_real t367 = A_i[2] * A_ij_7 - A_i[5] * A_ij_6;
+    const jg_real t368 = omega_i[0] * t363 + omega_i[1] * t366 + omega_i[2] * t367;
+    const jg_real t369 = s_j[2] * t368;
+    const jg_real t370 = s_j[0] * t364;
+    const jg_real t371 = t370 - s_j[1] * t368;
+    jac_phi_q_v_A_j[7] = t337 * v_2_in_j_0 - A_ij_1 * t336 + (A_i[4] * v_2_in_j_1 + A_ij_4 * t340) + A_ij_7 * t342;
+    jac_phi_q_v_A_j[8] = t338 * v_2_in_j_0 - A_ij_2 * t336 + (A_i[7] * v_2_in_j_1 + A_ij_5 * t340) + A_ij_8 * t342;
+    jac_phi_q_v_A_j[9] = t339 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t352 + (t335 * g_star_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t353) + omega_i_in_j_2 * t355 - alphadot[1] * (C_j[7] * t350 + C_j[6] * t351 + C_j[8] *
+        t349) - (omega_j[0] * t352 - omega_j[1] * t353 + omega_j[2] * t355);
+    jac_phi_q_v_A_j[10] = t339 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t356 + (t335 * h_star_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t357) + omega_i_in_j_2 * t359 - (omega_j[0] * t356 - omega_j[1] * t357 + omega_j[2] *
+        t359);
+    jac_phi_q_v_A_j[11] = t339 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t360 + (t335 * f_star_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t361) + omega_i_in_j_2 * t362 + alphadot[1] * (C_j[3] * t348 + C_j[4] * t343) - (omega_j[0]
+        * t360 + omega_j[1] * t361 + omega_j[2] * t362);
+    jac_phi_q_v_A_j[12] = t363 * v_2_in_j_0 - A_ij_0 * t365 + (A_i[2] * v_2_in_j_1 + A_ij_3 * t369) + A_ij_6 * t371;
+    jac_phi_q_v_A_j[13] = t366 * v_2_in_j_0 - A_ij_1 * t365 + (A_i[5] * v_2_in_j_1 + A_ij_4 * t369) + A_ij_7 * t371;
+    jac_phi_q_v_A_j[14] = t367 * v_2_in_j_0 - A_ij_2 * t365 + (A_i[8] * v_2_in_j_1 + A_ij_5 * t369) + A_ij_8 * t371;
+    const jg_real t372 = A_i[2] * g_star_in_i_0 + A_i[5] * g_star_in_i_1 + A_i[8] * g_star_in_i_2;
+    const jg_real t373 = h_star_in_j_0 * t372;
+    const jg_real t374 = C_i[6] * t363 + C_i[7] * t366 + C_i[8] * t367;
+    const jg_real t375 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real t376 = t375 * g_star_in_j_0;
+    const jg_real t377 = t363 * g_star_in_i_0 + t366 * g_star_in_i_1 + t367 * g_star_in_i_2;
+    const jg_real t378 = h_star_in_j_1 * t377 + t376 - (t373 + t374 * g_star_in_j_1);
+    const jg_real t379 = t374 * g_star_in_j_2 - h_star_in_j_2 * t377;
+    const jg_real t380 = h_star_in_j_2 * t372 - t375 * g_star_in_j_2;
+    const jg_real t381 = C_j[8] * t372;
+    const jg_real t382 = C_j[8] * t377;
+    const jg_real t383 = C_j[6] * t372;
+    const jg_real t384 = C_j[7] * t377 - t383;
+    const jg_real t385 = t375 * C_j[2];
+    const jg_real t386 = C_j[2] * t374;
+    const jg_real t387 = t375 * C_j[0];
+    const jg_real t388 = C_j[1] * t374 - t387;
+    const jg_real t389 = C_j[5] * t379 - C_j[4] * t378;
+    const jg_real t390 = C_j[3] * t378 - C_j[5] * t380;
+    const jg_real t391 = C_j[4] * t380 - C_j[3] * t379;
+    const jg_real t392 = A_i[6] * A_ij_4 - A_i[3] * A_ij_5;
+    const jg_real t393 = A_i[0] * A_ij_5 - A_i[6] * A_ij_3;
+    const jg_real t394 = A_i[3] * A_ij_3 - A_i[0] * A_ij_4;
+    const jg_real t395 = omega_i[0] * t392 + omega_i[1] * t393 + omega_i[2] * t394;
+    const jg_real t396 = s_j[1] * t395;
+    const jg_real t397 = s_j[1] * t306;
+    const jg_real t398 = s_j[2] * t395 - t312;
+    const jg_real t399 = C_j[7] * t314;
+    const jg_real t400 = t392 * g_star_in_i_0 + t393 * g_star_in_i_1 + t394 * g_star_in_i_2;
+    const jg_real t401 = t325 - C_j[8] * t400;
+    const jg_real t402 = C_j[7] * t400;
+    const jg_real t403 = C_i[6] * t392 + C_i[7] * t393 + C_i[8] * t394;
+    const jg_real t404 = t315 + t403 * g_star_in_j_2 - (t318 + h_star_in_j_2 * t400);
+    const jg_real t405 = t317 * g_star_in_j_1 - h_star_in_j_1 * t314;
+    const jg_real t406 = h_star_in_j_1 * t400 - t403 * g_star_in_j_1;
+    const jg_real t407 = t317 * C_j[1];
+    const jg_real t408 = t329 - C_j[2] * t403;
+    const jg_real t409 = C_j[1] * t403;
+    jac_phi_q_v_A_j[15] = t368 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t381 + (t364 * g_star_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t382) + omega_i_in_j_2 * t384 - alphadot[1] * (C_j[7] * t379 + C_j[6] * t380 + C_j[8] *
+        t378) - (omega_j[0] * t381 - omega_j[1] * t382 + omega_j[2] * t384);
+    jac_phi_q_v_A_j[16] = t368 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t385 + (t364 * h_star_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t386) + omega_i_in_j_2 * t388 - (omega_j[0] * t385 - omega_j[1] * t386 + omega_j[2] *
+        t388);
+    jac_phi_q_v_A_j[17] = t368 * f_star_cross_g_j_in_j_0 + omega_i_in_j_0 * t389 + (t364 * f_star_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t390) + omega_i_in_j_2 * t391 + alphadot[1] * (C_j[3] * t377 + C_j[4] * t372) - (omega_j[0]
+        * t389 + omega_j[1] * t390 + omega_j[2] * t391);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_2_in_j_2 - A_ij_6 * t396 + (t392 * v_2_in_j_0 + A_ij_0 * t397 + A_ij_3 * t398);
+    jac_phi_q_v_A_j[19] = A_i[3] * v_2_in_j_2 - A_ij_7 * t396 + (t393 * v_2_in_j_0 + A_ij_1 * t397 + A_ij_4 * t398);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_2_in_j_2 - A_ij_8 * t396 + (t394 * v_2_in_j_0 + A_ij_2 * t397 + A_ij_5 * t398);
+    jac_phi_q_v_A_j[21] = t306 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t402 + (t395 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t399 + omega_i_in_j_1 * t401) - alphadot[1] * (C_j[7] * t404 + C_j[6] * t405 + C_j[8] *
+        t406) - (omega_j[1] * t401 - omega_j[0] * t399 + omega_j[2] * t402);
+    jac_phi_q_v_A_j[22] = t306 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t409 + (t395 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t407 + omega_i_in_j_1 * t408) - (omega_j[1] * t408 - omega_j[0] * t407 + omega_j[2] *
+        t409);
+    const jg_real t410 = C_j[4] * t405 - C_j[3] * t404;
+    const jg_real t411 = C_j[5] * t404 - C_j[4] * t406;
+    const jg_real t412 = C_j[3] * t406 - C_j[5] * t405;
+    const jg_real t413 = A_i[7] * A_ij_4 - A_i[4] * A_ij_5;
+    const jg_real t414 = A_i[1] * A_ij_5 - A_i[7] * A_ij_3;
+    const jg_real t415 = A_i[4] * A_ij_3 - A_i[1] * A_ij_4;
+    const jg_real t416 = omega_i[0] * t413 + omega_i[1] * t414 + omega_i[2] * t415;
+    const jg_real t417 = s_j[1] * t416;
+    const jg_real t418 = s_j[1] * t335;
+    const jg_real t419 = s_j[2] * t416 - t341;
+    const jg_real t420 = C_j[7] * t343;
+    const jg_real t421 = t413 * g_star_in_i_0 + t414 * g_star_in_i_1 + t415 * g_star_in_i_2;
+    const jg_real t422 = t354 - C_j[8] * t421;
+    const jg_real t423 = C_j[7] * t421;
+    const jg_real t424 = C_i[6] * t413 + C_i[7] * t414 + C_i[8] * t415;
+    const jg_real t425 = t344 + t424 * g_star_in_j_2 - (t347 + h_star_in_j_2 * t421);
+    const jg_real t426 = t346 * g_star_in_j_1 - h_star_in_j_1 * t343;
+    const jg_real t427 = h_star_in_j_1 * t421 - t424 * g_star_in_j_1;
+    const jg_real t428 = t346 * C_j[1];
+    const jg_real t429 = t358 - C_j[2] * t424;
+    const jg_real t430 = C_j[1] * t424;
+    const jg_real t431 = C_j[4] * t426 - C_j[3] * t425;
+    const jg_real t432 = C_j[5] * t425 - C_j[4] * t427;
+    const jg_real t433 = C_j[3] * t427 - C_j[5] * t426;
+    const jg_real t434 = A_i[8] * A_ij_4 - A_i[5] * A_ij_5;
+    const jg_real t435 = A_i[2] * A_ij_5 - A_i[8] * A_ij_3;
+    const jg_real t436 = A_i[5] * A_ij_3 - A_i[2] * A_ij_4;
+    const jg_real t437 = omega_i[0] * t434 + omega_i[1] * t435 + omega_i[2] * t436;
+    const jg_real t438 = s_j[1] * t437;
+    const jg_real t439 = s_j[1] * t364;
+    const jg_real t440 = s_j[2] * t437 - t370;
+    jac_phi_q_v_A_j[23] = t306 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t410 + (t395 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t411 + omega_i_in_j_1 * t412) + alphadot[1] * (C_j[3] * t400 + C_j[5] * t314) - (omega_j[0]
+        * t411 + omega_j[1] * t412 + omega_j[2] * t410);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_2_in_j_2 - A_ij_6 * t417 + (t413 * v_2_in_j_0 + A_ij_0 * t418 + A_ij_3 * t419);
+    jac_phi_q_v_A_j[25] = A_i[4] * v_2_in_j_2 - A_ij_7 * t417 + (t414 * v_2_in_j_0 + A_ij_1 * t418 + A_ij_4 * t419);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_2_in_j_2 - A_ij_8 * t417 + (t415 * v_2_in_j_0 + A_ij_2 * t418 + A_ij_5 * t419);
+    jac_phi_q_v_A_j[27] = t335 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t423 + (t416 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t420 + omega_i_in_j_1 * t422) - alphadot[1] * (C_j[7] * t425 + C_j[6] * t426 + C_j[8] *
+        t427) - (omega_j[1] * t422 - omega_j[0] * t420 + omega_j[2] * t423);
+    jac_phi_q_v_A_j[28] = t335 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t430 + (t416 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t428 + omega_i_in_j_1 * t429) - (omega_j[1] * t429 - omega_j[0] * t428 + omega_j[2] *
+        t430);
+    jac_phi_q_v_A_j[29] = t335 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (t416 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t432 + omega_i_in_j_1 * t433) + alphadot[1] * (C_j[3] * t421 + C_j[5] * t343) - (omega_j[0]
+        * t432 + omega_j[1] * t433 + omega_j[2] * t431);
+    jac_phi_q_v_A_j[30] = A_i[2] * v_2_in_j_2 - A_ij_6 * t438 + (t434 * v_2_in_j_0 + A_ij_0 * t439 + A_ij_3 * t440);
+    const jg_real t441 = C_j[7] * t372;
+    const jg_real t442 = t434 * g_star_in_i_0 + t435 * g_star_in_i_1 + t436 * g_star_in_i_2;
+    const jg_real t443 = t383 - C_j[8] * t442;
+    const jg_real t444 = C_j[7] * t442;
+    const jg_real t445 = C_i[6] * t434 + C_i[7] * t435 + C_i[8] * t436;
+    const jg_real t446 = t373 + t445 * g_star_in_j_2 - (t376 + h_star_in_j_2 * t442);
+    const jg_real t447 = t375 * g_star_in_j_1 - h_star_in_j_1 * t372;
+    const jg_real t448 = h_star_in_j_1 * t442 - t445 * g_star_in_j_1;
+    const jg_real t449 = t375 * C_j[1];
+    const jg_real t450 = t387 - C_j[2] * t445;
+    const jg_real t451 = C_j[1] * t445;
+    const jg_real t452 = C_j[4] * t447 - C_j[3] * t446;
+    const jg_real t453 = C_j[5] * t446 - C_j[4] * t448;
+    const jg_real t454 = C_j[3] * t448 - C_j[5] * t447;
+    const jg_real t455 = C_i[3] * sine_0 + C_i[0] * cosine_0;
+    const jg_real t456 = C_i[4] * sine_0 + C_i[1] * cosine_0;
+    const jg_real t457 = C_i[5] * sine_0 + C_i[2] * cosine_0;
+    const jg_real t458 = A_ij_3 * t455 + A_ij_4 * t456 + A_ij_5 * t457;
+    const jg_real t459 = A_ij_0 * t455 + A_ij_1 * t456 + A_ij_2 * t457;
+    const jg_real t460 = h_star_in_j_0 * t458 - h_star_in_j_1 * t459;
+    const jg_real t461 = A_ij_6 * t455 + A_ij_7 * t456 + A_ij_8 * t457;
+    const jg_real t462 = h_star_in_j_2 * t459 - h_star_in_j_0 * t461;
+    const jg_real t463 = h_star_in_j_1 * t461 - h_star_in_j_2 * t458;
+    const jg_real t464 = C_j[7] * t461 - C_j[8] * t458;
+    const jg_real t465 = C_j[8] * t459 - C_j[6] * t461;
+    const jg_real t466 = C_j[6] * t458 - C_j[7] * t459;
+    const jg_real t467 = C_j[5] * t462 - C_j[4] * t460;
+    const jg_real t468 = C_j[3] * t460 - C_j[5] * t463;
+    const jg_real t469 = C_j[4] * t463 - C_j[3] * t462;
+    const jg_real t470 = A_ij_3 * sine_0;
+    const jg_real t471 = A_ij_0 * sine_0;
+    const jg_real t472 = h_star_in_j_0 * t470 - h_star_in_j_1 * t471;
+    const jg_real t473 = A_ij_6 * sine_0;
+    const jg_real t474 = h_star_in_j_2 * t471 - h_star_in_j_0 * t473;
+    const jg_real t475 = h_star_in_j_1 * t473 - h_star_in_j_2 * t470;
+    const jg_real t476 = C_j[7] * t473 - C_j[8] * t470;
+    const jg_real t477 = C_j[8] * t471 - C_j[6] * t473;
+    const jg_real t478 = C_j[6] * t470 - C_j[7] * t471;
+    jac_phi_q_v_A_j[31] = A_i[5] * v_2_in_j_2 - A_ij_7 * t438 + (t435 * v_2_in_j_0 + A_ij_1 * t439 + A_ij_4 * t440);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_2_in_j_2 - A_ij_8 * t438 + (t436 * v_2_in_j_0 + A_ij_2 * t439 + A_ij_5 * t440);
+    jac_phi_q_v_A_j[33] = t364 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t444 + (t437 * g_star_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t441 + omega_i_in_j_1 * t443) - alphadot[1] * (C_j[7] * t446 + C_j[6] * t447 + C_j[8] *
+        t448) - (omega_j[1] * t443 - omega_j[0] * t441 + omega_j[2] * t444);
+    jac_phi_q_v_A_j[34] = t364 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t451 + (t437 * h_star_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t449 + omega_i_in_j_1 * t450) - (omega_j[1] * t450 - omega_j[0] * t449 + omega_j[2] *
+        t451);
+    jac_phi_q_v_A_j[35] = t364 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t452 + (t437 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t453 + omega_i_in_j_1 * t454) + alphadot[1] * (C_j[3] * t442 + C_j[5] * t372) - (omega_j[0]
+        * t453 + omega_j[1] * t454 + omega_j[2] * t452);
+    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t464 + omega_i_in_j_1 * t465 + omega_i_in_j_2 * t466 - alphadot[1] *
+        (C_j[7] * t462 + C_j[6] * t463 + C_j[8] * t460) - (omega_j[0] * t464 + omega_j[1] * t465 + omega_j[2] *
+        t466);
+    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t467 + omega_i_in_j_1 * t468 + omega_i_in_j_2 * t469 - alphadot[1] *
+        (C_j[3] * t459 + C_j[4] * t458 + C_j[5] * t461) - (omega_j[0] * t467 + omega_j[1] * t468 + omega_j[2] *
         t469);
-    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t470 + omega_i_in_j_1 * t471 + omega_i_in_j_2 * t472 - alphadot[1] *
-        (C_j[3] * t462 + C_j[4] * t461 + C_j[5] * t464) - (omega_j[0] * t470 + omega_j[1] * t471 + omega_j[2] *
-        t472);
-    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t479 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t481 - alphadot[1] *
-        (C_j[7] * t477 + C_j[6] * t478 + C_j[8] * t475) - (omega_j[0] * t479 + omega_j[1] * t480 + omega_j[2] *
+    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t476 + omega_i_in_j_1 * t477 + omega_i_in_j_2 * t478 - alphadot[1] *
+        (C_j[7] * t474 + C_j[6] * t475 + C_j[8] * t472) - (omega_j[0] * t476 + omega_j[1] * t477 + omega_j[2] *
+        t478);
+    const jg_real t479 = C_j[5] * t474 - C_j[4] * t472;
+    const jg_real t480 = C_j[3] * t472 - C_j[5] * t475;
+    const jg_real t481 = C_j[4] * t475 - C_j[3] * t474;
+    const jg_real t482 = A_ij_4 * sine_0;
+    const jg_real t483 = A_ij_1 * sine_0;
+    const jg_real t484 = h_star_in_j_0 * t482 - h_star_in_j_1 * t483;
+    const jg_real t485 = A_ij_7 * sine_0;
+    const jg_real t486 = h_star_in_j_2 * t483 - h_star_in_j_0 * t485;
+    const jg_real t487 = h_star_in_j_1 * t485 - h_star_in_j_2 * t482;
+    const jg_real t488 = C_j[7] * t485 - C_j[8] * t482;
+    const jg_real t489 = C_j[8] * t483 - C_j[6] * t485;
+    const jg_real t490 = C_j[6] * t482 - C_j[7] * t483;
+    const jg_real t491 = C_j[5] * t486 - C_j[4] * t484;
+    const jg_real t492 = C_j[3] * t484 - C_j[5] * t487;
+    const jg_real t493 = C_j[4] * t487 - C_j[3] * t486;
+    const jg_real t494 = A_ij_5 * sine_0;
+    const jg_real t495 = A_ij_2 * sine_0;
+    const jg_real t496 = h_star_in_j_0 * t494 - h_star_in_j_1 * t495;
+    const jg_real t497 = A_ij_8 * sine_0;
+    const jg_real t498 = h_star_in_j_2 * t495 - h_star_in_j_0 * t497;
+    const jg_real t499 = h_star_in_j_1 * t497 - h_star_in_j_2 * t494;
+    const jg_real t500 = C_j[7] * t497 - C_j[8] * t494;
+    const jg_real t501 = C_j[8] * t495 - C_j[6] * t497;
+    const jg_real t502 = C_j[6] * t494 - C_j[7] * t495;
+    const jg_real t503 = C_j[5] * t498 - C_j[4] * t496;
+    const jg_real t504 = C_j[3] * t496 - C_j[5] * t499;
+    const jg_real t505 = C_j[4] * t499 - C_j[3] * t498;
+    const jg_real t506 = A_ij_3 * cosine_0;
+    const jg_real t507 = A_ij_0 * cosine_0;
+    const jg_real t508 = h_star_in_j_1 * t507 - h_star_in_j_0 * t506;
+    const jg_real t509 = A_ij_6 * cosine_0;
+    const jg_real t510 = h_star_in_j_0 * t509 - h_star_in_j_2 * t507;
+    const jg_real t511 = h_star_in_j_2 * t506 - h_star_in_j_1 * t509;
+    const jg_real t512 = C_j[8] * t506 - C_j[7] * t509;
+    const jg_real t513 = C_j[6] * t509 - C_j[8] * t507;
+    const jg_real t514 = C_j[7] * t507 - C_j[6] * t506;
+    const jg_real t515 = C_j[5] * t510 - C_j[4] * t508;
+    const jg_real t516 = C_j[3] * t508 - C_j[5] * t511;
+    const jg_real t517 = C_j[4] * t511 - C_j[3] * t510;
+    const jg_real t518 = A_ij_4 * cosine_0;
+    const jg_real t519 = A_ij_1 * cosine_0;
+    const jg_real t520 = h_star_in_j_1 * t519 - h_star_in_j_0 * t518;
+    const jg_real t521 = A_ij_7 * cosine_0;
+    const jg_real t522 = h_star_in_j_0 * t521 - h_star_in_j_2 * t519;
+    const jg_real t523 = h_star_in_j_2 * t518 - h_star_in_j_1 * t521;
+    const jg_real t524 = C_j[8] * t518 - C_j[7] * t521;
+    const jg_real t525 = C_j[6] * t521 - C_j[8] * t519;
+    const jg_real t526 = C_j[7] * t519 - C_j[6] * t518;
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t479 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t481 - alphadot[1] *
+        (C_j[3] * t471 + C_j[4] * t470 + C_j[5] * t473) - (omega_j[0] * t479 + omega_j[1] * t480 + omega_j[2] *
         t481);
-    const jg_real t482 = C_j[5] * t477 - C_j[4] * t475;
-    const jg_real t483 = C_j[3] * t475 - C_j[5] * t478;
-    const jg_real t484 = C_j[4] * t478 - C_j[3] * t477;
-    const jg_real t485 = A_ij_4 * sine_0;
-    const jg_real t486 = A_ij_1 * sine_0;
-    const jg_real t487 = h_star_in_j_0 * t485 - h_star_in_j_1 * t486;
-    const jg_real t488 = A_ij_7 * sine_0;
-    const jg_real t489 = h_star_in_j_2 * t486 - h_star_in_j_0 * t488;
-    const jg_real t490 = h_star_in_j_1 * t488 - h_star_in_j_2 * t485;
-    const jg_real t491 = C_j[7] * t488 - C_j[8] * t485;
-    const jg_real t492 = C_j[8] * t486 - C_j[6] * t488;
-    const jg_real t493 = C_j[6] * t485 - C_j[7] * t486;
-    const jg_real t494 = C_j[5] * t489 - C_j[4] * t487;
-    const jg_real t495 = C_j[3] * t487 - C_j[5] * t490;
-    const jg_real t496 = C_j[4] * t490 - C_j[3] * t489;
-    const jg_real t497 = A_ij_5 * sine_0;
-    const jg_real t498 = A_ij_2 * sine_0;
-    const jg_real t499 = h_star_in_j_0 * t497 - h_star_in_j_1 * t498;
-    const jg_real t500 = A_ij_8 * sine_0;
-    const jg_real t501 = h_star_in_j_2 * t498 - h_star_in_j_0 * t500;
-    const jg_real t502 = h_star_in_j_1 * t500 - h_star_in_j_2 * t497;
-    const jg_real t503 = C_j[7] * t500 - C_j[8] * t497;
-    const jg_real t504 = C_j[8] * t498 - C_j[6] * t500;
-    const jg_real t505 = C_j[6] * t497 - C_j[7] * t498;
-    const jg_real t506 = C_j[5] * t501 - C_j[4] * t499;
-    const jg_real t507 = C_j[3] * t499 - C_j[5] * t502;
-    const jg_real t508 = C_j[4] * t502 - C_j[3] * t501;
-    const jg_real t509 = A_ij_3 * cosine_0;
-    const jg_real t510 = A_ij_0 * cosine_0;
-    const jg_real t511 = h_star_in_j_1 * t510 - h_star_in_j_0 * t509;
-    const jg_real t512 = A_ij_6 * cosine_0;
-    const jg_real t513 = h_star_in_j_0 * t512 - h_star_in_j_2 * t510;
-    const jg_real t514 = h_star_in_j_2 * t509 - h_star_in_j_1 * t512;
-    const jg_real t515 = C_j[8] * t509 - C_j[7] * t512;
-    const jg_real t516 = C_j[6] * t512 - C_j[8] * t510;
-    const jg_real t517 = C_j[7] * t510 - C_j[6] * t509;
-    const jg_real t518 = C_j[5] * t513 - C_j[4] * t511;
-    const jg_real t519 = C_j[3] * t511 - C_j[5] * t514;
-    const jg_real t520 = C_j[4] * t514 - C_j[3] * t513;
-    const jg_real t521 = A_ij_4 * cosine_0;
-    const jg_real t522 = A_ij_1 * cosine_0;
-    const jg_real t523 = h_star_in_j_1 * t522 - h_star_in_j_0 * t521;
-    const jg_real t524 = A_ij_7 * cosine_0;
-    const jg_real t525 = h_star_in_j_0 * t524 - h_star_in_j_2 * t522;
-    const jg_real t526 = h_star_in_j_2 * t521 - h_star_in_j_1 * t524;
-    const jg_real t527 = C_j[8] * t521 - C_j[7] * t524;
-    const jg_real t528 = C_j[6] * t524 - C_j[8] * t522;
-    const jg_real t529 = C_j[7] * t522 - C_j[6] * t521;
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t482 + omega_i_in_j_1 * t483 + omega_i_in_j_2 * t484 - alphadot[1] *
-        (C_j[3] * t474 + C_j[4] * t473 + C_j[5] * t476) - (omega_j[0] * t482 + omega_j[1] * t483 + omega_j[2] *
-        t484);
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t491 + omega_i_in_j_1 * t492 + omega_i_in_j_2 * t493 - alphadot[1] *
-        (C_j[7] * t489 + C_j[6] * t490 + C_j[8] * t487) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] *
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t488 + omega_i_in_j_1 * t489 + omega_i_in_j_2 * t490 - alphadot[1] *
+        (C_j[7] * t486 + C_j[6] * t487 + C_j[8] * t484) - (omega_j[0] * t488 + omega_j[1] * t489 + omega_j[2] *
+        t490);
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t491 + omega_i_in_j_1 * t492 + omega_i_in_j_2 * t493 - alphadot[1] *
+        (C_j[3] * t483 + C_j[4] * t482 + C_j[5] * t485) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] *
         t493);
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t494 + omega_i_in_j_1 * t495 + omega_i_in_j_2 * t496 - alphadot[1] *
-        (C_j[3] * t486 + C_j[4] * t485 + C_j[5] * t488) - (omega_j[0] * t494 + omega_j[1] * t495 + omega_j[2] *
-        t496);
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t503 + omega_i_in_j_1 * t504 + omega_i_in_j_2 * t505 - alphadot[1] *
-        (C_j[7] * t501 + C_j[6] * t502 + C_j[8] * t499) - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] *
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t500 + omega_i_in_j_1 * t501 + omega_i_in_j_2 * t502 - alphadot[1] *
+        (C_j[7] * t498 + C_j[6] * t499 + C_j[8] * t496) - (omega_j[0] * t500 + omega_j[1] * t501 + omega_j[2] *
+        t502);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t503 + omega_i_in_j_1 * t504 + omega_i_in_j_2 * t505 - alphadot[1] *
+        (C_j[3] * t495 + C_j[4] * t494 + C_j[5] * t497) - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] *
         t505);
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t506 + omega_i_in_j_1 * t507 + omega_i_in_j_2 * t508 - alphadot[1] *
-        (C_j[3] * t498 + C_j[4] * t497 + C_j[5] * t500) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] *
-        t508);
-    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t515 + omega_i_in_j_1 * t516 + omega_i_in_j_2 * t517 - alphadot[1] *
-        (C_j[7] * t513 + C_j[6] * t514 + C_j[8] * t511) - (omega_j[0] * t515 + omega_j[1] * t516 + omega_j[2] *
+    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t512 + omega_i_in_j_1 * t513 + omega_i_in_j_2 * t514 - alphadot[1] *
+        (C_j[7] * t510 + C_j[6] * t511 + C_j[8] * t508) - (omega_j[0] * t512 + omega_j[1] * t513 + omega_j[2] *
+        t514);
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t515 + omega_i_in_j_1 * t516 + omega_i_in_j_2 * t517 + alphadot[1] *
+        (C_j[3] * t507 + C_j[4] * t506 + C_j[5] * t509) - (omega_j[0] * t515 + omega_j[1] * t516 + omega_j[2] *
         t517);
-    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t518 + omega_i_in_j_1 * t519 + omega_i_in_j_2 * t520 + alphadot[1] *
-        (C_j[3] * t510 + C_j[4] * t509 + C_j[5] * t512) - (omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] *
-        t520);
-    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t527 + omega_i_in_j_1 * t528 + omega_i_in_j_2 * t529 - alphadot[1] *
-        (C_j[7] * t525 + C_j[6] * t526 + C_j[8] * t523) - (omega_j[0] * t527 + omega_j[1] * t528 + omega_j[2] *
+    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t524 + omega_i_in_j_1 * t525 + omega_i_in_j_2 * t526 - alphadot[1] *
+        (C_j[7] * t522 + C_j[6] * t523 + C_j[8] * t520) - (omega_j[0] * t524 + omega_j[1] * t525 + omega_j[2] *
+        t526);
+    const jg_real t527 = C_j[5] * t522 - C_j[4] * t520;
+    const jg_real t528 = C_j[3] * t520 - C_j[5] * t523;
+    const jg_real t529 = C_j[4] * t523 - C_j[3] * t522;
+    const jg_real t530 = A_ij_5 * cosine_0;
+    const jg_real t531 = A_ij_2 * cosine_0;
+    const jg_real t532 = h_star_in_j_1 * t531 - h_star_in_j_0 * t530;
+    const jg_real t533 = A_ij_8 * cosine_0;
+    const jg_real t534 = h_star_in_j_0 * t533 - h_star_in_j_2 * t531;
+    const jg_real t535 = h_star_in_j_2 * t530 - h_star_in_j_1 * t533;
+    const jg_real t536 = C_j[8] * t530 - C_j[7] * t533;
+    const jg_real t537 = C_j[6] * t533 - C_j[8] * t531;
+    const jg_real t538 = C_j[7] * t531 - C_j[6] * t530;
+    const jg_real t539 = C_j[5] * t534 - C_j[4] * t532;
+    const jg_real t540 = C_j[3] * t532 - C_j[5] * t535;
+    const jg_real t541 = C_j[4] * t535 - C_j[3] * t534;
+    const jg_real t542 = -alphadot[0];
+    const jg_real t543 = A_ij_3 * g_star_in_j_0 - A_ij_0 * g_star_in_j_1;
+    const jg_real t544 = A_ij_0 * g_star_in_j_2 - A_ij_6 * g_star_in_j_0;
+    const jg_real t545 = A_ij_6 * g_star_in_j_1 - A_ij_3 * g_star_in_j_2;
+    const jg_real t546 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
+    const jg_real t547 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
+    const jg_real t548 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
+    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t527 + omega_i_in_j_1 * t528 + omega_i_in_j_2 * t529 + alphadot[1] *
+        (C_j[3] * t519 + C_j[4] * t518 + C_j[5] * t521) - (omega_j[0] * t527 + omega_j[1] * t528 + omega_j[2] *
         t529);
-    const jg_real t530 = C_j[5] * t525 - C_j[4] * t523;
-    const jg_real t531 = C_j[3] * t523 - C_j[5] * t526;
-    const jg_real t532 = C_j[4] * t526 - C_j[3] * t525;
-    const jg_real t533 = A_ij_5 * cosine_0;
-    const jg_real t534 = A_ij_2 * cosine_0;
-    const jg_real t535 = h_star_in_j_1 * t534 - h_star_in_j_0 * t533;
-    const jg_real t536 = A_ij_8 * cosine_0;
-    const jg_real t537 = h_star_in_j_0 * t536 - h_star_in_j_2 * t534;
-    const jg_real t538 = h_star_in_j_2 * t533 - h_star_in_j_1 * t536;
-    const jg_real t539 = C_j[8] * t533 - C_j[7] * t536;
-    const jg_real t540 = C_j[6] * t536 - C_j[8] * t534;
-    const jg_real t541 = C_j[7] * t534 - C_j[6] * t533;
-    const jg_real t542 = C_j[5] * t537 - C_j[4] * t535;
-    const jg_real t543 = C_j[3] * t535 - C_j[5] * t538;
-    const jg_real t544 = C_j[4] * t538 - C_j[3] * t537;
-    const jg_real t545 = -alphadot[0];
-    const jg_real t546 = A_ij_3 * g_star_in_j_0 - A_ij_0 * g_star_in_j_1;
-    const jg_real t547 = A_ij_0 * g_star_in_j_2 - A_ij_6 * g_star_in_j_0;
-    const jg_real t548 = A_ij_6 * g_star_in_j_1 - A_ij_3 * g_star_in_j_2;
-    const jg_real t549 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
-    const jg_real t550 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
-    const jg_real t551 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t530 + omega_i_in_j_1 * t531 + omega_i_in_j_2 * t532 + alphadot[1] *
-        (C_j[3] * t522 + C_j[4] * t521 + C_j[5] * t524) - (omega_j[0] * t530 + omega_j[1] * t531 + omega_j[2] *
-        t532);
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t539 + omega_i_in_j_1 * t540 + omega_i_in_j_2 * t541 - alphadot[1] *
-        (C_j[7] * t537 + C_j[6] * t538 + C_j[8] * t535) - (omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2] *
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t536 + omega_i_in_j_1 * t537 + omega_i_in_j_2 * t538 - alphadot[1] *
+        (C_j[7] * t534 + C_j[6] * t535 + C_j[8] * t532) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] *
+        t538);
+    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t539 + omega_i_in_j_1 * t540 + omega_i_in_j_2 * t541 + alphadot[1] *
+        (C_j[3] * t531 + C_j[4] * t530 + C_j[5] * t533) - (omega_j[0] * t539 + omega_j[1] * t540 + omega_j[2] *
         t541);
-    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t542 + omega_i_in_j_1 * t543 + omega_i_in_j_2 * t544 + alphadot[1] *
-        (C_j[3] * t534 + C_j[4] * t533 + C_j[5] * t536) - (omega_j[0] * t542 + omega_j[1] * t543 + omega_j[2] *
-        t544);
-    jac_phi_q_v_geometry[12] = t545;
-    jac_phi_q_v_geometry[16] = t545;
-    jac_phi_q_v_geometry[20] = t545;
-    jac_phi_q_v_geometry[13] = -(alphadot[1] * (C_j[7] * t547 + C_j[6] * t548 + C_j[8] * t546));
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t549 + omega_i_in_j_1 * t550 + omega_i_in_j_2 * t551 - (omega_j[1] *
-        t550 + omega_j[0] * t549 + omega_j[2] * t551);
-    const jg_real t552 = C_j[5] * t547 - C_j[4] * t546;
-    const jg_real t553 = C_j[3] * t546 - C_j[5] * t548;
-    const jg_real t554 = C_j[4] * t548 - C_j[3] * t547;
-    const jg_real t555 = A_ij_4 * g_star_in_j_0 - A_ij_1 * g_star_in_j_1;
-    const jg_real t556 = A_ij_1 * g_star_in_j_2 - A_ij_7 * g_star_in_j_0;
-    const jg_real t557 = A_ij_7 * g_star_in_j_1 - A_ij_4 * g_star_in_j_2;
-    const jg_real t558 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
-    const jg_real t559 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
-    const jg_real t560 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
-    const jg_real t561 = C_j[5] * t556 - C_j[4] * t555;
-    const jg_real t562 = C_j[3] * t555 - C_j[5] * t557;
-    const jg_real t563 = C_j[4] * t557 - C_j[3] * t556;
-    const jg_real t564 = A_ij_5 * g_star_in_j_0 - A_ij_2 * g_star_in_j_1;
-    const jg_real t565 = A_ij_2 * g_star_in_j_2 - A_ij_8 * g_star_in_j_0;
-    const jg_real t566 = A_ij_8 * g_star_in_j_1 - A_ij_5 * g_star_in_j_2;
-    const jg_real t567 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
-    const jg_real t568 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
-    const jg_real t569 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
-    const jg_real t570 = C_j[5] * t565 - C_j[4] * t564;
-    const jg_real t571 = C_j[3] * t564 - C_j[5] * t566;
-    const jg_real t572 = C_j[4] * t566 - C_j[3] * t565;
-    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t552 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
-        t552 + omega_j[1] * t553 + omega_j[2] * t554);
-    jac_phi_q_v_geometry[17] = -(alphadot[1] * (C_j[7] * t556 + C_j[6] * t557 + C_j[8] * t555));
-    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t558 + omega_i_in_j_1 * t559 + omega_i_in_j_2 * t560 - (omega_j[1] *
-        t559 + omega_j[0] * t558 + omega_j[2] * t560);
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - (omega_j[0] *
-        t561 + omega_j[1] * t562 + omega_j[2] * t563);
-    jac_phi_q_v_geometry[21] = -(alphadot[1] * (C_j[7] * t565 + C_j[6] * t566 + C_j[8] * t564));
-    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t567 + omega_i_in_j_1 * t568 + omega_i_in_j_2 * t569 - (omega_j[1] *
-        t568 + omega_j[0] * t567 + omega_j[2] * t569);
-    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t570 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - (omega_j[0] *
-        t570 + omega_j[1] * t571 + omega_j[2] * t572);
-    jac_phi_q_v_geometry[24] = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6 + (A_ij_6 * omega_i_in_j_1 - A_ij_3 *
-        omega_i_in_j_2);
-    jac_phi_q_v_geometry[25] = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7 + (A_ij_7 * omega_i_in_j_1 - A_ij_4 *
-        omega_i_in_j_2);
-    jac_phi_q_v_geometry[26] = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8 + (A_ij_8 * omega_i_in_j_1 - A_ij_5 *
-        omega_i_in_j_2);
-    jac_phi_q_v_geometry[27] = omega_j[0] * A_ij_6 - omega_j[2] * A_ij_0 + (A_ij_0 * omega_i_in_j_2 - A_ij_6 *
-        omega_i_in_j_0);
-    jac_phi_q_v_geometry[28] = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1 + (A_ij_1 * omega_i_in_j_2 - A_ij_7 *
-        omega_i_in_j_0);
-    jac_phi_q_v_geometry[29] = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2 + (A_ij_2 * omega_i_in_j_2 - A_ij_8 *
-        omega_i_in_j_0);
-    jac_phi_q_v_geometry[30] = omega_j[1] * A_ij_0 - omega_j[0] * A_ij_3 + (A_ij_3 * omega_i_in_j_0 - A_ij_0 *
-        omega_i_in_j_1);
-    jac_phi_q_v_geometry[31] = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4 + (A_ij_4 * omega_i_in_j_0 - A_ij_1 *
-        omega_i_in_j_1);
-    jac_phi_q_v_geometry[32] = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5 + (A_ij_5 * omega_i_in_j_0 - A_ij_2 *
-        omega_i_in_j_1);
+    jac_phi_q_v_geometry[12] = t542;
+    jac_phi_q_v_geometry[16] = t542;
+    jac_phi_q_v_geometry[20] = t542;
+    jac_phi_q_v_geometry[13] = -(alphadot[1] * (C_j[7] * t544 + C_j[6] * t545 + C_j[8] * t543));
+    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t546 + omega_i_in_j_1 * t547 + omega_i_in_j_2 * t548 - (omega_j[1] *
+        t547 + omega_j[0] * t546 + omega_j[2] * t548);
+    const jg_real t549 = C_j[5] * t544 - C_j[4] * t543;
+    const jg_real t550 = C_j[3] * t543 - C_j[5] * t545;
+    const jg_real t551 = C_j[4] * t545 - C_j[3] * t544;
+    const jg_real t552 = A_ij_4 * g_star_in_j_0 - A_ij_1 * g_star_in_j_1;
+    const jg_real t553 = A_ij_1 * g_star_in_j_2 - A_ij_7 * g_star_in_j_0;
+    const jg_real t554 = A_ij_7 * g_star_in_j_1 - A_ij_4 * g_star_in_j_2;
+    const jg_real t555 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
+    const jg_real t556 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
+    const jg_real t557 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
+    const jg_real t558 = C_j[5] * t553 - C_j[4] * t552;
+    const jg_real t559 = C_j[3] * t552 - C_j[5] * t554;
+    const jg_real t560 = C_j[4] * t554 - C_j[3] * t553;
+    const jg_real t561 = A_ij_5 * g_star_in_j_0 - A_ij_2 * g_star_in_j_1;
+    const jg_real t562 = A_ij_2 * g_star_in_j_2 - A_ij_8 * g_star_in_j_0;
+    const jg_real t563 = A_ij_8 * g_star_in_j_1 - A_ij_5 * g_star_in_j_2;
+    const jg_real t564 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
+    const jg_real t565 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
+    const jg_real t566 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
+    const jg_real t567 = C_j[5] * t562 - C_j[4] * t561;
+    const jg_real t568 = C_j[3] * t561 - C_j[5] * t563;
+    const jg_real t569 = C_j[4] * t563 - C_j[3] * t562;
+    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t549 + omega_i_in_j_1 * t550 + omega_i_in_j_2 * t551 - (omega_j[0] *
+        t549 + omega_j[1] * t550 + omega_j[2] * t551);
+    jac_phi_q_v_geometry[17] = -(alphadot[1] * (C_j[7] * t553 + C_j[6] * t554 + C_j[8] * t552));
+    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t555 + omega_i_in_j_1 * t556 + omega_i_in_j_2 * t557 - (omega_j[1] *
+        t556 + omega_j[0] * t555 + omega_j[2] * t557);
+    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t558 + omega_i_in_j_1 * t559 + omega_i_in_j_2 * t560 - (omega_j[0] *
+        t558 + omega_j[1] * t559 + omega_j[2] * t560);
+    jac_phi_q_v_geometry[21] = -(alphadot[1] * (C_j[7] * t562 + C_j[6] * t563 + C_j[8] * t561));
+    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - (omega_j[1] *
+        t565 + omega_j[0] * t564 + omega_j[2] * t566);
+    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t567 + omega_i_in_j_1 * t568 + omega_i_in_j_2 * t569 - (omega_j[0] *
+        t567 + omega_j[1] * t568 + omega_j[2] * t569);
+    jac_phi_q_v_geometry[24] = A_ij_6 * v_0_in_j_1 - A_ij_3 * v_0_in_j_2;
+    jac_phi_q_v_geometry[25] = A_ij_7 * v_0_in_j_1 - A_ij_4 * v_0_in_j_2;
+    jac_phi_q_v_geometry[26] = A_ij_8 * v_0_in_j_1 - A_ij_5 * v_0_in_j_2;
+    jac_phi_q_v_geometry[27] = A_ij_0 * v_0_in_j_2 - A_ij_6 * v_0_in_j_0;
+    jac_phi_q_v_geometry[28] = A_ij_1 * v_0_in_j_2 - A_ij_7 * v_0_in_j_0;
+    jac_phi_q_v_geometry[29] = A_ij_2 * v_0_in_j_2 - A_ij_8 * v_0_in_j_0;
+    jac_phi_q_v_geometry[30] = A_ij_3 * v_0_in_j_0 - A_ij_0 * v_0_in_j_1;
+    jac_phi_q_v_geometry[31] = A_ij_4 * v_0_in_j_0 - A_ij_1 * v_0_in_j_1;
+    jac_phi_q_v_geometry[32] = A_ij_5 * v_0_in_j_0 - A_ij_2 * v_0_in_j_1;
     jac_phi_q_v_geometry[33] = omega_i_in_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
     jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
         h_star_in_j_0 - omega_j[0] * h_star_in_j_2);
-    jac_phi_q_v_geometry[35] = omega_i_in_j_0 * h_star_in_j_1 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
+    jac_phi_q_v_geometry[35] = h_star_in_j_1 * omega_i_in_j_0 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
         h_star_in_j_1 - omega_j[1] * h_star_in_j_0);
     jac_phi_q_v_geometry[36] = omega_i_in_j_1 * f_star_in_j_2 - omega_i_in_j_2 * f_star_in_j_1 + alphadot[1] *
         g_star_in_j_0 - (omega_j[1] * f_star_in_j_2 - omega_j[2] * f_star_in_j_1);
@@ -1270,54 +1240,54 @@ static void jg_cylindrical_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRIC
         f_star_in_j_0 - (omega_j[1] * g_star_in_j_2 - omega_j[2] * g_star_in_j_1);
     jac_phi_q_v_geometry[40] = omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2 - alphadot[1] *
         f_star_in_j_1 - (omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2);
-    const jg_real t573 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    const jg_real t574 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
-    const jg_real t575 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    const jg_real t570 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    const jg_real t571 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    const jg_real t572 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
     jac_phi_q_v_geometry[41] = omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0 - alphadot[1] *
         f_star_in_j_2 - (omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    jac_phi_q_v_velocity[30] = t573;
-    jac_phi_q_v_velocity[36] = t574;
-    jac_phi_q_v_velocity[42] = t575;
-    jac_phi_q_v_velocity[3] = A_ij_0 * t573 + A_ij_3 * t574 + A_ij_6 * t575;
-    /* v_2_in_i = r_j - r_i, axes of body i */
-    const jg_real v_2_in_i_2 = A_i[6] * v_2_world_0 + A_i[7] * v_2_world_1 + A_i[8] * v_2_world_2;
-    const jg_real v_2_in_i_1 = A_i[3] * v_2_world_0 + A_i[4] * v_2_world_1 + A_i[5] * v_2_world_2;
-    const jg_real t578 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    const jg_real t579 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    const jg_real t580 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    jac_phi_q_v_velocity[4] = A_ij_1 * t573 + A_ij_4 * t574 + A_ij_7 * t575 + v_2_in_i_2;
-    jac_phi_q_v_velocity[5] = A_ij_2 * t573 + A_ij_5 * t574 + A_ij_8 * t575 - v_2_in_i_1;
+    jac_phi_q_v_velocity[30] = t570;
+    jac_phi_q_v_velocity[36] = t571;
+    jac_phi_q_v_velocity[42] = t572;
+    jac_phi_q_v_velocity[3] = A_ij_0 * t570 + A_ij_3 * t571 + A_ij_6 * t572;
+    /* v_4_in_i = r_j - r_i, axes of body i */
+    const jg_real v_4_in_i_2 = A_i[6] * v_4_world_0 + A_i[7] * v_4_world_1 + A_i[8] * v_4_world_2;
+    const jg_real v_4_in_i_1 = A_i[3] * v_4_world_0 + A_i[4] * v_4_world_1 + A_i[5] * v_4_world_2;
+    const jg_real t575 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    const jg_real t576 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    const jg_real t577 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    jac_phi_q_v_velocity[4] = A_ij_1 * t570 + A_ij_4 * t571 + A_ij_7 * t572 + v_4_in_i_2;
+    jac_phi_q_v_velocity[5] = A_ij_2 * t570 + A_ij_5 * t571 + A_ij_8 * t572 - v_4_in_i_1;
     jac_phi_q_v_velocity[6] = A_ij_0 * g_star_cross_h_j_in_j_0 + A_ij_3 * g_star_cross_h_j_in_j_1 + A_ij_6 *
         g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[7] = A_ij_0 * h_star_cross_f_j_in_j_0 + A_ij_3 * h_star_cross_f_j_in_j_1 + A_ij_6 *
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[8] = A_ij_0 * f_star_cross_g_j_in_j_0 + A_ij_3 * f_star_cross_g_j_in_j_1 + A_ij_6 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[31] = t578;
-    jac_phi_q_v_velocity[37] = t579;
-    jac_phi_q_v_velocity[43] = t580;
-    const jg_real v_2_in_i_0 = A_i[0] * v_2_world_0 + A_i[1] * v_2_world_1 + A_i[2] * v_2_world_2;
-    const jg_real t582 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    const jg_real t583 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    jac_phi_q_v_velocity[9] = A_ij_0 * t578 + A_ij_3 * t579 + A_ij_6 * t580 - v_2_in_i_2;
-    jac_phi_q_v_velocity[10] = A_ij_1 * t578 + A_ij_4 * t579 + A_ij_7 * t580;
-    jac_phi_q_v_velocity[11] = A_ij_2 * t578 + A_ij_5 * t579 + A_ij_8 * t580 + v_2_in_i_0;
+    jac_phi_q_v_velocity[31] = t575;
+    jac_phi_q_v_velocity[37] = t576;
+    jac_phi_q_v_velocity[43] = t577;
+    const jg_real v_4_in_i_0 = A_i[0] * v_4_world_0 + A_i[1] * v_4_world_1 + A_i[2] * v_4_world_2;
+    const jg_real t579 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    const jg_real t580 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    jac_phi_q_v_velocity[9] = A_ij_0 * t575 + A_ij_3 * t576 + A_ij_6 * t577 - v_4_in_i_2;
+    jac_phi_q_v_velocity[10] = A_ij_1 * t575 + A_ij_4 * t576 + A_ij_7 * t577;
+    jac_phi_q_v_velocity[11] = A_ij_2 * t575 + A_ij_5 * t576 + A_ij_8 * t577 + v_4_in_i_0;
     jac_phi_q_v_velocity[12] = A_ij_1 * g_star_cross_h_j_in_j_0 + A_ij_4 * g_star_cross_h_j_in_j_1 + A_ij_7 *
         g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[13] = A_ij_1 * h_star_cross_f_j_in_j_0 + A_ij_4 * h_star_cross_f_j_in_j_1 + A_ij_7 *
         h_star_cross_f_j_in_j_2;
     jac_phi_q_v_velocity[14] = A_ij_1 * f_star_cross_g_j_in_j_0 + A_ij_4 * f_star_cross_g_j_in_j_1 + A_ij_7 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[32] = t582;
-    jac_phi_q_v_velocity[38] = t583;
-    const jg_real t584 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    jac_phi_q_v_velocity[44] = t584;
-    jac_phi_q_v_velocity[15] = A_ij_0 * t582 + A_ij_3 * t583 + A_ij_6 * t584 + v_2_in_i_1;
-    jac_phi_q_v_velocity[16] = A_ij_1 * t582 + A_ij_4 * t583 + A_ij_7 * t584 - v_2_in_i_0;
-    jac_phi_q_v_velocity[17] = A_ij_2 * t582 + A_ij_5 * t583 + A_ij_8 * t584;
+    jac_phi_q_v_velocity[32] = t579;
+    jac_phi_q_v_velocity[38] = t580;
+    const jg_real t581 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    jac_phi_q_v_velocity[44] = t581;
+    jac_phi_q_v_velocity[15] = A_ij_0 * t579 + A_ij_3 * t580 + A_ij_6 * t581 + v_4_in_i_1;
+    jac_phi_q_v_velocity[16] = A_ij_1 * t579 + A_ij_4 * t580 + A_ij_7 * t581 - v_4_in_i_0;
+    jac_phi_q_v_velocity[17] = A_ij_2 * t579 + A_ij_5 * t580 + A_ij_8 * t581;
     jac_phi_q_v_velocity[18] = A_ij_2 * g_star_cross_h_j_in_j_0 + A_ij_5 * g_star_cross_h_j_in_j_1 + A_ij_8 *
         g_star_cross_h_j_in_j_2;
     jac_phi_q_v_velocity[19] = A_ij_2 * h_star_cross_f_j_in_j_0 + A_ij_5 * h_star_cross_f_j_in_j_1 + A_ij_8 *

@@ -46,10 +46,10 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *r_i, const jg_real 
     jac_phi_r_i[7] = -A_i[5];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_1_world_0 + s_j_world_0;
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
@@ -83,8 +83,8 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *r_i, const jg_real 
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_1_world_1 + s_j_world_1;
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
     const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[2] = f_j_world_0 * C_i[6];
@@ -96,8 +96,8 @@ static void jg_planar_parametric_phi_jacobian(const jg_real *r_i, const jg_real 
     jac_phi_A_i[6] = f_j_world_1 * C_i[6];
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_1_world_2 + s_j_world_2;
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
     const jg_real t29 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
@@ -340,7 +340,6 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_r
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -356,14 +355,14 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_r
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_v_velocity[30] = A_ji_1;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[27] = A_ji_0;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[24] = A_ji_1;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[21] = A_ji_0;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[25] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
@@ -377,7 +376,7 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_r
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[22] = A_ji_3;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -415,36 +414,28 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_r
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real t42 = A_j[0] * v_3_in_j_0;
-    const jg_real t43 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t44 = A_j[6] * omega_i[0] + omega_i[1] * t43;
-    const jg_real t45 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t46 = A_j[3] * omega_i[0] + omega_i[1] * t45;
-    const jg_real t47 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
-    const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
+    /* v_2_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_j[0];
+    const jg_real t40 = A_j[0] * v_2_in_j_0;
+    const jg_real t41 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    const jg_real t42 = A_j[6] * omega_i[0] + omega_i[1] * t41;
+    const jg_real t43 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t44 = A_j[3] * omega_i[0] + omega_i[1] * t43;
+    const jg_real t45 = e_ij_in_j_1 * t42 - e_ij_in_j_2 * t44;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real t56 = A_j[3] * v_3_in_j_1;
-    const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real v_2_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_j[1];
+    const jg_real t51 = A_j[3] * v_2_in_j_1;
+    const jg_real t52 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real t53 = A_j[0] * omega_i[0] + omega_i[1] * t52;
+    const jg_real t54 = e_ij_in_j_2 * t53 - t42 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
+    const jg_real v_2_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_j[2];
+    const jg_real t58 = A_j[6] * v_2_in_j_2;
+    const jg_real t59 = t44 * e_ij_in_j_0 - e_ij_in_j_1 * t53;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
@@ -457,870 +448,858 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_r
     const jg_real g_star_in_j_2 = A_ji_5 * g_star_in_i_1 + A_ji_2 * g_star_in_i_0 + A_ji_8 * g_star_in_i_2;
     /* g_star_cross_h_j_in_j = g_star x h_j, axes of body j */
     const jg_real g_star_cross_h_j_in_j_0 = C_j[8] * g_star_in_j_1 - C_j[7] * g_star_in_j_2;
-    const jg_real t74 = t45 * g_star_in_i_1 + A_j[3] * g_star_in_i_0;
-    const jg_real t75 = t43 * g_star_in_i_1 + A_j[6] * g_star_in_i_0;
-    const jg_real t76 = C_j[8] * t74 - C_j[7] * t75;
+    const jg_real t68 = t43 * g_star_in_i_1 + A_j[3] * g_star_in_i_0;
+    const jg_real t69 = t41 * g_star_in_i_1 + A_j[6] * g_star_in_i_0;
+    const jg_real t70 = C_j[8] * t68 - C_j[7] * t69;
     const jg_real g_star_in_j_0 = A_ji_3 * g_star_in_i_1 + A_ji_0 * g_star_in_i_0 + A_ji_6 * g_star_in_i_2;
     const jg_real g_star_cross_h_j_in_j_1 = C_j[6] * g_star_in_j_2 - C_j[8] * g_star_in_j_0;
-    const jg_real t79 = t47 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
-    const jg_real t80 = C_j[6] * t75 - C_j[8] * t79;
+    const jg_real t73 = t52 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
+    const jg_real t74 = C_j[6] * t69 - C_j[8] * t73;
     const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
-    const jg_real t82 = C_j[7] * t79 - C_j[6] * t74;
+    const jg_real t76 = C_j[7] * t73 - C_j[6] * t68;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_2 = A_ji_5 * C_i[7] + A_ji_2 * C_i[6] + A_ji_8 * C_i[8];
-    const jg_real t84 = t43 * C_i[7] + A_j[6] * C_i[6];
+    const jg_real t78 = t41 * C_i[7] + A_j[6] * C_i[6];
     const jg_real h_star_in_j_1 = A_ji_4 * C_i[7] + A_ji_1 * C_i[6] + A_ji_7 * C_i[8];
-    const jg_real t86 = t45 * C_i[7] + A_j[3] * C_i[6];
-    const jg_real t87 = h_star_in_j_2 * t74 + t84 * g_star_in_j_1 - (h_star_in_j_1 * t75 + t86 * g_star_in_j_2);
+    const jg_real t80 = t43 * C_i[7] + A_j[3] * C_i[6];
+    const jg_real t81 = h_star_in_j_2 * t68 + t78 * g_star_in_j_1 - (h_star_in_j_1 * t69 + t80 * g_star_in_j_2);
     const jg_real h_star_in_j_0 = A_ji_3 * C_i[7] + A_ji_0 * C_i[6] + A_ji_6 * C_i[8];
-    const jg_real t89 = t47 * C_i[7] + A_j[0] * C_i[6];
-    const jg_real t90 = h_star_in_j_0 * t75 + t89 * g_star_in_j_2 - (h_star_in_j_2 * t79 + t84 * g_star_in_j_0);
-    const jg_real t91 = h_star_in_j_1 * t79 + t86 * g_star_in_j_0 - (h_star_in_j_0 * t74 + t89 * g_star_in_j_1);
+    const jg_real t83 = t52 * C_i[7] + A_j[0] * C_i[6];
+    const jg_real t84 = h_star_in_j_0 * t69 + t83 * g_star_in_j_2 - (h_star_in_j_2 * t73 + t78 * g_star_in_j_0);
+    const jg_real t85 = h_star_in_j_1 * t73 + t80 * g_star_in_j_0 - (h_star_in_j_0 * t68 + t83 * g_star_in_j_1);
     /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
     const jg_real h_star_cross_f_j_in_j_0 = C_j[2] * h_star_in_j_1 - C_j[1] * h_star_in_j_2;
-    const jg_real t93 = t86 * C_j[2] - t84 * C_j[1];
+    const jg_real t87 = C_j[2] * t80 - t78 * C_j[1];
     const jg_real h_star_cross_f_j_in_j_1 = C_j[0] * h_star_in_j_2 - C_j[2] * h_star_in_j_0;
-    const jg_real t95 = t84 * C_j[0] - C_j[2] * t89;
+    const jg_real t89 = t78 * C_j[0] - C_j[2] * t83;
     const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - C_j[0] * h_star_in_j_1;
-    const jg_real t97 = C_j[1] * t89 - t86 * C_j[0];
+    const jg_real t91 = C_j[1] * t83 - C_j[0] * t80;
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
-    jac_phi_q_v_A_i[3] = t44 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t82 + (t57 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t76 + (t46 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t80)) - alphadot[2] * (C_j[6] * t87
-        + C_j[7] * t90 + C_j[8] * t91) - (omega_j[0] * t76 + omega_j[1] * t80 + omega_j[2] * t82);
-    jac_phi_q_v_A_i[4] = t44 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t97 + (t57 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t93 + (t46 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t95)) - (omega_j[0] * t93 +
-        omega_j[1] * t95 + omega_j[2] * t97);
+    jac_phi_q_v_A_i[0] = t58 + A_ji_2 * t59 + (t40 + A_ji_0 * t45 + (t51 + A_ji_1 * t54));
+    jac_phi_q_v_A_i[1] = t41 * v_2_in_j_2 + A_ji_5 * t59 + (t52 * v_2_in_j_0 + A_ji_3 * t45 + (t43 * v_2_in_j_1 +
+        A_ji_4 * t54));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t45 + A_ji_7 * t54 + A_ji_8 * t59;
+    jac_phi_q_v_A_i[3] = t42 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t76 + (t53 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t70 + (t44 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t74)) - alphadot[2] * (C_j[6] * t81
+        + C_j[7] * t84 + C_j[8] * t85) - (omega_j[0] * t70 + omega_j[1] * t74 + omega_j[2] * t76);
+    jac_phi_q_v_A_i[4] = t42 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t91 + (t53 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t87 + (t44 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t89)) - (omega_j[0] * t87 +
+        omega_j[1] * t89 + omega_j[2] * t91);
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
     const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
     /* f_star_cross_g_j_in_j = f_star x g_j, axes of body j */
     const jg_real f_star_cross_g_j_in_j_0 = C_j[5] * f_star_in_j_1 - C_j[4] * f_star_in_j_2;
-    const jg_real t101 = C_j[5] * t90 - C_j[4] * t91;
+    const jg_real t95 = C_j[5] * t84 - C_j[4] * t85;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real f_star_cross_g_j_in_j_1 = C_j[3] * f_star_in_j_2 - C_j[5] * f_star_in_j_0;
-    const jg_real t104 = C_j[3] * t91 - C_j[5] * t87;
+    const jg_real t98 = C_j[3] * t85 - C_j[5] * t81;
     const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
-    const jg_real t106 = C_j[4] * t87 - C_j[3] * t90;
-    const jg_real t107 = A_j[1] * v_3_in_j_0;
-    const jg_real t108 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t109 = A_j[7] * omega_i[0] + omega_i[1] * t108;
-    const jg_real t110 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t111 = A_j[4] * omega_i[0] + omega_i[1] * t110;
-    const jg_real t112 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t113 = e_ij_in_j_1 * t109 - e_ij_in_j_2 * t111 - (A_j[1] * v_i[0] + v_i[1] * t112);
-    const jg_real t114 = A_j[4] * v_3_in_j_1;
-    const jg_real t115 = A_j[1] * omega_i[0] + omega_i[1] * t112;
-    const jg_real t116 = e_ij_in_j_2 * t115 - t109 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t110);
-    const jg_real t117 = A_j[7] * v_3_in_j_2;
-    const jg_real t118 = t111 * e_ij_in_j_0 - e_ij_in_j_1 * t115 - (v_i[1] * t108 + A_j[7] * v_i[0]);
-    const jg_real t119 = t110 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
-    const jg_real t120 = t108 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
-    const jg_real t121 = C_j[8] * t119 - C_j[7] * t120;
-    const jg_real t122 = t112 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
-    const jg_real t123 = C_j[6] * t120 - C_j[8] * t122;
-    const jg_real t124 = C_j[7] * t122 - C_j[6] * t119;
-    const jg_real t125 = t108 * C_i[7] + A_j[7] * C_i[6];
-    const jg_real t126 = t110 * C_i[7] + A_j[4] * C_i[6];
-    const jg_real t127 = h_star_in_j_2 * t119 + t125 * g_star_in_j_1 - (h_star_in_j_1 * t120 + t126 *
+    const jg_real t100 = C_j[4] * t81 - C_j[3] * t84;
+    const jg_real t101 = A_j[1] * v_2_in_j_0;
+    const jg_real t102 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real t103 = A_j[7] * omega_i[0] + omega_i[1] * t102;
+    const jg_real t104 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t105 = A_j[4] * omega_i[0] + omega_i[1] * t104;
+    const jg_real t106 = e_ij_in_j_1 * t103 - e_ij_in_j_2 * t105;
+    const jg_real t107 = A_j[4] * v_2_in_j_1;
+    const jg_real t108 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t109 = A_j[1] * omega_i[0] + omega_i[1] * t108;
+    const jg_real t110 = e_ij_in_j_2 * t109 - t103 * e_ij_in_j_0;
+    const jg_real t111 = A_j[7] * v_2_in_j_2;
+    const jg_real t112 = t105 * e_ij_in_j_0 - e_ij_in_j_1 * t109;
+    const jg_real t113 = t104 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
+    const jg_real t114 = t102 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
+    const jg_real t115 = C_j[8] * t113 - C_j[7] * t114;
+    const jg_real t116 = t108 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
+    const jg_real t117 = C_j[6] * t114 - C_j[8] * t116;
+    const jg_real t118 = C_j[7] * t116 - C_j[6] * t113;
+    const jg_real t119 = t102 * C_i[7] + A_j[7] * C_i[6];
+    const jg_real t120 = t104 * C_i[7] + A_j[4] * C_i[6];
+    const jg_real t121 = h_star_in_j_2 * t113 + t119 * g_star_in_j_1 - (h_star_in_j_1 * t114 + t120 *
         g_star_in_j_2);
-    const jg_real t128 = t112 * C_i[7] + A_j[1] * C_i[6];
-    const jg_real t129 = h_star_in_j_0 * t120 + t128 * g_star_in_j_2 - (h_star_in_j_2 * t122 + t125 *
+    const jg_real t122 = t108 * C_i[7] + A_j[1] * C_i[6];
+    const jg_real t123 = h_star_in_j_0 * t114 + t122 * g_star_in_j_2 - (h_star_in_j_2 * t116 + t119 *
         g_star_in_j_0);
-    const jg_real t130 = h_star_in_j_1 * t122 + t126 * g_star_in_j_0 - (h_star_in_j_0 * t119 + t128 *
+    const jg_real t124 = h_star_in_j_1 * t116 + t120 * g_star_in_j_0 - (h_star_in_j_0 * t113 + t122 *
         g_star_in_j_1);
-    const jg_real t131 = t126 * C_j[2] - t125 * C_j[1];
-    const jg_real t132 = t125 * C_j[0] - C_j[2] * t128;
-    const jg_real t133 = C_j[1] * t128 - t126 * C_j[0];
-    const jg_real t134 = C_j[5] * t129 - C_j[4] * t130;
-    const jg_real t135 = C_j[3] * t130 - C_j[5] * t127;
-    const jg_real t136 = C_j[4] * t127 - C_j[3] * t129;
-    const jg_real t137 = A_j[2] * v_3_in_j_0;
-    const jg_real t138 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t139 = A_j[8] * omega_i[0] + omega_i[1] * t138;
-    const jg_real t140 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t141 = A_j[5] * omega_i[0] + omega_i[1] * t140;
-    const jg_real t142 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t143 = e_ij_in_j_1 * t139 - e_ij_in_j_2 * t141 - (A_j[2] * v_i[0] + v_i[1] * t142);
-    const jg_real t144 = A_j[5] * v_3_in_j_1;
-    const jg_real t145 = A_j[2] * omega_i[0] + omega_i[1] * t142;
-    const jg_real t146 = e_ij_in_j_2 * t145 - t139 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t140);
-    const jg_real t147 = A_j[8] * v_3_in_j_2;
-    const jg_real t148 = t141 * e_ij_in_j_0 - e_ij_in_j_1 * t145 - (v_i[1] * t138 + A_j[8] * v_i[0]);
-    jac_phi_q_v_A_i[5] = t44 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t106 + (t57 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t101 + (t46 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t104)) + alphadot[2] * (C_j[3] *
-        t79 + C_j[4] * t74 + C_j[5] * t75) - (omega_j[0] * t101 + omega_j[1] * t104 + omega_j[2] * t106);
-    jac_phi_q_v_A_i[6] = t117 + A_ji_2 * t118 + (t107 + A_ji_0 * t113 + (t114 + A_ji_1 * t116));
-    jac_phi_q_v_A_i[7] = t108 * v_3_in_j_2 + A_ji_5 * t118 + (t112 * v_3_in_j_0 + A_ji_3 * t113 + (t110 * v_3_in_j_1
-        + A_ji_4 * t116));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t113 + A_ji_7 * t116 + A_ji_8 * t118;
-    jac_phi_q_v_A_i[9] = t109 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t124 + (t115 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t121 + (t111 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t123)) - alphadot[2] * (C_j[6] *
-        t127 + C_j[7] * t129 + C_j[8] * t130) - (omega_j[0] * t121 + omega_j[1] * t123 + omega_j[2] * t124);
-    jac_phi_q_v_A_i[10] = t109 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t133 + (t115 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t131 + (t111 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t132)) - (omega_j[0] * t131 +
-        omega_j[1] * t132 + omega_j[2] * t133);
-    jac_phi_q_v_A_i[11] = t109 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t136 + (t115 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t134 + (t111 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t135)) + alphadot[2] * (C_j[3] *
-        t122 + C_j[4] * t119 + C_j[5] * t120) - (omega_j[0] * t134 + omega_j[1] * t135 + omega_j[2] * t136);
-    jac_phi_q_v_A_i[12] = t147 + A_ji_2 * t148 + (t137 + A_ji_0 * t143 + (t144 + A_ji_1 * t146));
-    const jg_real t149 = t140 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
-    const jg_real t150 = t138 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
-    const jg_real t151 = C_j[8] * t149 - C_j[7] * t150;
-    const jg_real t152 = t142 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
-    const jg_real t153 = C_j[6] * t150 - C_j[8] * t152;
-    const jg_real t154 = C_j[7] * t152 - C_j[6] * t149;
-    const jg_real t155 = t138 * C_i[7] + A_j[8] * C_i[6];
-    const jg_real t156 = t140 * C_i[7] + A_j[5] * C_i[6];
-    const jg_real t157 = h_star_in_j_2 * t149 + t155 * g_star_in_j_1 - (h_star_in_j_1 * t150 + t156 *
+    const jg_real t125 = C_j[2] * t120 - t119 * C_j[1];
+    const jg_real t126 = t119 * C_j[0] - C_j[2] * t122;
+    const jg_real t127 = C_j[1] * t122 - C_j[0] * t120;
+    const jg_real t128 = C_j[5] * t123 - C_j[4] * t124;
+    const jg_real t129 = C_j[3] * t124 - C_j[5] * t121;
+    const jg_real t130 = C_j[4] * t121 - C_j[3] * t123;
+    const jg_real t131 = A_j[2] * v_2_in_j_0;
+    const jg_real t132 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real t133 = A_j[8] * omega_i[0] + omega_i[1] * t132;
+    const jg_real t134 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t135 = A_j[5] * omega_i[0] + omega_i[1] * t134;
+    const jg_real t136 = e_ij_in_j_1 * t133 - e_ij_in_j_2 * t135;
+    const jg_real t137 = A_j[5] * v_2_in_j_1;
+    const jg_real t138 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t139 = A_j[2] * omega_i[0] + omega_i[1] * t138;
+    const jg_real t140 = e_ij_in_j_2 * t139 - t133 * e_ij_in_j_0;
+    const jg_real t141 = A_j[8] * v_2_in_j_2;
+    const jg_real t142 = t135 * e_ij_in_j_0 - e_ij_in_j_1 * t139;
+    jac_phi_q_v_A_i[5] = t42 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t100 + (t53 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t95 + (t44 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t98)) + alphadot[2] * (C_j[3] * t73
+        + C_j[4] * t68 + C_j[5] * t69) - (omega_j[0] * t95 + omega_j[1] * t98 + omega_j[2] * t100);
+    jac_phi_q_v_A_i[6] = t111 + A_ji_2 * t112 + (t101 + A_ji_0 * t106 + (t107 + A_ji_1 * t110));
+    jac_phi_q_v_A_i[7] = t102 * v_2_in_j_2 + A_ji_5 * t112 + (t108 * v_2_in_j_0 + A_ji_3 * t106 + (t104 * v_2_in_j_1
+        + A_ji_4 * t110));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t106 + A_ji_7 * t110 + A_ji_8 * t112;
+    jac_phi_q_v_A_i[9] = t103 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t118 + (t109 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t115 + (t105 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t117)) - alphadot[2] * (C_j[6] *
+        t121 + C_j[7] * t123 + C_j[8] * t124) - (omega_j[0] * t115 + omega_j[1] * t117 + omega_j[2] * t118);
+    jac_phi_q_v_A_i[10] = t103 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t127 + (t109 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t125 + (t105 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t126)) - (omega_j[0] * t125 +
+        omega_j[1] * t126 + omega_j[2] * t127);
+    jac_phi_q_v_A_i[11] = t103 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t130 + (t109 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t128 + (t105 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t129)) + alphadot[2] * (C_j[3] *
+        t116 + C_j[4] * t113 + C_j[5] * t114) - (omega_j[0] * t128 + omega_j[1] * t129 + omega_j[2] * t130);
+    jac_phi_q_v_A_i[12] = t141 + A_ji_2 * t142 + (t131 + A_ji_0 * t136 + (t137 + A_ji_1 * t140));
+    const jg_real t143 = t134 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
+    const jg_real t144 = t132 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
+    const jg_real t145 = C_j[8] * t143 - C_j[7] * t144;
+    const jg_real t146 = t138 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
+    const jg_real t147 = C_j[6] * t144 - C_j[8] * t146;
+    const jg_real t148 = C_j[7] * t146 - C_j[6] * t143;
+    const jg_real t149 = t132 * C_i[7] + A_j[8] * C_i[6];
+    const jg_real t150 = t134 * C_i[7] + A_j[5] * C_i[6];
+    const jg_real t151 = h_star_in_j_2 * t143 + t149 * g_star_in_j_1 - (h_star_in_j_1 * t144 + t150 *
         g_star_in_j_2);
-    const jg_real t158 = t142 * C_i[7] + A_j[2] * C_i[6];
-    const jg_real t159 = h_star_in_j_0 * t150 + t158 * g_star_in_j_2 - (h_star_in_j_2 * t152 + t155 *
+    const jg_real t152 = t138 * C_i[7] + A_j[2] * C_i[6];
+    const jg_real t153 = h_star_in_j_0 * t144 + t152 * g_star_in_j_2 - (h_star_in_j_2 * t146 + t149 *
         g_star_in_j_0);
-    const jg_real t160 = h_star_in_j_1 * t152 + t156 * g_star_in_j_0 - (h_star_in_j_0 * t149 + t158 *
+    const jg_real t154 = h_star_in_j_1 * t146 + t150 * g_star_in_j_0 - (h_star_in_j_0 * t143 + t152 *
         g_star_in_j_1);
-    const jg_real t161 = t156 * C_j[2] - t155 * C_j[1];
-    const jg_real t162 = t155 * C_j[0] - C_j[2] * t158;
-    const jg_real t163 = C_j[1] * t158 - t156 * C_j[0];
-    const jg_real t164 = C_j[5] * t159 - C_j[4] * t160;
-    const jg_real t165 = C_j[3] * t160 - C_j[5] * t157;
-    const jg_real t166 = C_j[4] * t157 - C_j[3] * t159;
-    const jg_real t167 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t168 = A_j[6] * omega_i[2] + omega_i[1] * t167;
-    const jg_real t169 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t170 = A_j[3] * omega_i[2] + omega_i[1] * t169;
-    const jg_real t171 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t172 = e_ij_in_j_1 * t168 - e_ij_in_j_2 * t170 - (A_j[0] * v_i[2] + v_i[1] * t171);
-    const jg_real t173 = A_j[0] * omega_i[2] + omega_i[1] * t171;
-    const jg_real t174 = e_ij_in_j_2 * t173 - t168 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t169);
-    const jg_real t175 = e_ij_in_j_0 * t170 - e_ij_in_j_1 * t173 - (v_i[1] * t167 + A_j[6] * v_i[2]);
-    jac_phi_q_v_A_i[13] = t138 * v_3_in_j_2 + A_ji_5 * t148 + (t142 * v_3_in_j_0 + A_ji_3 * t143 + (t140 *
-        v_3_in_j_1 + A_ji_4 * t146));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t143 + A_ji_7 * t146 + A_ji_8 * t148;
-    jac_phi_q_v_A_i[15] = t139 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t154 + (t145 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t151 + (t141 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t153)) - alphadot[2] * (C_j[6] *
-        t157 + C_j[7] * t159 + C_j[8] * t160) - (omega_j[0] * t151 + omega_j[1] * t153 + omega_j[2] * t154);
-    jac_phi_q_v_A_i[16] = t139 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t163 + (t145 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t161 + (t141 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t162)) - (omega_j[0] * t161 +
-        omega_j[1] * t162 + omega_j[2] * t163);
-    jac_phi_q_v_A_i[17] = t139 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t166 + (t145 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t164 + (t141 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t165)) + alphadot[2] * (C_j[3] *
-        t152 + C_j[4] * t149 + C_j[5] * t150) - (omega_j[0] * t164 + omega_j[1] * t165 + omega_j[2] * t166);
-    jac_phi_q_v_A_i[18] = A_ji_0 * t172 + A_ji_1 * t174 + A_ji_2 * t175;
-    jac_phi_q_v_A_i[19] = t167 * v_3_in_j_2 + A_ji_5 * t175 + (t171 * v_3_in_j_0 + A_ji_3 * t172 + (t169 *
-        v_3_in_j_1 + A_ji_4 * t174));
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t175 + (t42 + A_ji_6 * t172 + (t56 + A_ji_7 * t174));
-    const jg_real t176 = t169 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
-    const jg_real t177 = t167 * g_star_in_i_1 + A_j[6] * g_star_in_i_2;
-    const jg_real t178 = C_j[8] * t176 - C_j[7] * t177;
-    const jg_real t179 = t171 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
-    const jg_real t180 = C_j[6] * t177 - C_j[8] * t179;
-    const jg_real t181 = C_j[7] * t179 - C_j[6] * t176;
-    const jg_real t182 = t167 * C_i[7] + A_j[6] * C_i[8];
-    const jg_real t183 = t169 * C_i[7] + A_j[3] * C_i[8];
-    const jg_real t184 = h_star_in_j_2 * t176 + t182 * g_star_in_j_1 - (h_star_in_j_1 * t177 + t183 *
+    const jg_real t155 = C_j[2] * t150 - t149 * C_j[1];
+    const jg_real t156 = t149 * C_j[0] - C_j[2] * t152;
+    const jg_real t157 = C_j[1] * t152 - C_j[0] * t150;
+    const jg_real t158 = C_j[5] * t153 - C_j[4] * t154;
+    const jg_real t159 = C_j[3] * t154 - C_j[5] * t151;
+    const jg_real t160 = C_j[4] * t151 - C_j[3] * t153;
+    const jg_real t161 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t162 = A_j[6] * omega_i[2] + omega_i[1] * t161;
+    const jg_real t163 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t164 = A_j[3] * omega_i[2] + omega_i[1] * t163;
+    const jg_real t165 = e_ij_in_j_1 * t162 - e_ij_in_j_2 * t164;
+    const jg_real t166 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t167 = A_j[0] * omega_i[2] + omega_i[1] * t166;
+    const jg_real t168 = e_ij_in_j_2 * t167 - t162 * e_ij_in_j_0;
+    const jg_real t169 = e_ij_in_j_0 * t164 - e_ij_in_j_1 * t167;
+    jac_phi_q_v_A_i[13] = t132 * v_2_in_j_2 + A_ji_5 * t142 + (t138 * v_2_in_j_0 + A_ji_3 * t136 + (t134 *
+        v_2_in_j_1 + A_ji_4 * t140));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t136 + A_ji_7 * t140 + A_ji_8 * t142;
+    jac_phi_q_v_A_i[15] = t133 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t148 + (t139 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t145 + (t135 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t147)) - alphadot[2] * (C_j[6] *
+        t151 + C_j[7] * t153 + C_j[8] * t154) - (omega_j[0] * t145 + omega_j[1] * t147 + omega_j[2] * t148);
+    jac_phi_q_v_A_i[16] = t133 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t157 + (t139 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t155 + (t135 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t156)) - (omega_j[0] * t155 +
+        omega_j[1] * t156 + omega_j[2] * t157);
+    jac_phi_q_v_A_i[17] = t133 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t160 + (t139 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t158 + (t135 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t159)) + alphadot[2] * (C_j[3] *
+        t146 + C_j[4] * t143 + C_j[5] * t144) - (omega_j[0] * t158 + omega_j[1] * t159 + omega_j[2] * t160);
+    jac_phi_q_v_A_i[18] = A_ji_0 * t165 + A_ji_1 * t168 + A_ji_2 * t169;
+    jac_phi_q_v_A_i[19] = t161 * v_2_in_j_2 + A_ji_5 * t169 + (t166 * v_2_in_j_0 + A_ji_3 * t165 + (t163 *
+        v_2_in_j_1 + A_ji_4 * t168));
+    jac_phi_q_v_A_i[20] = t58 + A_ji_8 * t169 + (t40 + A_ji_6 * t165 + (t51 + A_ji_7 * t168));
+    const jg_real t170 = t163 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
+    const jg_real t171 = t161 * g_star_in_i_1 + A_j[6] * g_star_in_i_2;
+    const jg_real t172 = C_j[8] * t170 - C_j[7] * t171;
+    const jg_real t173 = t166 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
+    const jg_real t174 = C_j[6] * t171 - C_j[8] * t173;
+    const jg_real t175 = C_j[7] * t173 - C_j[6] * t170;
+    const jg_real t176 = t161 * C_i[7] + A_j[6] * C_i[8];
+    const jg_real t177 = t163 * C_i[7] + A_j[3] * C_i[8];
+    const jg_real t178 = h_star_in_j_2 * t170 + t176 * g_star_in_j_1 - (h_star_in_j_1 * t171 + t177 *
         g_star_in_j_2);
-    const jg_real t185 = t171 * C_i[7] + A_j[0] * C_i[8];
-    const jg_real t186 = h_star_in_j_0 * t177 + t185 * g_star_in_j_2 - (h_star_in_j_2 * t179 + t182 *
+    const jg_real t179 = t166 * C_i[7] + A_j[0] * C_i[8];
+    const jg_real t180 = h_star_in_j_0 * t171 + t179 * g_star_in_j_2 - (h_star_in_j_2 * t173 + t176 *
         g_star_in_j_0);
-    const jg_real t187 = h_star_in_j_1 * t179 + t183 * g_star_in_j_0 - (h_star_in_j_0 * t176 + t185 *
+    const jg_real t181 = h_star_in_j_1 * t173 + t177 * g_star_in_j_0 - (h_star_in_j_0 * t170 + t179 *
         g_star_in_j_1);
-    const jg_real t188 = C_j[2] * t183 - C_j[1] * t182;
-    const jg_real t189 = C_j[0] * t182 - C_j[2] * t185;
-    const jg_real t190 = C_j[1] * t185 - C_j[0] * t183;
-    const jg_real t191 = C_j[5] * t186 - C_j[4] * t187;
-    const jg_real t192 = C_j[3] * t187 - C_j[5] * t184;
-    const jg_real t193 = C_j[4] * t184 - C_j[3] * t186;
-    const jg_real t194 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t195 = A_j[7] * omega_i[2] + omega_i[1] * t194;
-    const jg_real t196 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t197 = A_j[4] * omega_i[2] + omega_i[1] * t196;
-    const jg_real t198 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t199 = e_ij_in_j_1 * t195 - e_ij_in_j_2 * t197 - (A_j[1] * v_i[2] + v_i[1] * t198);
-    const jg_real t200 = A_j[1] * omega_i[2] + omega_i[1] * t198;
-    const jg_real t201 = e_ij_in_j_2 * t200 - t195 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t196);
-    const jg_real t202 = e_ij_in_j_0 * t197 - e_ij_in_j_1 * t200 - (v_i[1] * t194 + A_j[7] * v_i[2]);
-    const jg_real t203 = t196 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
-    const jg_real t204 = t194 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
-    const jg_real t205 = C_j[8] * t203 - C_j[7] * t204;
-    const jg_real t206 = t198 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
-    const jg_real t207 = C_j[6] * t204 - C_j[8] * t206;
-    const jg_real t208 = C_j[7] * t206 - C_j[6] * t203;
-    const jg_real t209 = t194 * C_i[7] + A_j[7] * C_i[8];
-    const jg_real t210 = t196 * C_i[7] + A_j[4] * C_i[8];
-    const jg_real t211 = h_star_in_j_2 * t203 + t209 * g_star_in_j_1 - (h_star_in_j_1 * t204 + t210 *
+    const jg_real t182 = C_j[2] * t177 - C_j[1] * t176;
+    const jg_real t183 = C_j[0] * t176 - C_j[2] * t179;
+    const jg_real t184 = C_j[1] * t179 - C_j[0] * t177;
+    const jg_real t185 = C_j[5] * t180 - C_j[4] * t181;
+    const jg_real t186 = C_j[3] * t181 - C_j[5] * t178;
+    const jg_real t187 = C_j[4] * t178 - C_j[3] * t180;
+    const jg_real t188 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t189 = A_j[7] * omega_i[2] + omega_i[1] * t188;
+    const jg_real t190 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t191 = A_j[4] * omega_i[2] + omega_i[1] * t190;
+    const jg_real t192 = e_ij_in_j_1 * t189 - e_ij_in_j_2 * t191;
+    const jg_real t193 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t194 = A_j[1] * omega_i[2] + omega_i[1] * t193;
+    const jg_real t195 = e_ij_in_j_2 * t194 - t189 * e_ij_in_j_0;
+    const jg_real t196 = e_ij_in_j_0 * t191 - e_ij_in_j_1 * t194;
+    const jg_real t197 = t190 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
+    const jg_real t198 = t188 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
+    const jg_real t199 = C_j[8] * t197 - C_j[7] * t198;
+    const jg_real t200 = t193 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
+    const jg_real t201 = C_j[6] * t198 - C_j[8] * t200;
+    const jg_real t202 = C_j[7] * t200 - C_j[6] * t197;
+    const jg_real t203 = t188 * C_i[7] + A_j[7] * C_i[8];
+    const jg_real t204 = t190 * C_i[7] + A_j[4] * C_i[8];
+    const jg_real t205 = h_star_in_j_2 * t197 + t203 * g_star_in_j_1 - (h_star_in_j_1 * t198 + t204 *
         g_star_in_j_2);
-    const jg_real t212 = t198 * C_i[7] + A_j[1] * C_i[8];
-    const jg_real t213 = h_star_in_j_0 * t204 + t212 * g_star_in_j_2 - (h_star_in_j_2 * t206 + t209 *
+    const jg_real t206 = t193 * C_i[7] + A_j[1] * C_i[8];
+    const jg_real t207 = h_star_in_j_0 * t198 + t206 * g_star_in_j_2 - (h_star_in_j_2 * t200 + t203 *
         g_star_in_j_0);
-    const jg_real t214 = h_star_in_j_1 * t206 + t210 * g_star_in_j_0 - (h_star_in_j_0 * t203 + t212 *
+    const jg_real t208 = h_star_in_j_1 * t200 + t204 * g_star_in_j_0 - (h_star_in_j_0 * t197 + t206 *
         g_star_in_j_1);
-    const jg_real t215 = C_j[2] * t210 - C_j[1] * t209;
-    const jg_real t216 = C_j[0] * t209 - C_j[2] * t212;
-    const jg_real t217 = C_j[1] * t212 - C_j[0] * t210;
-    jac_phi_q_v_A_i[21] = t168 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t181 + (t173 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t178 + (t170 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t180)) - alphadot[2] * (C_j[6] *
-        t184 + C_j[7] * t186 + C_j[8] * t187) - (omega_j[0] * t178 + omega_j[1] * t180 + omega_j[2] * t181);
-    jac_phi_q_v_A_i[22] = t168 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t190 + (t173 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t188 + (t170 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t189)) - (omega_j[0] * t188 +
-        omega_j[1] * t189 + omega_j[2] * t190);
-    jac_phi_q_v_A_i[23] = t168 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t193 + (t173 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t191 + (t170 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t192)) + alphadot[2] * (C_j[3] *
-        t179 + C_j[4] * t176 + C_j[5] * t177) - (omega_j[0] * t191 + omega_j[1] * t192 + omega_j[2] * t193);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t199 + A_ji_1 * t201 + A_ji_2 * t202;
-    jac_phi_q_v_A_i[25] = t194 * v_3_in_j_2 + A_ji_5 * t202 + (t198 * v_3_in_j_0 + A_ji_3 * t199 + (t196 *
-        v_3_in_j_1 + A_ji_4 * t201));
-    jac_phi_q_v_A_i[26] = t117 + A_ji_8 * t202 + (t107 + A_ji_6 * t199 + (t114 + A_ji_7 * t201));
-    jac_phi_q_v_A_i[27] = t195 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t208 + (t200 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t205 + (t197 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t207)) - alphadot[2] * (C_j[6] *
-        t211 + C_j[7] * t213 + C_j[8] * t214) - (omega_j[0] * t205 + omega_j[1] * t207 + omega_j[2] * t208);
-    jac_phi_q_v_A_i[28] = t195 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t217 + (t200 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t215 + (t197 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t216)) - (omega_j[0] * t215 +
-        omega_j[1] * t216 + omega_j[2] * t217);
-    const jg_real t218 = C_j[5] * t213 - C_j[4] * t214;
-    const jg_real t219 = C_j[3] * t214 - C_j[5] * t211;
-    const jg_real t220 = C_j[4] * t211 - C_j[3] * t213;
-    const jg_real t221 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t222 = A_j[8] * omega_i[2] + omega_i[1] * t221;
-    const jg_real t223 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t224 = A_j[5] * omega_i[2] + omega_i[1] * t223;
-    const jg_real t225 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t226 = e_ij_in_j_1 * t222 - e_ij_in_j_2 * t224 - (A_j[2] * v_i[2] + v_i[1] * t225);
-    const jg_real t227 = A_j[2] * omega_i[2] + omega_i[1] * t225;
-    const jg_real t228 = e_ij_in_j_2 * t227 - t222 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t223);
-    const jg_real t229 = e_ij_in_j_0 * t224 - e_ij_in_j_1 * t227 - (v_i[1] * t221 + A_j[8] * v_i[2]);
-    const jg_real t230 = t223 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
-    const jg_real t231 = t221 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
-    const jg_real t232 = C_j[8] * t230 - C_j[7] * t231;
-    const jg_real t233 = t225 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
-    const jg_real t234 = C_j[6] * t231 - C_j[8] * t233;
-    const jg_real t235 = C_j[7] * t233 - C_j[6] * t230;
-    const jg_real t236 = t221 * C_i[7] + A_j[8] * C_i[8];
-    const jg_real t237 = t223 * C_i[7] + A_j[5] * C_i[8];
-    const jg_real t238 = h_star_in_j_2 * t230 + t236 * g_star_in_j_1 - (h_star_in_j_1 * t231 + t237 *
+    const jg_real t209 = C_j[2] * t204 - C_j[1] * t203;
+    const jg_real t210 = C_j[0] * t203 - C_j[2] * t206;
+    const jg_real t211 = C_j[1] * t206 - C_j[0] * t204;
+    jac_phi_q_v_A_i[21] = t162 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t175 + (t167 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t172 + (t164 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t174)) - alphadot[2] * (C_j[6] *
+        t178 + C_j[7] * t180 + C_j[8] * t181) - (omega_j[0] * t172 + omega_j[1] * t174 + omega_j[2] * t175);
+    jac_phi_q_v_A_i[22] = t162 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t184 + (t167 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t182 + (t164 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t183)) - (omega_j[0] * t182 +
+        omega_j[1] * t183 + omega_j[2] * t184);
+    jac_phi_q_v_A_i[23] = t162 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t187 + (t167 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t185 + (t164 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t186)) + alphadot[2] * (C_j[3] *
+        t173 + C_j[4] * t170 + C_j[5] * t171) - (omega_j[0] * t185 + omega_j[1] * t186 + omega_j[2] * t187);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t192 + A_ji_1 * t195 + A_ji_2 * t196;
+    jac_phi_q_v_A_i[25] = t188 * v_2_in_j_2 + A_ji_5 * t196 + (t193 * v_2_in_j_0 + A_ji_3 * t192 + (t190 *
+        v_2_in_j_1 + A_ji_4 * t195));
+    jac_phi_q_v_A_i[26] = t111 + A_ji_8 * t196 + (t101 + A_ji_6 * t192 + (t107 + A_ji_7 * t195));
+    jac_phi_q_v_A_i[27] = t189 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t202 + (t194 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t199 + (t191 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t201)) - alphadot[2] * (C_j[6] *
+        t205 + C_j[7] * t207 + C_j[8] * t208) - (omega_j[0] * t199 + omega_j[1] * t201 + omega_j[2] * t202);
+    jac_phi_q_v_A_i[28] = t189 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t211 + (t194 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t209 + (t191 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t210)) - (omega_j[0] * t209 +
+        omega_j[1] * t210 + omega_j[2] * t211);
+    const jg_real t212 = C_j[5] * t207 - C_j[4] * t208;
+    const jg_real t213 = C_j[3] * t208 - C_j[5] * t205;
+    const jg_real t214 = C_j[4] * t205 - C_j[3] * t207;
+    const jg_real t215 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t216 = A_j[8] * omega_i[2] + omega_i[1] * t215;
+    const jg_real t217 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t218 = A_j[5] * omega_i[2] + omega_i[1] * t217;
+    const jg_real t219 = e_ij_in_j_1 * t216 - e_ij_in_j_2 * t218;
+    const jg_real t220 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t221 = A_j[2] * omega_i[2] + omega_i[1] * t220;
+    const jg_real t222 = e_ij_in_j_2 * t221 - t216 * e_ij_in_j_0;
+    const jg_real t223 = e_ij_in_j_0 * t218 - e_ij_in_j_1 * t221;
+    const jg_real t224 = t217 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
+    const jg_real t225 = t215 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
+    const jg_real t226 = C_j[8] * t224 - C_j[7] * t225;
+    const jg_real t227 = t220 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
+    const jg_real t228 = C_j[6] * t225 - C_j[8] * t227;
+    const jg_real t229 = C_j[7] * t227 - C_j[6] * t224;
+    const jg_real t230 = t215 * C_i[7] + A_j[8] * C_i[8];
+    const jg_real t231 = t217 * C_i[7] + A_j[5] * C_i[8];
+    const jg_real t232 = h_star_in_j_2 * t224 + t230 * g_star_in_j_1 - (h_star_in_j_1 * t225 + t231 *
         g_star_in_j_2);
-    const jg_real t239 = t225 * C_i[7] + A_j[2] * C_i[8];
-    const jg_real t240 = h_star_in_j_0 * t231 + t239 * g_star_in_j_2 - (h_star_in_j_2 * t233 + t236 *
+    const jg_real t233 = t220 * C_i[7] + A_j[2] * C_i[8];
+    const jg_real t234 = h_star_in_j_0 * t225 + t233 * g_star_in_j_2 - (h_star_in_j_2 * t227 + t230 *
         g_star_in_j_0);
-    const jg_real t241 = h_star_in_j_1 * t233 + t237 * g_star_in_j_0 - (h_star_in_j_0 * t230 + t239 *
+    const jg_real t235 = h_star_in_j_1 * t227 + t231 * g_star_in_j_0 - (h_star_in_j_0 * t224 + t233 *
         g_star_in_j_1);
-    const jg_real t242 = C_j[2] * t237 - C_j[1] * t236;
-    const jg_real t243 = C_j[0] * t236 - C_j[2] * t239;
-    const jg_real t244 = C_j[1] * t239 - C_j[0] * t237;
-    const jg_real t245 = C_j[5] * t240 - C_j[4] * t241;
-    const jg_real t246 = C_j[3] * t241 - C_j[5] * t238;
-    const jg_real t247 = C_j[4] * t238 - C_j[3] * t240;
-    const jg_real t248 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
-    const jg_real t249 = omega_i[1] * t248;
-    const jg_real t250 = t249 * e_ij_in_j_1;
-    const jg_real t251 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
-    const jg_real t252 = omega_i[1] * t251;
-    const jg_real t253 = e_ij_in_j_2 * t252;
-    const jg_real t254 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
-    const jg_real t255 = t250 - t253 - t254;
-    const jg_real t256 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t257 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
-    const jg_real t258 = e_ij_in_j_2 * t257;
-    const jg_real t259 = v_i[1] * t251;
-    const jg_real t260 = t258 - (t256 + t249 * e_ij_in_j_0) - t259;
-    const jg_real t261 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t262 = e_ij_in_j_1 * t257;
-    const jg_real t263 = v_i[1] * t248;
-    const jg_real t264 = t261 + t252 * e_ij_in_j_0 - t262 - t263;
-    jac_phi_q_v_A_i[29] = t195 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t220 + (t200 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t218 + (t197 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t219)) + alphadot[2] * (C_j[3] *
-        t206 + C_j[4] * t203 + C_j[5] * t204) - (omega_j[0] * t218 + omega_j[1] * t219 + omega_j[2] * t220);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t226 + A_ji_1 * t228 + A_ji_2 * t229;
-    jac_phi_q_v_A_i[31] = t221 * v_3_in_j_2 + A_ji_5 * t229 + (t225 * v_3_in_j_0 + A_ji_3 * t226 + (t223 *
-        v_3_in_j_1 + A_ji_4 * t228));
-    jac_phi_q_v_A_i[32] = t147 + A_ji_8 * t229 + (t137 + A_ji_6 * t226 + (t144 + A_ji_7 * t228));
-    jac_phi_q_v_A_i[33] = t222 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t235 + (t227 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t232 + (t224 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t234)) - alphadot[2] * (C_j[6] *
-        t238 + C_j[7] * t240 + C_j[8] * t241) - (omega_j[0] * t232 + omega_j[1] * t234 + omega_j[2] * t235);
-    jac_phi_q_v_A_i[34] = t222 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t244 + (t227 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t242 + (t224 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t243)) - (omega_j[0] * t242 +
-        omega_j[1] * t243 + omega_j[2] * t244);
-    jac_phi_q_v_A_i[35] = t222 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t247 + (t227 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t245 + (t224 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t246)) + alphadot[2] * (C_j[3] *
-        t233 + C_j[4] * t230 + C_j[5] * t231) - (omega_j[0] * t245 + omega_j[1] * t246 + omega_j[2] * t247);
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t255 + A_ji_1 * t260 + A_ji_2 * t264;
-    const jg_real t265 = t251 * g_star_in_i_1;
-    const jg_real t266 = C_j[8] * t265;
-    const jg_real t267 = t248 * g_star_in_i_1;
-    const jg_real t268 = C_j[7] * t267;
-    const jg_real t269 = t266 - t268;
-    const jg_real t270 = A_i[0] * g_star_in_i_0 + A_i[6] * g_star_in_i_2;
-    const jg_real t271 = C_j[8] * t270;
-    const jg_real t272 = C_j[6] * t267 - t271;
-    const jg_real t273 = C_j[7] * t270;
-    const jg_real t274 = t273 - C_j[6] * t265;
-    const jg_real t275 = h_star_in_j_2 * t265;
-    const jg_real t276 = t248 * C_i[7];
-    const jg_real t277 = t276 * g_star_in_j_1;
-    const jg_real t278 = h_star_in_j_1 * t267;
-    const jg_real t279 = t251 * C_i[7];
-    const jg_real t280 = t279 * g_star_in_j_2;
-    const jg_real t281 = t275 + t277 - (t278 + t280);
-    const jg_real t282 = A_i[0] * C_i[6] + A_i[6] * C_i[8];
-    const jg_real t283 = t282 * g_star_in_j_2;
-    const jg_real t284 = h_star_in_j_2 * t270;
-    const jg_real t285 = t283 + h_star_in_j_0 * t267 - (t284 + t276 * g_star_in_j_0);
-    const jg_real t286 = h_star_in_j_1 * t270;
-    const jg_real t287 = t282 * g_star_in_j_1;
-    const jg_real t288 = t286 + t279 * g_star_in_j_0 - (t287 + h_star_in_j_0 * t265);
-    const jg_real t289 = t279 * C_j[2];
-    const jg_real t290 = t276 * C_j[1];
-    const jg_real t291 = t289 - t290;
-    const jg_real t292 = C_j[2] * t282;
-    const jg_real t293 = t276 * C_j[0] - t292;
-    const jg_real t294 = C_j[1] * t282;
-    const jg_real t295 = t294 - t279 * C_j[0];
-    const jg_real t296 = C_j[5] * t285 - C_j[4] * t288;
-    const jg_real t297 = C_j[3] * t288 - C_j[5] * t281;
-    const jg_real t298 = C_j[4] * t281 - C_j[3] * t285;
-    const jg_real t299 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
-    const jg_real t300 = omega_i[1] * t299;
-    const jg_real t301 = t300 * e_ij_in_j_1;
-    const jg_real t302 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
-    const jg_real t303 = omega_i[1] * t302;
-    const jg_real t304 = e_ij_in_j_2 * t303;
-    const jg_real t305 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
-    const jg_real t306 = t301 - t304 - t305;
-    const jg_real t307 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t308 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
-    const jg_real t309 = e_ij_in_j_2 * t308;
-    const jg_real t310 = v_i[1] * t302;
-    const jg_real t311 = t309 - (t307 + t300 * e_ij_in_j_0) - t310;
-    const jg_real t312 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t313 = e_ij_in_j_1 * t308;
-    const jg_real t314 = v_i[1] * t299;
-    const jg_real t315 = t312 + t303 * e_ij_in_j_0 - t313 - t314;
-    jac_phi_q_v_A_j[1] = t248 * v_3_in_j_2 + A_ji_5 * t264 + (t251 * v_3_in_j_1 + A_ji_4 * t260 + A_ji_3 * t255);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t255 + A_ji_7 * t260 + A_ji_8 * t264;
-    jac_phi_q_v_A_j[3] = t249 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t274 + (t257 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t269 + (t252 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t272)) - alphadot[2] * (C_j[6] *
-        t281 + C_j[7] * t285 + C_j[8] * t288) - (omega_j[0] * t269 + omega_j[1] * t272 + omega_j[2] * t274);
-    jac_phi_q_v_A_j[4] = t249 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t295 + (t257 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t291 + (t252 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t291 +
-        omega_j[1] * t293 + omega_j[2] * t295);
-    jac_phi_q_v_A_j[5] = t249 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t298 + (t257 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t296 + (t252 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t297)) + alphadot[2] * (C_j[3] *
-        t270 + C_j[4] * t265 + C_j[5] * t267) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t306 + A_ji_1 * t311 + A_ji_2 * t315;
-    jac_phi_q_v_A_j[7] = t299 * v_3_in_j_2 + A_ji_5 * t315 + (t302 * v_3_in_j_1 + A_ji_4 * t311 + A_ji_3 * t306);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t306 + A_ji_7 * t311 + A_ji_8 * t315;
-    const jg_real t316 = t302 * g_star_in_i_1;
-    const jg_real t317 = C_j[8] * t316;
-    const jg_real t318 = t299 * g_star_in_i_1;
-    const jg_real t319 = C_j[7] * t318;
-    const jg_real t320 = t317 - t319;
-    const jg_real t321 = A_i[1] * g_star_in_i_0 + A_i[7] * g_star_in_i_2;
-    const jg_real t322 = C_j[8] * t321;
-    const jg_real t323 = C_j[6] * t318 - t322;
-    const jg_real t324 = C_j[7] * t321;
-    const jg_real t325 = t324 - C_j[6] * t316;
-    const jg_real t326 = h_star_in_j_2 * t316;
-    const jg_real t327 = t299 * C_i[7];
-    const jg_real t328 = t327 * g_star_in_j_1;
-    const jg_real t329 = h_star_in_j_1 * t318;
-    const jg_real t330 = t302 * C_i[7];
-    const jg_real t331 = t330 * g_star_in_j_2;
-    const jg_real t332 = t326 + t328 - (t329 + t331);
-    const jg_real t333 = A_i[1] * C_i[6] + A_i[7] * C_i[8];
-    const jg_real t334 = t333 * g_star_in_j_2;
-    const jg_real t335 = h_star_in_j_2 * t321;
-    const jg_real t336 = t334 + h_star_in_j_0 * t318 - (t335 + t327 * g_star_in_j_0);
-    const jg_real t337 = h_star_in_j_1 * t321;
-    const jg_real t338 = t333 * g_star_in_j_1;
-    const jg_real t339 = t337 + t330 * g_star_in_j_0 - (t338 + h_star_in_j_0 * t316);
-    const jg_real t340 = t330 * C_j[2];
-    const jg_real t341 = t327 * C_j[1];
-    const jg_real t342 = t340 - t341;
-    const jg_real t343 = C_j[2] * t333;
-    const jg_real t344 = t327 * C_j[0] - t343;
-    const jg_real t345 = C_j[1] * t333;
-    const jg_real t346 = t345 - t330 * C_j[0];
-    const jg_real t347 = C_j[5] * t336 - C_j[4] * t339;
-    const jg_real t348 = C_j[3] * t339 - C_j[5] * t332;
-    const jg_real t349 = C_j[4] * t332 - C_j[3] * t336;
-    const jg_real t350 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
-    const jg_real t351 = omega_i[1] * t350;
-    const jg_real t352 = t351 * e_ij_in_j_1;
-    const jg_real t353 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
-    const jg_real t354 = omega_i[1] * t353;
-    const jg_real t355 = e_ij_in_j_2 * t354;
-    const jg_real t356 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
-    const jg_real t357 = t352 - t355 - t356;
-    const jg_real t358 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t359 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
-    const jg_real t360 = e_ij_in_j_2 * t359;
-    const jg_real t361 = v_i[1] * t353;
-    const jg_real t362 = t360 - (t358 + t351 * e_ij_in_j_0) - t361;
-    const jg_real t363 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t364 = e_ij_in_j_1 * t359;
-    const jg_real t365 = v_i[1] * t350;
-    const jg_real t366 = t363 + t354 * e_ij_in_j_0 - t364 - t365;
-    const jg_real t367 = t353 * g_star_in_i_1;
-    const jg_real t368 = C_j[8] * t367;
-    const jg_real t369 = t350 * g_star_in_i_1;
-    const jg_real t370 = C_j[7] * t369;
-    const jg_real t371 = t368 - t370;
-    const jg_real t372 = A_i[2] * g_star_in_i_0 + A_i[8] * g_star_in_i_2;
-    const jg_real t373 = C_j[8] * t372;
-    const jg_real t374 = C_j[6] * t369 - t373;
-    const jg_real t375 = C_j[7] * t372;
-    const jg_real t376 = t375 - C_j[6] * t367;
-    const jg_real t377 = h_star_in_j_2 * t367;
-    const jg_real t378 = t350 * C_i[7];
-    const jg_real t379 = t378 * g_star_in_j_1;
-    const jg_real t380 = h_star_in_j_1 * t369;
-    const jg_real t381 = t353 * C_i[7];
-    const jg_real t382 = t381 * g_star_in_j_2;
-    const jg_real t383 = t377 + t379 - (t380 + t382);
-    const jg_real t384 = A_i[2] * C_i[6] + A_i[8] * C_i[8];
-    const jg_real t385 = t384 * g_star_in_j_2;
-    const jg_real t386 = h_star_in_j_2 * t372;
-    const jg_real t387 = t385 + h_star_in_j_0 * t369 - (t386 + t378 * g_star_in_j_0);
-    const jg_real t388 = h_star_in_j_1 * t372;
-    const jg_real t389 = t384 * g_star_in_j_1;
-    const jg_real t390 = t388 + t381 * g_star_in_j_0 - (t389 + h_star_in_j_0 * t367);
-    const jg_real t391 = t381 * C_j[2];
-    const jg_real t392 = t378 * C_j[1];
-    const jg_real t393 = t391 - t392;
-    const jg_real t394 = C_j[2] * t384;
-    const jg_real t395 = t378 * C_j[0] - t394;
-    const jg_real t396 = C_j[1] * t384;
-    const jg_real t397 = t396 - t381 * C_j[0];
-    jac_phi_q_v_A_j[9] = t300 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t325 + (t308 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t320 + (t303 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t323)) - alphadot[2] * (C_j[6] *
-        t332 + C_j[7] * t336 + C_j[8] * t339) - (omega_j[0] * t320 + omega_j[1] * t323 + omega_j[2] * t325);
-    jac_phi_q_v_A_j[10] = t300 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t308 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t342 + (t303 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
-        omega_j[1] * t344 + omega_j[2] * t346);
-    jac_phi_q_v_A_j[11] = t300 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t349 + (t308 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t347 + (t303 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t348)) + alphadot[2] * (C_j[3] *
-        t321 + C_j[4] * t316 + C_j[5] * t318) - (omega_j[0] * t347 + omega_j[1] * t348 + omega_j[2] * t349);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t357 + A_ji_1 * t362 + A_ji_2 * t366;
-    jac_phi_q_v_A_j[13] = t350 * v_3_in_j_2 + A_ji_5 * t366 + (t353 * v_3_in_j_1 + A_ji_4 * t362 + A_ji_3 * t357);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t357 + A_ji_7 * t362 + A_ji_8 * t366;
-    jac_phi_q_v_A_j[15] = t351 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t376 + (t359 * g_star_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t371 + (t354 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t374)) - alphadot[2] * (C_j[6] *
-        t383 + C_j[7] * t387 + C_j[8] * t390) - (omega_j[0] * t371 + omega_j[1] * t374 + omega_j[2] * t376);
-    jac_phi_q_v_A_j[16] = t351 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t397 + (t359 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t393 + (t354 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t395)) - (omega_j[0] * t393 +
-        omega_j[1] * t395 + omega_j[2] * t397);
-    const jg_real t398 = C_j[5] * t387 - C_j[4] * t390;
-    const jg_real t399 = C_j[3] * t390 - C_j[5] * t383;
-    const jg_real t400 = C_j[4] * t383 - C_j[3] * t387;
-    const jg_real t401 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
-    const jg_real t402 = omega_i[1] * t401;
-    const jg_real t403 = t402 * e_ij_in_j_0;
-    const jg_real t404 = t403 + t253 + t254;
-    const jg_real t405 = t402 * e_ij_in_j_1 + t256 - t258 + t259;
-    const jg_real t406 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t407 = t257 * e_ij_in_j_0;
-    const jg_real t408 = v_i[1] * t401;
-    const jg_real t409 = t407 - (t406 - e_ij_in_j_1 * t252) - t408;
-    const jg_real t410 = t401 * g_star_in_i_1;
-    const jg_real t411 = t271 - C_j[7] * t410;
-    const jg_real t412 = C_j[6] * t410;
-    const jg_real t413 = t266 + t412;
-    const jg_real t414 = C_j[6] * t270;
-    const jg_real t415 = t414 + C_j[7] * t265;
-    const jg_real t416 = t401 * C_i[7];
-    const jg_real t417 = t284 + t416 * g_star_in_j_1 - (h_star_in_j_1 * t410 + t283);
-    const jg_real t418 = h_star_in_j_0 * t410;
-    const jg_real t419 = t416 * g_star_in_j_0;
-    const jg_real t420 = t418 - t280 - (t419 - t275);
-    const jg_real t421 = t282 * g_star_in_j_0;
-    const jg_real t422 = h_star_in_j_0 * t270;
-    const jg_real t423 = t421 - h_star_in_j_1 * t265 - (t422 - t279 * g_star_in_j_1);
-    const jg_real t424 = t416 * C_j[0];
-    const jg_real t425 = t424 + t289;
-    const jg_real t426 = t292 - t416 * C_j[1];
-    const jg_real t427 = C_j[0] * t282;
-    const jg_real t428 = t427 + t279 * C_j[1];
-    const jg_real t429 = C_j[5] * t420 - C_j[4] * t423;
-    const jg_real t430 = C_j[3] * t423 - C_j[5] * t417;
-    const jg_real t431 = C_j[4] * t417 - C_j[3] * t420;
-    const jg_real t432 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
-    const jg_real t433 = omega_i[1] * t432;
-    const jg_real t434 = t433 * e_ij_in_j_0;
-    const jg_real t435 = t434 + t304 + t305;
-    const jg_real t436 = t433 * e_ij_in_j_1 + t307 - t309 + t310;
-    const jg_real t437 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t438 = t308 * e_ij_in_j_0;
-    const jg_real t439 = v_i[1] * t432;
-    const jg_real t440 = t438 - (t437 - e_ij_in_j_1 * t303) - t439;
-    jac_phi_q_v_A_j[17] = t351 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t400 + (t359 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t398 + (t354 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t399)) + alphadot[2] * (C_j[3] *
-        t372 + C_j[4] * t367 + C_j[5] * t369) - (omega_j[0] * t398 + omega_j[1] * t399 + omega_j[2] * t400);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t404 + A_ji_0 * t405 + A_ji_2 * t409;
-    jac_phi_q_v_A_j[19] = t401 * v_3_in_j_2 + A_ji_5 * t409 + (A_ji_3 * t405 - t251 * v_3_in_j_0 - A_ji_4 * t404);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t404 + A_ji_6 * t405 + A_ji_8 * t409;
-    jac_phi_q_v_A_j[21] = t402 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t415 + (omega_i_in_j_0 * t411 - t252 *
-        g_star_cross_h_j_in_j_0 + (t257 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t413)) - alphadot[2] * (C_j[6]
-        * t417 + C_j[7] * t420 + C_j[8] * t423) - (omega_j[0] * t411 + omega_j[1] * t413 - omega_j[2] * t415);
-    jac_phi_q_v_A_j[22] = t402 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t428 + (omega_i_in_j_0 * t426 - t252 *
-        h_star_cross_f_j_in_j_0 + (t257 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t425)) - (omega_j[0] * t426 +
-        omega_j[1] * t425 - omega_j[2] * t428);
-    jac_phi_q_v_A_j[23] = t402 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (omega_i_in_j_0 * t429 - t252 *
-        f_star_cross_g_j_in_j_0 + (t257 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t430)) + alphadot[2] * (C_j[4]
-        * t270 - C_j[3] * t265 + C_j[5] * t410) - (omega_j[0] * t429 + omega_j[1] * t430 + omega_j[2] * t431);
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t435 + A_ji_0 * t436 + A_ji_2 * t440;
-    const jg_real t441 = t432 * g_star_in_i_1;
-    const jg_real t442 = t322 - C_j[7] * t441;
-    const jg_real t443 = C_j[6] * t441;
-    const jg_real t444 = t317 + t443;
-    const jg_real t445 = C_j[6] * t321;
-    const jg_real t446 = t445 + C_j[7] * t316;
-    const jg_real t447 = t432 * C_i[7];
-    const jg_real t448 = t335 + t447 * g_star_in_j_1 - (h_star_in_j_1 * t441 + t334);
-    const jg_real t449 = h_star_in_j_0 * t441;
-    const jg_real t450 = t447 * g_star_in_j_0;
-    const jg_real t451 = t449 - t331 - (t450 - t326);
-    const jg_real t452 = t333 * g_star_in_j_0;
-    const jg_real t453 = h_star_in_j_0 * t321;
-    const jg_real t454 = t452 - h_star_in_j_1 * t316 - (t453 - t330 * g_star_in_j_1);
-    const jg_real t455 = t447 * C_j[0];
-    const jg_real t456 = t455 + t340;
-    const jg_real t457 = t343 - t447 * C_j[1];
-    const jg_real t458 = C_j[0] * t333;
-    const jg_real t459 = t458 + t330 * C_j[1];
-    const jg_real t460 = C_j[5] * t451 - C_j[4] * t454;
-    const jg_real t461 = C_j[3] * t454 - C_j[5] * t448;
-    const jg_real t462 = C_j[4] * t448 - C_j[3] * t451;
-    const jg_real t463 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t464 = omega_i[1] * t463;
-    const jg_real t465 = t464 * e_ij_in_j_0;
-    const jg_real t466 = t465 + t355 + t356;
-    const jg_real t467 = t464 * e_ij_in_j_1 + t358 - t360 + t361;
-    const jg_real t468 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t469 = t359 * e_ij_in_j_0;
-    const jg_real t470 = v_i[1] * t463;
-    const jg_real t471 = t469 - (t468 - e_ij_in_j_1 * t354) - t470;
-    jac_phi_q_v_A_j[25] = t432 * v_3_in_j_2 + A_ji_5 * t440 + (A_ji_3 * t436 - t302 * v_3_in_j_0 - A_ji_4 * t435);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t435 + A_ji_6 * t436 + A_ji_8 * t440;
-    jac_phi_q_v_A_j[27] = t433 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t446 + (omega_i_in_j_0 * t442 - t303 *
-        g_star_cross_h_j_in_j_0 + (t308 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t444)) - alphadot[2] * (C_j[6]
-        * t448 + C_j[7] * t451 + C_j[8] * t454) - (omega_j[0] * t442 + omega_j[1] * t444 - omega_j[2] * t446);
-    jac_phi_q_v_A_j[28] = t433 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t457 - t303 *
-        h_star_cross_f_j_in_j_0 + (t308 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t456)) - (omega_j[0] * t457 +
-        omega_j[1] * t456 - omega_j[2] * t459);
-    jac_phi_q_v_A_j[29] = t433 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t462 + (omega_i_in_j_0 * t460 - t303 *
-        f_star_cross_g_j_in_j_0 + (t308 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t461)) + alphadot[2] * (C_j[4]
-        * t321 - C_j[3] * t316 + C_j[5] * t441) - (omega_j[0] * t460 + omega_j[1] * t461 + omega_j[2] * t462);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t466 + A_ji_0 * t467 + A_ji_2 * t471;
-    jac_phi_q_v_A_j[31] = t463 * v_3_in_j_2 + A_ji_5 * t471 + (A_ji_3 * t467 - t353 * v_3_in_j_0 - A_ji_4 * t466);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t466 + A_ji_6 * t467 + A_ji_8 * t471;
-    const jg_real t472 = t463 * g_star_in_i_1;
-    const jg_real t473 = t373 - C_j[7] * t472;
-    const jg_real t474 = C_j[6] * t472;
-    const jg_real t475 = t368 + t474;
-    const jg_real t476 = C_j[6] * t372;
-    const jg_real t477 = t476 + C_j[7] * t367;
-    const jg_real t478 = t463 * C_i[7];
-    const jg_real t479 = t386 + t478 * g_star_in_j_1 - (h_star_in_j_1 * t472 + t385);
-    const jg_real t480 = h_star_in_j_0 * t472;
-    const jg_real t481 = t478 * g_star_in_j_0;
-    const jg_real t482 = t480 - t382 - (t481 - t377);
-    const jg_real t483 = t384 * g_star_in_j_0;
-    const jg_real t484 = h_star_in_j_0 * t372;
-    const jg_real t485 = t483 - h_star_in_j_1 * t367 - (t484 - t381 * g_star_in_j_1);
-    const jg_real t486 = t478 * C_j[0];
-    const jg_real t487 = t486 + t391;
-    const jg_real t488 = t394 - t478 * C_j[1];
-    const jg_real t489 = C_j[0] * t384;
-    const jg_real t490 = t489 + t381 * C_j[1];
-    const jg_real t491 = C_j[5] * t482 - C_j[4] * t485;
-    const jg_real t492 = C_j[3] * t485 - C_j[5] * t479;
-    const jg_real t493 = C_j[4] * t479 - C_j[3] * t482;
-    const jg_real t494 = t250 - t403 - t254;
-    const jg_real t495 = t262 - (t261 - t402 * e_ij_in_j_2) + t263;
-    const jg_real t496 = t406 - t249 * e_ij_in_j_2 - t407 + t408;
-    const jg_real t497 = t414 + C_j[8] * t267;
-    const jg_real t498 = C_j[8] * t410 + t273;
-    const jg_real t499 = t412 - t268;
-    const jg_real t500 = t287 - h_star_in_j_2 * t410 - (t286 - t416 * g_star_in_j_2);
-    const jg_real t501 = t422 - t276 * g_star_in_j_2 - (t421 - h_star_in_j_2 * t267);
-    const jg_real t502 = t277 + t418 - (t278 + t419);
-    const jg_real t503 = t424 - t290;
-    const jg_real t504 = t427 + t276 * C_j[2];
-    const jg_real t505 = t294 + t416 * C_j[2];
-    jac_phi_q_v_A_j[33] = t464 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t477 + (omega_i_in_j_0 * t473 - t354 *
-        g_star_cross_h_j_in_j_0 + (t359 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t475)) - alphadot[2] * (C_j[6]
-        * t479 + C_j[7] * t482 + C_j[8] * t485) - (omega_j[0] * t473 + omega_j[1] * t475 - omega_j[2] * t477);
-    jac_phi_q_v_A_j[34] = t464 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t354 *
-        h_star_cross_f_j_in_j_0 + (t359 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t487)) - (omega_j[0] * t488 +
-        omega_j[1] * t487 - omega_j[2] * t490);
-    jac_phi_q_v_A_j[35] = t464 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t354 *
-        f_star_cross_g_j_in_j_0 + (t359 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t492)) + alphadot[2] * (C_j[4]
-        * t372 - C_j[3] * t367 + C_j[5] * t472) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t495 - t248 * v_3_in_j_0 + (A_ji_4 * t496 - t401 * v_3_in_j_1) + A_ji_5 * t494;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
-    jac_phi_q_v_A_j[39] = t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t499 + (omega_i_in_j_1 * t497 - t402 *
-        g_star_cross_h_j_in_j_1 - (t249 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t498)) - alphadot[2] * (C_j[6]
-        * t500 + C_j[7] * t501 + C_j[8] * t502) - (omega_j[1] * t497 - omega_j[0] * t498 + omega_j[2] * t499);
-    jac_phi_q_v_A_j[40] = t257 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t503 + (omega_i_in_j_1 * t504 - t402 *
-        h_star_cross_f_j_in_j_1 - (t249 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t505)) - (omega_j[1] * t504 -
-        omega_j[0] * t505 + omega_j[2] * t503);
-    const jg_real t506 = C_j[5] * t501 - C_j[4] * t502;
-    const jg_real t507 = C_j[3] * t502 - C_j[5] * t500;
-    const jg_real t508 = C_j[4] * t500 - C_j[3] * t501;
-    const jg_real t509 = t301 - t434 - t305;
-    const jg_real t510 = t313 - (t312 - t433 * e_ij_in_j_2) + t314;
-    const jg_real t511 = t437 - t300 * e_ij_in_j_2 - t438 + t439;
-    const jg_real t512 = t445 + C_j[8] * t318;
-    const jg_real t513 = C_j[8] * t441 + t324;
-    const jg_real t514 = t443 - t319;
-    const jg_real t515 = t338 - h_star_in_j_2 * t441 - (t337 - t447 * g_star_in_j_2);
-    const jg_real t516 = t453 - t327 * g_star_in_j_2 - (t452 - h_star_in_j_2 * t318);
-    const jg_real t517 = t328 + t449 - (t329 + t450);
-    const jg_real t518 = t455 - t341;
-    const jg_real t519 = t458 + t327 * C_j[2];
-    const jg_real t520 = t345 + t447 * C_j[2];
-    const jg_real t521 = C_j[5] * t516 - C_j[4] * t517;
-    const jg_real t522 = C_j[3] * t517 - C_j[5] * t515;
-    const jg_real t523 = C_j[4] * t515 - C_j[3] * t516;
-    const jg_real t524 = t352 - t465 - t356;
-    const jg_real t525 = t364 - (t363 - t464 * e_ij_in_j_2) + t365;
-    const jg_real t526 = t468 - t351 * e_ij_in_j_2 - t469 + t470;
-    jac_phi_q_v_A_j[41] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t249 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t402 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
-        * t270 - (C_j[3] * t267 + C_j[4] * t410)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t510 - t299 * v_3_in_j_0 + (A_ji_4 * t511 - t432 * v_3_in_j_1) + A_ji_5 * t509;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
-    jac_phi_q_v_A_j[45] = t308 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t514 + (omega_i_in_j_1 * t512 - t433 *
-        g_star_cross_h_j_in_j_1 - (t300 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t513)) - alphadot[2] * (C_j[6]
-        * t515 + C_j[7] * t516 + C_j[8] * t517) - (omega_j[1] * t512 - omega_j[0] * t513 + omega_j[2] * t514);
-    jac_phi_q_v_A_j[46] = t308 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t433 *
-        h_star_cross_f_j_in_j_1 - (t300 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
-        omega_j[0] * t520 + omega_j[2] * t518);
-    jac_phi_q_v_A_j[47] = t308 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t523 + (omega_i_in_j_0 * t521 - t300 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t522 - t433 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
-        * t321 - (C_j[3] * t318 + C_j[4] * t441)) - (omega_j[0] * t521 + omega_j[1] * t522 + omega_j[2] * t523);
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t524 + (A_ji_0 * t525 + A_ji_1 * t526);
-    const jg_real t527 = t476 + C_j[8] * t369;
-    const jg_real t528 = C_j[8] * t472 + t375;
-    const jg_real t529 = t474 - t370;
-    const jg_real t530 = t389 - h_star_in_j_2 * t472 - (t388 - t478 * g_star_in_j_2);
-    const jg_real t531 = t484 - t378 * g_star_in_j_2 - (t483 - h_star_in_j_2 * t369);
-    const jg_real t532 = t379 + t480 - (t380 + t481);
-    const jg_real t533 = t486 - t392;
-    const jg_real t534 = t489 + t378 * C_j[2];
-    const jg_real t535 = t396 + t478 * C_j[2];
-    const jg_real t536 = C_j[5] * t531 - C_j[4] * t532;
-    const jg_real t537 = C_j[3] * t532 - C_j[5] * t530;
-    const jg_real t538 = C_j[4] * t530 - C_j[3] * t531;
-    const jg_real t539 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    const jg_real t540 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    const jg_real t541 = C_i[5] * sine_0 + C_i[2] * cosine_0;
-    const jg_real t542 = A_ji_5 * t539 + A_ji_2 * t540 + A_ji_8 * t541;
-    const jg_real t543 = A_ji_4 * t539 + A_ji_1 * t540 + A_ji_7 * t541;
-    const jg_real t544 = h_star_in_j_1 * t542 - h_star_in_j_2 * t543;
-    const jg_real t545 = A_ji_3 * t539 + A_ji_0 * t540 + A_ji_6 * t541;
-    const jg_real t546 = h_star_in_j_2 * t545 - h_star_in_j_0 * t542;
-    const jg_real t547 = h_star_in_j_0 * t543 - h_star_in_j_1 * t545;
-    const jg_real t548 = C_j[7] * t542 - C_j[8] * t543;
-    const jg_real t549 = C_j[8] * t545 - C_j[6] * t542;
-    const jg_real t550 = C_j[6] * t543 - C_j[7] * t545;
-    const jg_real t551 = C_j[5] * t546 - C_j[4] * t547;
-    const jg_real t552 = C_j[3] * t547 - C_j[5] * t544;
-    const jg_real t553 = C_j[4] * t544 - C_j[3] * t546;
-    const jg_real t554 = -alphadot[0];
-    jac_phi_q_v_A_j[49] = A_ji_3 * t525 - t350 * v_3_in_j_0 + (A_ji_4 * t526 - t463 * v_3_in_j_1) + A_ji_5 * t524;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t524 + (A_ji_6 * t525 + A_ji_7 * t526);
-    jac_phi_q_v_A_j[51] = t359 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t529 + (omega_i_in_j_1 * t527 - t464 *
-        g_star_cross_h_j_in_j_1 - (t351 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t528)) - alphadot[2] * (C_j[6]
-        * t530 + C_j[7] * t531 + C_j[8] * t532) - (omega_j[1] * t527 - omega_j[0] * t528 + omega_j[2] * t529);
-    jac_phi_q_v_A_j[52] = t359 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t533 + (omega_i_in_j_1 * t534 - t464 *
-        h_star_cross_f_j_in_j_1 - (t351 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t535)) - (omega_j[1] * t534 -
-        omega_j[0] * t535 + omega_j[2] * t533);
-    jac_phi_q_v_A_j[53] = t359 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t538 + (omega_i_in_j_0 * t536 - t351 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t537 - t464 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
-        * t372 - (C_j[3] * t369 + C_j[4] * t472)) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] * t538);
-    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 * t550 - alphadot[2] *
-        (C_j[6] * t544 + C_j[7] * t546 + C_j[8] * t547) - (omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] *
-        t550);
-    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t552 + omega_i_in_j_2 * t553 - alphadot[2] *
-        (C_j[3] * t545 + C_j[4] * t543 + C_j[5] * t542) - (omega_j[0] * t551 + omega_j[1] * t552 + omega_j[2] *
-        t553);
-    jac_phi_q_v_geometry[0] = t554;
-    jac_phi_q_v_geometry[3] = t554;
-    jac_phi_q_v_geometry[6] = t554;
-    const jg_real t555 = A_ji_2 * sine_0;
-    const jg_real t556 = A_ji_1 * sine_0;
-    const jg_real t557 = h_star_in_j_1 * t555 - h_star_in_j_2 * t556;
-    const jg_real t558 = A_ji_0 * sine_0;
-    const jg_real t559 = h_star_in_j_2 * t558 - h_star_in_j_0 * t555;
-    const jg_real t560 = h_star_in_j_0 * t556 - h_star_in_j_1 * t558;
-    const jg_real t561 = C_j[7] * t555 - C_j[8] * t556;
-    const jg_real t562 = C_j[8] * t558 - C_j[6] * t555;
-    const jg_real t563 = C_j[6] * t556 - C_j[7] * t558;
-    const jg_real t564 = C_j[5] * t559 - C_j[4] * t560;
-    const jg_real t565 = C_j[3] * t560 - C_j[5] * t557;
-    const jg_real t566 = C_j[4] * t557 - C_j[3] * t559;
-    const jg_real t567 = A_ji_5 * sine_0;
-    const jg_real t568 = A_ji_4 * sine_0;
-    const jg_real t569 = h_star_in_j_1 * t567 - h_star_in_j_2 * t568;
-    const jg_real t570 = A_ji_3 * sine_0;
-    const jg_real t571 = h_star_in_j_2 * t570 - h_star_in_j_0 * t567;
-    const jg_real t572 = h_star_in_j_0 * t568 - h_star_in_j_1 * t570;
-    const jg_real t573 = C_j[7] * t567 - C_j[8] * t568;
-    const jg_real t574 = C_j[8] * t570 - C_j[6] * t567;
-    const jg_real t575 = C_j[6] * t568 - C_j[7] * t570;
-    const jg_real t576 = C_j[5] * t571 - C_j[4] * t572;
-    const jg_real t577 = C_j[3] * t572 - C_j[5] * t569;
-    const jg_real t578 = C_j[4] * t569 - C_j[3] * t571;
-    const jg_real t579 = A_ji_8 * sine_0;
-    const jg_real t580 = A_ji_7 * sine_0;
-    const jg_real t581 = h_star_in_j_1 * t579 - h_star_in_j_2 * t580;
-    const jg_real t582 = A_ji_6 * sine_0;
-    const jg_real t583 = h_star_in_j_2 * t582 - h_star_in_j_0 * t579;
-    const jg_real t584 = h_star_in_j_0 * t580 - h_star_in_j_1 * t582;
-    const jg_real t585 = C_j[7] * t579 - C_j[8] * t580;
-    const jg_real t586 = C_j[8] * t582 - C_j[6] * t579;
-    const jg_real t587 = C_j[6] * t580 - C_j[7] * t582;
-    const jg_real t588 = C_j[5] * t583 - C_j[4] * t584;
-    const jg_real t589 = C_j[3] * t584 - C_j[5] * t581;
-    const jg_real t590 = C_j[4] * t581 - C_j[3] * t583;
-    const jg_real t591 = -alphadot[1];
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t561 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - alphadot[2] *
-        (C_j[6] * t557 + C_j[7] * t559 + C_j[8] * t560) - (omega_j[0] * t561 + omega_j[1] * t562 + omega_j[2] *
-        t563);
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - alphadot[2] *
-        (C_j[3] * t558 + C_j[4] * t556 + C_j[5] * t555) - (omega_j[0] * t564 + omega_j[1] * t565 + omega_j[2] *
-        t566);
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t573 + omega_i_in_j_1 * t574 + omega_i_in_j_2 * t575 - alphadot[2] *
-        (C_j[6] * t569 + C_j[7] * t571 + C_j[8] * t572) - (omega_j[0] * t573 + omega_j[1] * t574 + omega_j[2] *
-        t575);
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t576 + omega_i_in_j_1 * t577 + omega_i_in_j_2 * t578 - alphadot[2] *
-        (C_j[3] * t570 + C_j[4] * t568 + C_j[5] * t567) - (omega_j[0] * t576 + omega_j[1] * t577 + omega_j[2] *
-        t578);
-    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t585 + omega_i_in_j_1 * t586 + omega_i_in_j_2 * t587 - alphadot[2] *
-        (C_j[6] * t581 + C_j[7] * t583 + C_j[8] * t584) - (omega_j[0] * t585 + omega_j[1] * t586 + omega_j[2] *
-        t587);
-    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t588 + omega_i_in_j_1 * t589 + omega_i_in_j_2 * t590 - alphadot[2] *
-        (C_j[3] * t582 + C_j[4] * t580 + C_j[5] * t579) - (omega_j[0] * t588 + omega_j[1] * t589 + omega_j[2] *
-        t590);
-    jac_phi_q_v_geometry[9] = t591;
-    jac_phi_q_v_geometry[12] = t591;
-    jac_phi_q_v_geometry[15] = t591;
-    const jg_real t592 = A_ji_1 * cosine_0;
-    const jg_real t593 = A_ji_2 * cosine_0;
-    const jg_real t594 = h_star_in_j_2 * t592 - h_star_in_j_1 * t593;
-    const jg_real t595 = A_ji_0 * cosine_0;
-    const jg_real t596 = h_star_in_j_0 * t593 - h_star_in_j_2 * t595;
-    const jg_real t597 = h_star_in_j_1 * t595 - h_star_in_j_0 * t592;
-    const jg_real t598 = C_j[8] * t592 - C_j[7] * t593;
-    const jg_real t599 = C_j[6] * t593 - C_j[8] * t595;
-    const jg_real t600 = C_j[7] * t595 - C_j[6] * t592;
-    const jg_real t601 = C_j[5] * t596 - C_j[4] * t597;
-    const jg_real t602 = C_j[3] * t597 - C_j[5] * t594;
-    const jg_real t603 = C_j[4] * t594 - C_j[3] * t596;
-    const jg_real t604 = A_ji_4 * cosine_0;
-    const jg_real t605 = A_ji_5 * cosine_0;
-    const jg_real t606 = h_star_in_j_2 * t604 - h_star_in_j_1 * t605;
-    const jg_real t607 = A_ji_3 * cosine_0;
-    const jg_real t608 = h_star_in_j_0 * t605 - h_star_in_j_2 * t607;
-    const jg_real t609 = h_star_in_j_1 * t607 - h_star_in_j_0 * t604;
-    const jg_real t610 = C_j[8] * t604 - C_j[7] * t605;
-    const jg_real t611 = C_j[6] * t605 - C_j[8] * t607;
-    const jg_real t612 = C_j[7] * t607 - C_j[6] * t604;
-    const jg_real t613 = C_j[5] * t608 - C_j[4] * t609;
-    const jg_real t614 = C_j[3] * t609 - C_j[5] * t606;
-    const jg_real t615 = C_j[4] * t606 - C_j[3] * t608;
-    const jg_real t616 = A_ji_7 * cosine_0;
-    const jg_real t617 = A_ji_8 * cosine_0;
-    const jg_real t618 = h_star_in_j_2 * t616 - h_star_in_j_1 * t617;
-    const jg_real t619 = A_ji_6 * cosine_0;
-    const jg_real t620 = h_star_in_j_0 * t617 - h_star_in_j_2 * t619;
-    const jg_real t621 = h_star_in_j_1 * t619 - h_star_in_j_0 * t616;
-    const jg_real t622 = C_j[8] * t616 - C_j[7] * t617;
-    const jg_real t623 = C_j[6] * t617 - C_j[8] * t619;
-    const jg_real t624 = C_j[7] * t619 - C_j[6] * t616;
+    const jg_real t236 = C_j[2] * t231 - C_j[1] * t230;
+    const jg_real t237 = C_j[0] * t230 - C_j[2] * t233;
+    const jg_real t238 = C_j[1] * t233 - C_j[0] * t231;
+    const jg_real t239 = C_j[5] * t234 - C_j[4] * t235;
+    const jg_real t240 = C_j[3] * t235 - C_j[5] * t232;
+    const jg_real t241 = C_j[4] * t232 - C_j[3] * t234;
+    const jg_real t242 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t243 = omega_i[1] * t242;
+    const jg_real t244 = t243 * e_ij_in_j_1;
+    const jg_real t245 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
+    const jg_real t246 = omega_i[1] * t245;
+    const jg_real t247 = e_ij_in_j_2 * t246;
+    const jg_real t248 = t244 - t247;
+    const jg_real t249 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t250 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t251 = e_ij_in_j_2 * t250;
+    const jg_real t252 = t251 - (t249 + t243 * e_ij_in_j_0);
+    const jg_real t253 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t254 = e_ij_in_j_1 * t250;
+    const jg_real t255 = t253 + t246 * e_ij_in_j_0 - t254;
+    jac_phi_q_v_A_i[29] = t189 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t214 + (t194 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t212 + (t191 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t213)) + alphadot[2] * (C_j[3] *
+        t200 + C_j[4] * t197 + C_j[5] * t198) - (omega_j[0] * t212 + omega_j[1] * t213 + omega_j[2] * t214);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t219 + A_ji_1 * t222 + A_ji_2 * t223;
+    jac_phi_q_v_A_i[31] = t215 * v_2_in_j_2 + A_ji_5 * t223 + (t220 * v_2_in_j_0 + A_ji_3 * t219 + (t217 *
+        v_2_in_j_1 + A_ji_4 * t222));
+    jac_phi_q_v_A_i[32] = t141 + A_ji_8 * t223 + (t131 + A_ji_6 * t219 + (t137 + A_ji_7 * t222));
+    jac_phi_q_v_A_i[33] = t216 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t229 + (t221 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t226 + (t218 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t228)) - alphadot[2] * (C_j[6] *
+        t232 + C_j[7] * t234 + C_j[8] * t235) - (omega_j[0] * t226 + omega_j[1] * t228 + omega_j[2] * t229);
+    jac_phi_q_v_A_i[34] = t216 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t238 + (t221 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t236 + (t218 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t237)) - (omega_j[0] * t236 +
+        omega_j[1] * t237 + omega_j[2] * t238);
+    jac_phi_q_v_A_i[35] = t216 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t241 + (t221 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t239 + (t218 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t240)) + alphadot[2] * (C_j[3] *
+        t227 + C_j[4] * t224 + C_j[5] * t225) - (omega_j[0] * t239 + omega_j[1] * t240 + omega_j[2] * t241);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_2_in_j_0 + A_ji_0 * t248 + A_ji_1 * t252 + A_ji_2 * t255;
+    const jg_real t256 = t245 * g_star_in_i_1;
+    const jg_real t257 = C_j[8] * t256;
+    const jg_real t258 = t242 * g_star_in_i_1;
+    const jg_real t259 = C_j[7] * t258;
+    const jg_real t260 = t257 - t259;
+    const jg_real t261 = A_i[0] * g_star_in_i_0 + A_i[6] * g_star_in_i_2;
+    const jg_real t262 = C_j[8] * t261;
+    const jg_real t263 = C_j[6] * t258 - t262;
+    const jg_real t264 = C_j[7] * t261;
+    const jg_real t265 = t264 - C_j[6] * t256;
+    const jg_real t266 = h_star_in_j_2 * t256;
+    const jg_real t267 = t242 * C_i[7];
+    const jg_real t268 = t267 * g_star_in_j_1;
+    const jg_real t269 = h_star_in_j_1 * t258;
+    const jg_real t270 = t245 * C_i[7];
+    const jg_real t271 = t270 * g_star_in_j_2;
+    const jg_real t272 = t266 + t268 - (t269 + t271);
+    const jg_real t273 = A_i[0] * C_i[6] + A_i[6] * C_i[8];
+    const jg_real t274 = t273 * g_star_in_j_2;
+    const jg_real t275 = h_star_in_j_2 * t261;
+    const jg_real t276 = t274 + h_star_in_j_0 * t258 - (t275 + t267 * g_star_in_j_0);
+    const jg_real t277 = h_star_in_j_1 * t261;
+    const jg_real t278 = t273 * g_star_in_j_1;
+    const jg_real t279 = t277 + t270 * g_star_in_j_0 - (t278 + h_star_in_j_0 * t256);
+    const jg_real t280 = t270 * C_j[2];
+    const jg_real t281 = t267 * C_j[1];
+    const jg_real t282 = t280 - t281;
+    const jg_real t283 = C_j[2] * t273;
+    const jg_real t284 = t267 * C_j[0] - t283;
+    const jg_real t285 = C_j[1] * t273;
+    const jg_real t286 = t285 - t270 * C_j[0];
+    const jg_real t287 = C_j[5] * t276 - C_j[4] * t279;
+    const jg_real t288 = C_j[3] * t279 - C_j[5] * t272;
+    const jg_real t289 = C_j[4] * t272 - C_j[3] * t276;
+    const jg_real t290 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
+    const jg_real t291 = omega_i[1] * t290;
+    const jg_real t292 = t291 * e_ij_in_j_1;
+    const jg_real t293 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
+    const jg_real t294 = omega_i[1] * t293;
+    const jg_real t295 = e_ij_in_j_2 * t294;
+    const jg_real t296 = t292 - t295;
+    const jg_real t297 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t298 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t299 = e_ij_in_j_2 * t298;
+    const jg_real t300 = t299 - (t297 + t291 * e_ij_in_j_0);
+    const jg_real t301 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t302 = e_ij_in_j_1 * t298;
+    const jg_real t303 = t301 + t294 * e_ij_in_j_0 - t302;
+    jac_phi_q_v_A_j[1] = t242 * v_2_in_j_2 + A_ji_5 * t255 + (t245 * v_2_in_j_1 + A_ji_4 * t252 + A_ji_3 * t248);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_2_in_j_0 + A_ji_6 * t248 + A_ji_7 * t252 + A_ji_8 * t255;
+    jac_phi_q_v_A_j[3] = t243 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t265 + (t250 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t260 + (t246 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t263)) - alphadot[2] * (C_j[6] *
+        t272 + C_j[7] * t276 + C_j[8] * t279) - (omega_j[0] * t260 + omega_j[1] * t263 + omega_j[2] * t265);
+    jac_phi_q_v_A_j[4] = t243 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t286 + (t250 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t282 + (t246 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t284)) - (omega_j[0] * t282 +
+        omega_j[1] * t284 + omega_j[2] * t286);
+    jac_phi_q_v_A_j[5] = t243 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t289 + (t250 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t287 + (t246 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t288)) + alphadot[2] * (C_j[3] *
+        t261 + C_j[4] * t256 + C_j[5] * t258) - (omega_j[0] * t287 + omega_j[1] * t288 + omega_j[2] * t289);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_2_in_j_0 + A_ji_0 * t296 + A_ji_1 * t300 + A_ji_2 * t303;
+    jac_phi_q_v_A_j[7] = t290 * v_2_in_j_2 + A_ji_5 * t303 + (t293 * v_2_in_j_1 + A_ji_4 * t300 + A_ji_3 * t296);
+    jac_phi_q_v_A_j[8] = A_i[7] * v_2_in_j_0 + A_ji_6 * t296 + A_ji_7 * t300 + A_ji_8 * t303;
+    const jg_real t304 = t293 * g_star_in_i_1;
+    const jg_real t305 = C_j[8] * t304;
+    const jg_real t306 = t290 * g_star_in_i_1;
+    const jg_real t307 = C_j[7] * t306;
+    const jg_real t308 = t305 - t307;
+    const jg_real t309 = A_i[1] * g_star_in_i_0 + A_i[7] * g_star_in_i_2;
+    const jg_real t310 = C_j[8] * t309;
+    const jg_real t311 = C_j[6] * t306 - t310;
+    const jg_real t312 = C_j[7] * t309;
+    const jg_real t313 = t312 - C_j[6] * t304;
+    const jg_real t314 = h_star_in_j_2 * t304;
+    const jg_real t315 = t290 * C_i[7];
+    const jg_real t316 = t315 * g_star_in_j_1;
+    const jg_real t317 = h_star_in_j_1 * t306;
+    const jg_real t318 = t293 * C_i[7];
+    const jg_real t319 = t318 * g_star_in_j_2;
+    const jg_real t320 = t314 + t316 - (t317 + t319);
+    const jg_real t321 = A_i[1] * C_i[6] + A_i[7] * C_i[8];
+    const jg_real t322 = t321 * g_star_in_j_2;
+    const jg_real t323 = h_star_in_j_2 * t309;
+    const jg_real t324 = t322 + h_star_in_j_0 * t306 - (t323 + t315 * g_star_in_j_0);
+    const jg_real t325 = h_star_in_j_1 * t309;
+    const jg_real t326 = t321 * g_star_in_j_1;
+    const jg_real t327 = t325 + t318 * g_star_in_j_0 - (t326 + h_star_in_j_0 * t304);
+    const jg_real t328 = t318 * C_j[2];
+    const jg_real t329 = t315 * C_j[1];
+    const jg_real t330 = t328 - t329;
+    const jg_real t331 = C_j[2] * t321;
+    const jg_real t332 = t315 * C_j[0] - t331;
+    const jg_real t333 = C_j[1] * t321;
+    const jg_real t334 = t333 - t318 * C_j[0];
+    const jg_real t335 = C_j[5] * t324 - C_j[4] * t327;
+    const jg_real t336 = C_j[3] * t327 - C_j[5] * t320;
+    const jg_real t337 = C_j[4] * t320 - C_j[3] * t324;
+    const jg_real t338 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
+    const jg_real t339 = omega_i[1] * t338;
+    const jg_real t340 = t339 * e_ij_in_j_1;
+    const jg_real t341 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
+    const jg_real t342 = omega_i[1] * t341;
+    const jg_real t343 = e_ij_in_j_2 * t342;
+    const jg_real t344 = t340 - t343;
+    const jg_real t345 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t346 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t347 = e_ij_in_j_2 * t346;
+    const jg_real t348 = t347 - (t345 + t339 * e_ij_in_j_0);
+    const jg_real t349 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t350 = e_ij_in_j_1 * t346;
+    const jg_real t351 = t349 + t342 * e_ij_in_j_0 - t350;
+    const jg_real t352 = t341 * g_star_in_i_1;
+    const jg_real t353 = C_j[8] * t352;
+    const jg_real t354 = t338 * g_star_in_i_1;
+    const jg_real t355 = C_j[7] * t354;
+    const jg_real t356 = t353 - t355;
+    const jg_real t357 = A_i[2] * g_star_in_i_0 + A_i[8] * g_star_in_i_2;
+    const jg_real t358 = C_j[8] * t357;
+    const jg_real t359 = C_j[6] * t354 - t358;
+    const jg_real t360 = C_j[7] * t357;
+    const jg_real t361 = t360 - C_j[6] * t352;
+    const jg_real t362 = h_star_in_j_2 * t352;
+    const jg_real t363 = t338 * C_i[7];
+    const jg_real t364 = t363 * g_star_in_j_1;
+    const jg_real t365 = h_star_in_j_1 * t354;
+    const jg_real t366 = t341 * C_i[7];
+    const jg_real t367 = t366 * g_star_in_j_2;
+    const jg_real t368 = t362 + t364 - (t365 + t367);
+    const jg_real t369 = A_i[2] * C_i[6] + A_i[8] * C_i[8];
+    const jg_real t370 = t369 * g_star_in_j_2;
+    const jg_real t371 = h_star_in_j_2 * t357;
+    const jg_real t372 = t370 + h_star_in_j_0 * t354 - (t371 + t363 * g_star_in_j_0);
+    const jg_real t373 = h_star_in_j_1 * t357;
+    const jg_real t374 = t369 * g_star_in_j_1;
+    const jg_real t375 = t373 + t366 * g_star_in_j_0 - (t374 + h_star_in_j_0 * t352);
+    const jg_real t376 = t366 * C_j[2];
+    const jg_real t377 = t363 * C_j[1];
+    const jg_real t378 = t376 - t377;
+    const jg_real t379 = C_j[2] * t369;
+    const jg_real t380 = t363 * C_j[0] - t379;
+    const jg_real t381 = C_j[1] * t369;
+    const jg_real t382 = t381 - t366 * C_j[0];
+    jac_phi_q_v_A_j[9] = t291 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t313 + (t298 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t308 + (t294 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t311)) - alphadot[2] * (C_j[6] *
+        t320 + C_j[7] * t324 + C_j[8] * t327) - (omega_j[0] * t308 + omega_j[1] * t311 + omega_j[2] * t313);
+    jac_phi_q_v_A_j[10] = t291 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t334 + (t298 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t330 + (t294 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t332)) - (omega_j[0] * t330 +
+        omega_j[1] * t332 + omega_j[2] * t334);
+    jac_phi_q_v_A_j[11] = t291 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t337 + (t298 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t335 + (t294 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t336)) + alphadot[2] * (C_j[3] *
+        t309 + C_j[4] * t304 + C_j[5] * t306) - (omega_j[0] * t335 + omega_j[1] * t336 + omega_j[2] * t337);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_2_in_j_0 + A_ji_0 * t344 + A_ji_1 * t348 + A_ji_2 * t351;
+    jac_phi_q_v_A_j[13] = t338 * v_2_in_j_2 + A_ji_5 * t351 + (t341 * v_2_in_j_1 + A_ji_4 * t348 + A_ji_3 * t344);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_2_in_j_0 + A_ji_6 * t344 + A_ji_7 * t348 + A_ji_8 * t351;
+    jac_phi_q_v_A_j[15] = t339 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t361 + (t346 * g_star_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t356 + (t342 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t359)) - alphadot[2] * (C_j[6] *
+        t368 + C_j[7] * t372 + C_j[8] * t375) - (omega_j[0] * t356 + omega_j[1] * t359 + omega_j[2] * t361);
+    jac_phi_q_v_A_j[16] = t339 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t382 + (t346 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t378 + (t342 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t380)) - (omega_j[0] * t378 +
+        omega_j[1] * t380 + omega_j[2] * t382);
+    const jg_real t383 = C_j[5] * t372 - C_j[4] * t375;
+    const jg_real t384 = C_j[3] * t375 - C_j[5] * t368;
+    const jg_real t385 = C_j[4] * t368 - C_j[3] * t372;
+    const jg_real t386 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
+    const jg_real t387 = omega_i[1] * t386;
+    const jg_real t388 = t387 * e_ij_in_j_0;
+    const jg_real t389 = t388 + t247;
+    const jg_real t390 = t387 * e_ij_in_j_1 + t249 - t251;
+    const jg_real t391 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t392 = t250 * e_ij_in_j_0;
+    const jg_real t393 = t392 - (t391 - e_ij_in_j_1 * t246);
+    const jg_real t394 = t386 * g_star_in_i_1;
+    const jg_real t395 = t262 - C_j[7] * t394;
+    const jg_real t396 = C_j[6] * t394;
+    const jg_real t397 = t257 + t396;
+    const jg_real t398 = C_j[6] * t261;
+    const jg_real t399 = t398 + C_j[7] * t256;
+    const jg_real t400 = t386 * C_i[7];
+    const jg_real t401 = t275 + t400 * g_star_in_j_1 - (h_star_in_j_1 * t394 + t274);
+    const jg_real t402 = h_star_in_j_0 * t394;
+    const jg_real t403 = t400 * g_star_in_j_0;
+    const jg_real t404 = t402 - t271 - (t403 - t266);
+    const jg_real t405 = t273 * g_star_in_j_0;
+    const jg_real t406 = h_star_in_j_0 * t261;
+    const jg_real t407 = t405 - h_star_in_j_1 * t256 - (t406 - t270 * g_star_in_j_1);
+    const jg_real t408 = t400 * C_j[0];
+    const jg_real t409 = t408 + t280;
+    const jg_real t410 = t283 - t400 * C_j[1];
+    const jg_real t411 = C_j[0] * t273;
+    const jg_real t412 = t411 + t270 * C_j[1];
+    const jg_real t413 = C_j[5] * t404 - C_j[4] * t407;
+    const jg_real t414 = C_j[3] * t407 - C_j[5] * t401;
+    const jg_real t415 = C_j[4] * t401 - C_j[3] * t404;
+    const jg_real t416 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
+    const jg_real t417 = omega_i[1] * t416;
+    const jg_real t418 = t417 * e_ij_in_j_0;
+    const jg_real t419 = t418 + t295;
+    const jg_real t420 = t417 * e_ij_in_j_1 + t297 - t299;
+    const jg_real t421 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t422 = t298 * e_ij_in_j_0;
+    const jg_real t423 = t422 - (t421 - e_ij_in_j_1 * t294);
+    jac_phi_q_v_A_j[17] = t339 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t385 + (t346 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t383 + (t342 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t384)) + alphadot[2] * (C_j[3] *
+        t357 + C_j[4] * t352 + C_j[5] * t354) - (omega_j[0] * t383 + omega_j[1] * t384 + omega_j[2] * t385);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_2_in_j_1 - A_ji_1 * t389 + A_ji_0 * t390 + A_ji_2 * t393;
+    jac_phi_q_v_A_j[19] = t386 * v_2_in_j_2 + A_ji_5 * t393 + (A_ji_3 * t390 - t245 * v_2_in_j_0 - A_ji_4 * t389);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_2_in_j_1 - A_ji_7 * t389 + A_ji_6 * t390 + A_ji_8 * t393;
+    jac_phi_q_v_A_j[21] = t387 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t399 + (omega_i_in_j_0 * t395 - t246 *
+        g_star_cross_h_j_in_j_0 + (t250 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t397)) - alphadot[2] * (C_j[6]
+        * t401 + C_j[7] * t404 + C_j[8] * t407) - (omega_j[0] * t395 + omega_j[1] * t397 - omega_j[2] * t399);
+    jac_phi_q_v_A_j[22] = t387 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t412 + (omega_i_in_j_0 * t410 - t246 *
+        h_star_cross_f_j_in_j_0 + (t250 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t409)) - (omega_j[0] * t410 +
+        omega_j[1] * t409 - omega_j[2] * t412);
+    jac_phi_q_v_A_j[23] = t387 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t415 + (omega_i_in_j_0 * t413 - t246 *
+        f_star_cross_g_j_in_j_0 + (t250 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t414)) + alphadot[2] * (C_j[4]
+        * t261 - C_j[3] * t256 + C_j[5] * t394) - (omega_j[0] * t413 + omega_j[1] * t414 + omega_j[2] * t415);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_2_in_j_1 - A_ji_1 * t419 + A_ji_0 * t420 + A_ji_2 * t423;
+    const jg_real t424 = t416 * g_star_in_i_1;
+    const jg_real t425 = t310 - C_j[7] * t424;
+    const jg_real t426 = C_j[6] * t424;
+    const jg_real t427 = t305 + t426;
+    const jg_real t428 = C_j[6] * t309;
+    const jg_real t429 = t428 + C_j[7] * t304;
+    const jg_real t430 = t416 * C_i[7];
+    const jg_real t431 = t323 + t430 * g_star_in_j_1 - (h_star_in_j_1 * t424 + t322);
+    const jg_real t432 = h_star_in_j_0 * t424;
+    const jg_real t433 = t430 * g_star_in_j_0;
+    const jg_real t434 = t432 - t319 - (t433 - t314);
+    const jg_real t435 = t321 * g_star_in_j_0;
+    const jg_real t436 = h_star_in_j_0 * t309;
+    const jg_real t437 = t435 - h_star_in_j_1 * t304 - (t436 - t318 * g_star_in_j_1);
+    const jg_real t438 = t430 * C_j[0];
+    const jg_real t439 = t438 + t328;
+    const jg_real t440 = t331 - t430 * C_j[1];
+    const jg_real t441 = C_j[0] * t321;
+    const jg_real t442 = t441 + t318 * C_j[1];
+    const jg_real t443 = C_j[5] * t434 - C_j[4] * t437;
+    const jg_real t444 = C_j[3] * t437 - C_j[5] * t431;
+    const jg_real t445 = C_j[4] * t431 - C_j[3] * t434;
+    const jg_real t446 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t447 = omega_i[1] * t446;
+    const jg_real t448 = t447 * e_ij_in_j_0;
+    const jg_real t449 = t448 + t343;
+    const jg_real t450 = t447 * e_ij_in_j_1 + t345 - t347;
+    const jg_real t451 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t452 = t346 * e_ij_in_j_0;
+    const jg_real t453 = t452 - (t451 - e_ij_in_j_1 * t342);
+    jac_phi_q_v_A_j[25] = t416 * v_2_in_j_2 + A_ji_5 * t423 + (A_ji_3 * t420 - t293 * v_2_in_j_0 - A_ji_4 * t419);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_2_in_j_1 - A_ji_7 * t419 + A_ji_6 * t420 + A_ji_8 * t423;
+    jac_phi_q_v_A_j[27] = t417 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t429 + (omega_i_in_j_0 * t425 - t294 *
+        g_star_cross_h_j_in_j_0 + (t298 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t427)) - alphadot[2] * (C_j[6]
+        * t431 + C_j[7] * t434 + C_j[8] * t437) - (omega_j[0] * t425 + omega_j[1] * t427 - omega_j[2] * t429);
+    jac_phi_q_v_A_j[28] = t417 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t442 + (omega_i_in_j_0 * t440 - t294 *
+        h_star_cross_f_j_in_j_0 + (t298 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t439)) - (omega_j[0] * t440 +
+        omega_j[1] * t439 - omega_j[2] * t442);
+    jac_phi_q_v_A_j[29] = t417 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t445 + (omega_i_in_j_0 * t443 - t294 *
+        f_star_cross_g_j_in_j_0 + (t298 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t444)) + alphadot[2] * (C_j[4]
+        * t309 - C_j[3] * t304 + C_j[5] * t424) - (omega_j[0] * t443 + omega_j[1] * t444 + omega_j[2] * t445);
+    jac_phi_q_v_A_j[30] = A_i[2] * v_2_in_j_1 - A_ji_1 * t449 + A_ji_0 * t450 + A_ji_2 * t453;
+    jac_phi_q_v_A_j[31] = t446 * v_2_in_j_2 + A_ji_5 * t453 + (A_ji_3 * t450 - t341 * v_2_in_j_0 - A_ji_4 * t449);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_2_in_j_1 - A_ji_7 * t449 + A_ji_6 * t450 + A_ji_8 * t453;
+    const jg_real t454 = t446 * g_star_in_i_1;
+    const jg_real t455 = t358 - C_j[7] * t454;
+    const jg_real t456 = C_j[6] * t454;
+    const jg_real t457 = t353 + t456;
+    const jg_real t458 = C_j[6] * t357;
+    const jg_real t459 = t458 + C_j[7] * t352;
+    const jg_real t460 = t446 * C_i[7];
+    const jg_real t461 = t371 + t460 * g_star_in_j_1 - (h_star_in_j_1 * t454 + t370);
+    const jg_real t462 = h_star_in_j_0 * t454;
+    const jg_real t463 = t460 * g_star_in_j_0;
+    const jg_real t464 = t462 - t367 - (t463 - t362);
+    const jg_real t465 = t369 * g_star_in_j_0;
+    const jg_real t466 = h_star_in_j_0 * t357;
+    const jg_real t467 = t465 - h_star_in_j_1 * t352 - (t466 - t366 * g_star_in_j_1);
+    const jg_real t468 = t460 * C_j[0];
+    const jg_real t469 = t468 + t376;
+    const jg_real t470 = t379 - t460 * C_j[1];
+    const jg_real t471 = C_j[0] * t369;
+    const jg_real t472 = t471 + t366 * C_j[1];
+    const jg_real t473 = C_j[5] * t464 - C_j[4] * t467;
+    const jg_real t474 = C_j[3] * t467 - C_j[5] * t461;
+    const jg_real t475 = C_j[4] * t461 - C_j[3] * t464;
+    const jg_real t476 = t244 - t388;
+    const jg_real t477 = t254 - (t253 - t387 * e_ij_in_j_2);
+    const jg_real t478 = t391 - t243 * e_ij_in_j_2 - t392;
+    const jg_real t479 = t398 + C_j[8] * t258;
+    const jg_real t480 = C_j[8] * t394 + t264;
+    const jg_real t481 = t396 - t259;
+    const jg_real t482 = t278 - h_star_in_j_2 * t394 - (t277 - t400 * g_star_in_j_2);
+    const jg_real t483 = t406 - t267 * g_star_in_j_2 - (t405 - h_star_in_j_2 * t258);
+    const jg_real t484 = t268 + t402 - (t269 + t403);
+    const jg_real t485 = t408 - t281;
+    const jg_real t486 = t411 + t267 * C_j[2];
+    const jg_real t487 = t285 + t400 * C_j[2];
+    jac_phi_q_v_A_j[33] = t447 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t455 - t342 *
+        g_star_cross_h_j_in_j_0 + (t346 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t457)) - alphadot[2] * (C_j[6]
+        * t461 + C_j[7] * t464 + C_j[8] * t467) - (omega_j[0] * t455 + omega_j[1] * t457 - omega_j[2] * t459);
+    jac_phi_q_v_A_j[34] = t447 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t472 + (omega_i_in_j_0 * t470 - t342 *
+        h_star_cross_f_j_in_j_0 + (t346 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t469)) - (omega_j[0] * t470 +
+        omega_j[1] * t469 - omega_j[2] * t472);
+    jac_phi_q_v_A_j[35] = t447 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t475 + (omega_i_in_j_0 * t473 - t342 *
+        f_star_cross_g_j_in_j_0 + (t346 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t474)) + alphadot[2] * (C_j[4]
+        * t357 - C_j[3] * t352 + C_j[5] * t454) - (omega_j[0] * t473 + omega_j[1] * t474 + omega_j[2] * t475);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_2_in_j_2 + A_ji_2 * t476 + (A_ji_0 * t477 + A_ji_1 * t478);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t477 - t242 * v_2_in_j_0 + (A_ji_4 * t478 - t386 * v_2_in_j_1) + A_ji_5 * t476;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_2_in_j_2 + A_ji_8 * t476 + (A_ji_6 * t477 + A_ji_7 * t478);
+    jac_phi_q_v_A_j[39] = t250 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t481 + (omega_i_in_j_1 * t479 - t387 *
+        g_star_cross_h_j_in_j_1 - (t243 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t480)) - alphadot[2] * (C_j[6]
+        * t482 + C_j[7] * t483 + C_j[8] * t484) - (omega_j[1] * t479 - omega_j[0] * t480 + omega_j[2] * t481);
+    jac_phi_q_v_A_j[40] = t250 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t485 + (omega_i_in_j_1 * t486 - t387 *
+        h_star_cross_f_j_in_j_1 - (t243 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t487)) - (omega_j[1] * t486 -
+        omega_j[0] * t487 + omega_j[2] * t485);
+    const jg_real t488 = C_j[5] * t483 - C_j[4] * t484;
+    const jg_real t489 = C_j[3] * t484 - C_j[5] * t482;
+    const jg_real t490 = C_j[4] * t482 - C_j[3] * t483;
+    const jg_real t491 = t292 - t418;
+    const jg_real t492 = t302 - (t301 - t417 * e_ij_in_j_2);
+    const jg_real t493 = t421 - t291 * e_ij_in_j_2 - t422;
+    const jg_real t494 = t428 + C_j[8] * t306;
+    const jg_real t495 = C_j[8] * t424 + t312;
+    const jg_real t496 = t426 - t307;
+    const jg_real t497 = t326 - h_star_in_j_2 * t424 - (t325 - t430 * g_star_in_j_2);
+    const jg_real t498 = t436 - t315 * g_star_in_j_2 - (t435 - h_star_in_j_2 * t306);
+    const jg_real t499 = t316 + t432 - (t317 + t433);
+    const jg_real t500 = t438 - t329;
+    const jg_real t501 = t441 + t315 * C_j[2];
+    const jg_real t502 = t333 + t430 * C_j[2];
+    const jg_real t503 = C_j[5] * t498 - C_j[4] * t499;
+    const jg_real t504 = C_j[3] * t499 - C_j[5] * t497;
+    const jg_real t505 = C_j[4] * t497 - C_j[3] * t498;
+    const jg_real t506 = t340 - t448;
+    const jg_real t507 = t350 - (t349 - t447 * e_ij_in_j_2);
+    const jg_real t508 = t451 - t339 * e_ij_in_j_2 - t452;
+    jac_phi_q_v_A_j[41] = t250 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t243 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t489 - t387 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
+        * t261 - (C_j[3] * t258 + C_j[4] * t394)) - (omega_j[0] * t488 + omega_j[1] * t489 + omega_j[2] * t490);
+    jac_phi_q_v_A_j[42] = A_i[1] * v_2_in_j_2 + A_ji_2 * t491 + (A_ji_0 * t492 + A_ji_1 * t493);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t492 - t290 * v_2_in_j_0 + (A_ji_4 * t493 - t416 * v_2_in_j_1) + A_ji_5 * t491;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_2_in_j_2 + A_ji_8 * t491 + (A_ji_6 * t492 + A_ji_7 * t493);
+    jac_phi_q_v_A_j[45] = t298 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t496 + (omega_i_in_j_1 * t494 - t417 *
+        g_star_cross_h_j_in_j_1 - (t291 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t495)) - alphadot[2] * (C_j[6]
+        * t497 + C_j[7] * t498 + C_j[8] * t499) - (omega_j[1] * t494 - omega_j[0] * t495 + omega_j[2] * t496);
+    jac_phi_q_v_A_j[46] = t298 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t500 + (omega_i_in_j_1 * t501 - t417 *
+        h_star_cross_f_j_in_j_1 - (t291 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t502)) - (omega_j[1] * t501 -
+        omega_j[0] * t502 + omega_j[2] * t500);
+    jac_phi_q_v_A_j[47] = t298 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t505 + (omega_i_in_j_0 * t503 - t291 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t504 - t417 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
+        * t309 - (C_j[3] * t306 + C_j[4] * t424)) - (omega_j[0] * t503 + omega_j[1] * t504 + omega_j[2] * t505);
+    jac_phi_q_v_A_j[48] = A_i[2] * v_2_in_j_2 + A_ji_2 * t506 + (A_ji_0 * t507 + A_ji_1 * t508);
+    const jg_real t509 = t458 + C_j[8] * t354;
+    const jg_real t510 = C_j[8] * t454 + t360;
+    const jg_real t511 = t456 - t355;
+    const jg_real t512 = t374 - h_star_in_j_2 * t454 - (t373 - t460 * g_star_in_j_2);
+    const jg_real t513 = t466 - t363 * g_star_in_j_2 - (t465 - h_star_in_j_2 * t354);
+    const jg_real t514 = t364 + t462 - (t365 + t463);
+    const jg_real t515 = t468 - t377;
+    const jg_real t516 = t471 + t363 * C_j[2];
+    const jg_real t517 = t381 + t460 * C_j[2];
+    const jg_real t518 = C_j[5] * t513 - C_j[4] * t514;
+    const jg_real t519 = C_j[3] * t514 - C_j[5] * t512;
+    const jg_real t520 = C_j[4] * t512 - C_j[3] * t513;
+    const jg_real t521 = C_i[4] * sine_0 + C_i[1] * cosine_0;
+    const jg_real t522 = C_i[3] * sine_0 + C_i[0] * cosine_0;
+    const jg_real t523 = C_i[5] * sine_0 + C_i[2] * cosine_0;
+    const jg_real t524 = A_ji_5 * t521 + A_ji_2 * t522 + A_ji_8 * t523;
+    const jg_real t525 = A_ji_4 * t521 + A_ji_1 * t522 + A_ji_7 * t523;
+    const jg_real t526 = h_star_in_j_1 * t524 - h_star_in_j_2 * t525;
+    const jg_real t527 = A_ji_3 * t521 + A_ji_0 * t522 + A_ji_6 * t523;
+    const jg_real t528 = h_star_in_j_2 * t527 - h_star_in_j_0 * t524;
+    const jg_real t529 = h_star_in_j_0 * t525 - h_star_in_j_1 * t527;
+    const jg_real t530 = C_j[7] * t524 - C_j[8] * t525;
+    const jg_real t531 = C_j[8] * t527 - C_j[6] * t524;
+    const jg_real t532 = C_j[6] * t525 - C_j[7] * t527;
+    const jg_real t533 = C_j[5] * t528 - C_j[4] * t529;
+    const jg_real t534 = C_j[3] * t529 - C_j[5] * t526;
+    const jg_real t535 = C_j[4] * t526 - C_j[3] * t528;
+    const jg_real t536 = -alphadot[0];
+    jac_phi_q_v_A_j[49] = A_ji_3 * t507 - t338 * v_2_in_j_0 + (A_ji_4 * t508 - t446 * v_2_in_j_1) + A_ji_5 * t506;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_2_in_j_2 + A_ji_8 * t506 + (A_ji_6 * t507 + A_ji_7 * t508);
+    jac_phi_q_v_A_j[51] = t346 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t511 + (omega_i_in_j_1 * t509 - t447 *
+        g_star_cross_h_j_in_j_1 - (t339 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t510)) - alphadot[2] * (C_j[6]
+        * t512 + C_j[7] * t513 + C_j[8] * t514) - (omega_j[1] * t509 - omega_j[0] * t510 + omega_j[2] * t511);
+    jac_phi_q_v_A_j[52] = t346 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t515 + (omega_i_in_j_1 * t516 - t447 *
+        h_star_cross_f_j_in_j_1 - (t339 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t517)) - (omega_j[1] * t516 -
+        omega_j[0] * t517 + omega_j[2] * t515);
+    jac_phi_q_v_A_j[53] = t346 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t520 + (omega_i_in_j_0 * t518 - t339 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t519 - t447 * f_star_cross_g_j_in_j_1)) + alphadot[2] * (C_j[5]
+        * t357 - (C_j[3] * t354 + C_j[4] * t454)) - (omega_j[0] * t518 + omega_j[1] * t519 + omega_j[2] * t520);
+    jac_phi_q_v_alpha[0] = omega_i_in_j_0 * t530 + omega_i_in_j_1 * t531 + omega_i_in_j_2 * t532 - alphadot[2] *
+        (C_j[6] * t526 + C_j[7] * t528 + C_j[8] * t529) - (omega_j[0] * t530 + omega_j[1] * t531 + omega_j[2] *
+        t532);
+    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t533 + omega_i_in_j_1 * t534 + omega_i_in_j_2 * t535 - alphadot[2] *
+        (C_j[3] * t527 + C_j[4] * t525 + C_j[5] * t524) - (omega_j[0] * t533 + omega_j[1] * t534 + omega_j[2] *
+        t535);
+    jac_phi_q_v_geometry[0] = t536;
+    jac_phi_q_v_geometry[3] = t536;
+    jac_phi_q_v_geometry[6] = t536;
+    const jg_real t537 = A_ji_2 * sine_0;
+    const jg_real t538 = A_ji_1 * sine_0;
+    const jg_real t539 = h_star_in_j_1 * t537 - h_star_in_j_2 * t538;
+    const jg_real t540 = A_ji_0 * sine_0;
+    const jg_real t541 = h_star_in_j_2 * t540 - h_star_in_j_0 * t537;
+    const jg_real t542 = h_star_in_j_0 * t538 - h_star_in_j_1 * t540;
+    const jg_real t543 = C_j[7] * t537 - C_j[8] * t538;
+    const jg_real t544 = C_j[8] * t540 - C_j[6] * t537;
+    const jg_real t545 = C_j[6] * t538 - C_j[7] * t540;
+    const jg_real t546 = C_j[5] * t541 - C_j[4] * t542;
+    const jg_real t547 = C_j[3] * t542 - C_j[5] * t539;
+    const jg_real t548 = C_j[4] * t539 - C_j[3] * t541;
+    const jg_real t549 = A_ji_5 * sine_0;
+    const jg_real t550 = A_ji_4 * sine_0;
+    const jg_real t551 = h_star_in_j_1 * t549 - h_star_in_j_2 * t550;
+    const jg_real t552 = A_ji_3 * sine_0;
+    const jg_real t553 = h_star_in_j_2 * t552 - h_star_in_j_0 * t549;
+    const jg_real t554 = h_star_in_j_0 * t550 - h_star_in_j_1 * t552;
+    const jg_real t555 = C_j[7] * t549 - C_j[8] * t550;
+    const jg_real t556 = C_j[8] * t552 - C_j[6] * t549;
+    const jg_real t557 = C_j[6] * t550 - C_j[7] * t552;
+    const jg_real t558 = C_j[5] * t553 - C_j[4] * t554;
+    const jg_real t559 = C_j[3] * t554 - C_j[5] * t551;
+    const jg_real t560 = C_j[4] * t551 - C_j[3] * t553;
+    const jg_real t561 = A_ji_8 * sine_0;
+    const jg_real t562 = A_ji_7 * sine_0;
+    const jg_real t563 = h_star_in_j_1 * t561 - h_star_in_j_2 * t562;
+    const jg_real t564 = A_ji_6 * sine_0;
+    const jg_real t565 = h_star_in_j_2 * t564 - h_star_in_j_0 * t561;
+    const jg_real t566 = h_star_in_j_0 * t562 - h_star_in_j_1 * t564;
+    const jg_real t567 = C_j[7] * t561 - C_j[8] * t562;
+    const jg_real t568 = C_j[8] * t564 - C_j[6] * t561;
+    const jg_real t569 = C_j[6] * t562 - C_j[7] * t564;
+    const jg_real t570 = C_j[5] * t565 - C_j[4] * t566;
+    const jg_real t571 = C_j[3] * t566 - C_j[5] * t563;
+    const jg_real t572 = C_j[4] * t563 - C_j[3] * t565;
+    const jg_real t573 = -alphadot[1];
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t543 + omega_i_in_j_1 * t544 + omega_i_in_j_2 * t545 - alphadot[2] *
+        (C_j[6] * t539 + C_j[7] * t541 + C_j[8] * t542) - (omega_j[0] * t543 + omega_j[1] * t544 + omega_j[2] *
+        t545);
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t546 + omega_i_in_j_1 * t547 + omega_i_in_j_2 * t548 - alphadot[2] *
+        (C_j[3] * t540 + C_j[4] * t538 + C_j[5] * t537) - (omega_j[0] * t546 + omega_j[1] * t547 + omega_j[2] *
+        t548);
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t555 + omega_i_in_j_1 * t556 + omega_i_in_j_2 * t557 - alphadot[2] *
+        (C_j[6] * t551 + C_j[7] * t553 + C_j[8] * t554) - (omega_j[0] * t555 + omega_j[1] * t556 + omega_j[2] *
+        t557);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t558 + omega_i_in_j_1 * t559 + omega_i_in_j_2 * t560 - alphadot[2] *
+        (C_j[3] * t552 + C_j[4] * t550 + C_j[5] * t549) - (omega_j[0] * t558 + omega_j[1] * t559 + omega_j[2] *
+        t560);
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t567 + omega_i_in_j_1 * t568 + omega_i_in_j_2 * t569 - alphadot[2] *
+        (C_j[6] * t563 + C_j[7] * t565 + C_j[8] * t566) - (omega_j[0] * t567 + omega_j[1] * t568 + omega_j[2] *
+        t569);
+    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t570 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - alphadot[2] *
+        (C_j[3] * t564 + C_j[4] * t562 + C_j[5] * t561) - (omega_j[0] * t570 + omega_j[1] * t571 + omega_j[2] *
+        t572);
+    jac_phi_q_v_geometry[9] = t573;
+    jac_phi_q_v_geometry[12] = t573;
+    jac_phi_q_v_geometry[15] = t573;
+    const jg_real t574 = A_ji_1 * cosine_0;
+    const jg_real t575 = A_ji_2 * cosine_0;
+    const jg_real t576 = h_star_in_j_2 * t574 - h_star_in_j_1 * t575;
+    const jg_real t577 = A_ji_0 * cosine_0;
+    const jg_real t578 = h_star_in_j_0 * t575 - h_star_in_j_2 * t577;
+    const jg_real t579 = h_star_in_j_1 * t577 - h_star_in_j_0 * t574;
+    const jg_real t580 = C_j[8] * t574 - C_j[7] * t575;
+    const jg_real t581 = C_j[6] * t575 - C_j[8] * t577;
+    const jg_real t582 = C_j[7] * t577 - C_j[6] * t574;
+    const jg_real t583 = C_j[5] * t578 - C_j[4] * t579;
+    const jg_real t584 = C_j[3] * t579 - C_j[5] * t576;
+    const jg_real t585 = C_j[4] * t576 - C_j[3] * t578;
+    const jg_real t586 = A_ji_4 * cosine_0;
+    const jg_real t587 = A_ji_5 * cosine_0;
+    const jg_real t588 = h_star_in_j_2 * t586 - h_star_in_j_1 * t587;
+    const jg_real t589 = A_ji_3 * cosine_0;
+    const jg_real t590 = h_star_in_j_0 * t587 - h_star_in_j_2 * t589;
+    const jg_real t591 = h_star_in_j_1 * t589 - h_star_in_j_0 * t586;
+    const jg_real t592 = C_j[8] * t586 - C_j[7] * t587;
+    const jg_real t593 = C_j[6] * t587 - C_j[8] * t589;
+    const jg_real t594 = C_j[7] * t589 - C_j[6] * t586;
+    const jg_real t595 = C_j[5] * t590 - C_j[4] * t591;
+    const jg_real t596 = C_j[3] * t591 - C_j[5] * t588;
+    const jg_real t597 = C_j[4] * t588 - C_j[3] * t590;
+    const jg_real t598 = A_ji_7 * cosine_0;
+    const jg_real t599 = A_ji_8 * cosine_0;
+    const jg_real t600 = h_star_in_j_2 * t598 - h_star_in_j_1 * t599;
+    const jg_real t601 = A_ji_6 * cosine_0;
+    const jg_real t602 = h_star_in_j_0 * t599 - h_star_in_j_2 * t601;
+    const jg_real t603 = h_star_in_j_1 * t601 - h_star_in_j_0 * t598;
+    const jg_real t604 = C_j[8] * t598 - C_j[7] * t599;
+    const jg_real t605 = C_j[6] * t599 - C_j[8] * t601;
+    const jg_real t606 = C_j[7] * t601 - C_j[6] * t598;
+    const jg_real t607 = C_j[5] * t602 - C_j[4] * t603;
+    const jg_real t608 = C_j[3] * t603 - C_j[5] * t600;
+    const jg_real t609 = C_j[4] * t600 - C_j[3] * t602;
+    const jg_real t610 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
+    const jg_real t611 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
+    const jg_real t612 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
+    const jg_real t613 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
+    const jg_real t614 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
+    const jg_real t615 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t580 + omega_i_in_j_1 * t581 + omega_i_in_j_2 * t582 - alphadot[2] *
+        (C_j[6] * t576 + C_j[7] * t578 + C_j[8] * t579) - (omega_j[0] * t580 + omega_j[1] * t581 + omega_j[2] *
+        t582);
+    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t583 + omega_i_in_j_1 * t584 + omega_i_in_j_2 * t585 + alphadot[2] *
+        (C_j[3] * t577 + C_j[4] * t574 + C_j[5] * t575) - (omega_j[0] * t583 + omega_j[1] * t584 + omega_j[2] *
+        t585);
+    jac_phi_q_v_geometry[13] = omega_i_in_j_0 * t592 + omega_i_in_j_1 * t593 + omega_i_in_j_2 * t594 - alphadot[2] *
+        (C_j[6] * t588 + C_j[7] * t590 + C_j[8] * t591) - (omega_j[0] * t592 + omega_j[1] * t593 + omega_j[2] *
+        t594);
+    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t595 + omega_i_in_j_1 * t596 + omega_i_in_j_2 * t597 + alphadot[2] *
+        (C_j[3] * t589 + C_j[4] * t586 + C_j[5] * t587) - (omega_j[0] * t595 + omega_j[1] * t596 + omega_j[2] *
+        t597);
+    jac_phi_q_v_geometry[16] = omega_i_in_j_0 * t604 + omega_i_in_j_1 * t605 + omega_i_in_j_2 * t606 - alphadot[2] *
+        (C_j[6] * t600 + C_j[7] * t602 + C_j[8] * t603) - (omega_j[0] * t604 + omega_j[1] * t605 + omega_j[2] *
+        t606);
+    jac_phi_q_v_geometry[17] = omega_i_in_j_0 * t607 + omega_i_in_j_1 * t608 + omega_i_in_j_2 * t609 + alphadot[2] *
+        (C_j[3] * t601 + C_j[4] * t598 + C_j[5] * t599) - (omega_j[0] * t607 + omega_j[1] * t608 + omega_j[2] *
+        t609);
+    jac_phi_q_v_geometry[18] = -(alphadot[2] * (C_j[6] * t610 + C_j[7] * t611 + C_j[8] * t612));
+    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t613 + omega_i_in_j_1 * t614 + omega_i_in_j_2 * t615 - (omega_j[0] *
+        t613 + omega_j[1] * t614 + omega_j[2] * t615);
+    const jg_real t616 = C_j[5] * t611 - C_j[4] * t612;
+    const jg_real t617 = C_j[3] * t612 - C_j[5] * t610;
+    const jg_real t618 = C_j[4] * t610 - C_j[3] * t611;
+    const jg_real t619 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
+    const jg_real t620 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
+    const jg_real t621 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
+    const jg_real t622 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
+    const jg_real t623 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
+    const jg_real t624 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
     const jg_real t625 = C_j[5] * t620 - C_j[4] * t621;
-    const jg_real t626 = C_j[3] * t621 - C_j[5] * t618;
-    const jg_real t627 = C_j[4] * t618 - C_j[3] * t620;
-    const jg_real t628 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
-    const jg_real t629 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
-    const jg_real t630 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    const jg_real t631 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
-    const jg_real t632 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
-    const jg_real t633 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t598 + omega_i_in_j_1 * t599 + omega_i_in_j_2 * t600 - alphadot[2] *
-        (C_j[6] * t594 + C_j[7] * t596 + C_j[8] * t597) - (omega_j[0] * t598 + omega_j[1] * t599 + omega_j[2] *
-        t600);
-    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t601 + omega_i_in_j_1 * t602 + omega_i_in_j_2 * t603 + alphadot[2] *
-        (C_j[3] * t595 + C_j[4] * t592 + C_j[5] * t593) - (omega_j[0] * t601 + omega_j[1] * t602 + omega_j[2] *
-        t603);
-    jac_phi_q_v_geometry[13] = omega_i_in_j_0 * t610 + omega_i_in_j_1 * t611 + omega_i_in_j_2 * t612 - alphadot[2] *
-        (C_j[6] * t606 + C_j[7] * t608 + C_j[8] * t609) - (omega_j[0] * t610 + omega_j[1] * t611 + omega_j[2] *
-        t612);
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t613 + omega_i_in_j_1 * t614 + omega_i_in_j_2 * t615 + alphadot[2] *
-        (C_j[3] * t607 + C_j[4] * t604 + C_j[5] * t605) - (omega_j[0] * t613 + omega_j[1] * t614 + omega_j[2] *
-        t615);
-    jac_phi_q_v_geometry[16] = omega_i_in_j_0 * t622 + omega_i_in_j_1 * t623 + omega_i_in_j_2 * t624 - alphadot[2] *
-        (C_j[6] * t618 + C_j[7] * t620 + C_j[8] * t621) - (omega_j[0] * t622 + omega_j[1] * t623 + omega_j[2] *
-        t624);
-    jac_phi_q_v_geometry[17] = omega_i_in_j_0 * t625 + omega_i_in_j_1 * t626 + omega_i_in_j_2 * t627 + alphadot[2] *
-        (C_j[3] * t619 + C_j[4] * t616 + C_j[5] * t617) - (omega_j[0] * t625 + omega_j[1] * t626 + omega_j[2] *
-        t627);
-    jac_phi_q_v_geometry[18] = -(alphadot[2] * (C_j[6] * t628 + C_j[7] * t629 + C_j[8] * t630));
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t631 + omega_i_in_j_1 * t632 + omega_i_in_j_2 * t633 - (omega_j[0] *
-        t631 + omega_j[1] * t632 + omega_j[2] * t633);
+    const jg_real t626 = C_j[3] * t621 - C_j[5] * t619;
+    const jg_real t627 = C_j[4] * t619 - C_j[3] * t620;
+    const jg_real t628 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
+    const jg_real t629 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
+    const jg_real t630 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
+    const jg_real t631 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
+    const jg_real t632 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
+    const jg_real t633 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
     const jg_real t634 = C_j[5] * t629 - C_j[4] * t630;
     const jg_real t635 = C_j[3] * t630 - C_j[5] * t628;
     const jg_real t636 = C_j[4] * t628 - C_j[3] * t629;
-    const jg_real t637 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
-    const jg_real t638 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
-    const jg_real t639 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
-    const jg_real t640 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
-    const jg_real t641 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
-    const jg_real t642 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    const jg_real t643 = C_j[5] * t638 - C_j[4] * t639;
-    const jg_real t644 = C_j[3] * t639 - C_j[5] * t637;
-    const jg_real t645 = C_j[4] * t637 - C_j[3] * t638;
-    const jg_real t646 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
-    const jg_real t647 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
-    const jg_real t648 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
-    const jg_real t649 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
-    const jg_real t650 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
-    const jg_real t651 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    const jg_real t652 = C_j[5] * t647 - C_j[4] * t648;
-    const jg_real t653 = C_j[3] * t648 - C_j[5] * t646;
-    const jg_real t654 = C_j[4] * t646 - C_j[3] * t647;
-    const jg_real t655 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t656 = omega_j[1] - omega_i_in_j_1;
-    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t634 + omega_i_in_j_1 * t635 + omega_i_in_j_2 * t636 - (omega_j[0] *
+    const jg_real t637 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t638 = omega_j[1] - omega_i_in_j_1;
+    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t616 + omega_i_in_j_1 * t617 + omega_i_in_j_2 * t618 - (omega_j[0] *
+        t616 + omega_j[1] * t617 + omega_j[2] * t618);
+    jac_phi_q_v_geometry[21] = -(alphadot[2] * (C_j[6] * t619 + C_j[7] * t620 + C_j[8] * t621));
+    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t622 + omega_i_in_j_1 * t623 + omega_i_in_j_2 * t624 - (omega_j[0] *
+        t622 + omega_j[1] * t623 + omega_j[2] * t624);
+    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t625 + omega_i_in_j_1 * t626 + omega_i_in_j_2 * t627 - (omega_j[0] *
+        t625 + omega_j[1] * t626 + omega_j[2] * t627);
+    jac_phi_q_v_geometry[24] = -(alphadot[2] * (C_j[6] * t628 + C_j[7] * t629 + C_j[8] * t630));
+    jac_phi_q_v_geometry[25] = omega_i_in_j_0 * t631 + omega_i_in_j_1 * t632 + omega_i_in_j_2 * t633 - (omega_j[0] *
+        t631 + omega_j[1] * t632 + omega_j[2] * t633);
+    jac_phi_q_v_geometry[26] = omega_i_in_j_0 * t634 + omega_i_in_j_1 * t635 + omega_i_in_j_2 * t636 - (omega_j[0] *
         t634 + omega_j[1] * t635 + omega_j[2] * t636);
-    jac_phi_q_v_geometry[21] = -(alphadot[2] * (C_j[6] * t637 + C_j[7] * t638 + C_j[8] * t639));
-    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t640 + omega_i_in_j_1 * t641 + omega_i_in_j_2 * t642 - (omega_j[0] *
-        t640 + omega_j[1] * t641 + omega_j[2] * t642);
-    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t643 + omega_i_in_j_1 * t644 + omega_i_in_j_2 * t645 - (omega_j[0] *
-        t643 + omega_j[1] * t644 + omega_j[2] * t645);
-    jac_phi_q_v_geometry[24] = -(alphadot[2] * (C_j[6] * t646 + C_j[7] * t647 + C_j[8] * t648));
-    jac_phi_q_v_geometry[25] = omega_i_in_j_0 * t649 + omega_i_in_j_1 * t650 + omega_i_in_j_2 * t651 - (omega_j[0] *
-        t649 + omega_j[1] * t650 + omega_j[2] * t651);
-    jac_phi_q_v_geometry[26] = omega_i_in_j_0 * t652 + omega_i_in_j_1 * t653 + omega_i_in_j_2 * t654 - (omega_j[0] *
-        t652 + omega_j[1] * t653 + omega_j[2] * t654);
-    jac_phi_q_v_geometry[27] = -(A_ji_1 * t655 + A_ji_2 * t656);
-    const jg_real t657 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[28] = -(A_ji_4 * t655 + A_ji_5 * t656);
-    jac_phi_q_v_geometry[29] = -(A_ji_7 * t655 + A_ji_8 * t656);
-    jac_phi_q_v_geometry[30] = A_ji_0 * t655 - A_ji_2 * t657;
-    jac_phi_q_v_geometry[31] = A_ji_3 * t655 - A_ji_5 * t657;
-    jac_phi_q_v_geometry[32] = A_ji_6 * t655 - A_ji_8 * t657;
-    jac_phi_q_v_geometry[33] = A_ji_0 * t656 + A_ji_1 * t657;
-    jac_phi_q_v_geometry[34] = A_ji_3 * t656 + A_ji_4 * t657;
-    jac_phi_q_v_geometry[35] = A_ji_6 * t656 + A_ji_7 * t657;
+    jac_phi_q_v_geometry[27] = -(A_ji_1 * t637 + A_ji_2 * t638);
+    const jg_real t639 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[28] = -(A_ji_4 * t637 + A_ji_5 * t638);
+    jac_phi_q_v_geometry[29] = -(A_ji_7 * t637 + A_ji_8 * t638);
+    jac_phi_q_v_geometry[30] = A_ji_0 * t637 - A_ji_2 * t639;
+    jac_phi_q_v_geometry[31] = A_ji_3 * t637 - A_ji_5 * t639;
+    jac_phi_q_v_geometry[32] = A_ji_6 * t637 - A_ji_8 * t639;
+    jac_phi_q_v_geometry[33] = A_ji_0 * t638 + A_ji_1 * t639;
+    jac_phi_q_v_geometry[34] = A_ji_3 * t638 + A_ji_4 * t639;
+    jac_phi_q_v_geometry[35] = A_ji_6 * t638 + A_ji_7 * t639;
     jac_phi_q_v_geometry[36] = omega_i_in_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
     jac_phi_q_v_geometry[37] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
@@ -1337,86 +1316,77 @@ static void jg_planar_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_r
         f_star_in_j_0 - (omega_j[1] * g_star_in_j_2 - omega_j[2] * g_star_in_j_1);
     jac_phi_q_v_geometry[43] = omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2 - alphadot[2] *
         f_star_in_j_1 - (omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2);
-    const jg_real t658 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
-    const jg_real t659 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
-    const jg_real t660 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
+    const jg_real t640 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t641 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t642 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
     jac_phi_q_v_geometry[44] = omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0 - alphadot[2] *
         f_star_in_j_2 - (omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t658;
-    jac_phi_q_v_velocity[3] = t658;
-    jac_phi_q_v_velocity[2] = t659;
-    jac_phi_q_v_velocity[6] = t659;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t660;
-    jac_phi_q_v_velocity[7] = t660;
-    const jg_real t661 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t662 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t663 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    const jg_real t664 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t665 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t666 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t661 + A_ji_1 * t662 + A_ji_2 * t663;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t661 + A_ji_4 * t662 + A_ji_5 * t663;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t661 + A_ji_7 * t662 + A_ji_8 * t663;
-    jac_phi_q_v_velocity[12] = A_ji_0 * g_star_cross_h_j_in_j_0 + A_ji_1 * g_star_cross_h_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[3] = A_ji_0 * t640 + A_ji_1 * t641 + A_ji_2 * t642;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t640 + A_ji_4 * t641 + A_ji_5 * t642;
+    jac_phi_q_v_velocity[5] = A_ji_6 * t640 + A_ji_7 * t641 + A_ji_8 * t642;
+    jac_phi_q_v_velocity[6] = A_ji_0 * g_star_cross_h_j_in_j_0 + A_ji_1 * g_star_cross_h_j_in_j_1 + A_ji_2 *
         g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[13] = A_ji_0 * h_star_cross_f_j_in_j_0 + A_ji_1 * h_star_cross_f_j_in_j_1 + A_ji_2 *
+    const jg_real t643 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t644 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t645 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[7] = A_ji_0 * h_star_cross_f_j_in_j_0 + A_ji_1 * h_star_cross_f_j_in_j_1 + A_ji_2 *
         h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_star_cross_g_j_in_j_0 + A_ji_1 * f_star_cross_g_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[8] = A_ji_0 * f_star_cross_g_j_in_j_0 + A_ji_1 * f_star_cross_g_j_in_j_1 + A_ji_2 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t664 + A_ji_1 * t665 + A_ji_2 * t666;
-    const jg_real t667 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t668 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t669 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t664 + A_ji_4 * t665 + A_ji_5 * t666;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t664 + A_ji_7 * t665 + A_ji_8 * t666;
-    jac_phi_q_v_velocity[18] = A_ji_3 * g_star_cross_h_j_in_j_0 + A_ji_4 * g_star_cross_h_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[9] = A_ji_0 * t643 + A_ji_1 * t644 + A_ji_2 * t645;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t643 + A_ji_4 * t644 + A_ji_5 * t645;
+    jac_phi_q_v_velocity[11] = A_ji_6 * t643 + A_ji_7 * t644 + A_ji_8 * t645;
+    jac_phi_q_v_velocity[12] = A_ji_3 * g_star_cross_h_j_in_j_0 + A_ji_4 * g_star_cross_h_j_in_j_1 + A_ji_5 *
         g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[19] = A_ji_3 * h_star_cross_f_j_in_j_0 + A_ji_4 * h_star_cross_f_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[13] = A_ji_3 * h_star_cross_f_j_in_j_0 + A_ji_4 * h_star_cross_f_j_in_j_1 + A_ji_5 *
         h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[20] = A_ji_3 * f_star_cross_g_j_in_j_0 + A_ji_4 * f_star_cross_g_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[14] = A_ji_3 * f_star_cross_g_j_in_j_0 + A_ji_4 * f_star_cross_g_j_in_j_1 + A_ji_5 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t667 + A_ji_1 * t668 + A_ji_2 * t669;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t667 + A_ji_4 * t668 + A_ji_5 * t669;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t667 + A_ji_7 * t668 + A_ji_8 * t669;
-    jac_phi_q_v_velocity[24] = A_ji_6 * g_star_cross_h_j_in_j_0 + A_ji_7 * g_star_cross_h_j_in_j_1 + A_ji_8 *
+    const jg_real t646 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t647 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t648 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[15] = A_ji_0 * t646 + A_ji_1 * t647 + A_ji_2 * t648;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t646 + A_ji_4 * t647 + A_ji_5 * t648;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t646 + A_ji_7 * t647 + A_ji_8 * t648;
+    jac_phi_q_v_velocity[18] = A_ji_6 * g_star_cross_h_j_in_j_0 + A_ji_7 * g_star_cross_h_j_in_j_1 + A_ji_8 *
         g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[25] = A_ji_6 * h_star_cross_f_j_in_j_0 + A_ji_7 * h_star_cross_f_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[19] = A_ji_6 * h_star_cross_f_j_in_j_0 + A_ji_7 * h_star_cross_f_j_in_j_1 + A_ji_8 *
         h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[26] = A_ji_6 * f_star_cross_g_j_in_j_0 + A_ji_7 * f_star_cross_g_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[20] = A_ji_6 * f_star_cross_g_j_in_j_0 + A_ji_7 * f_star_cross_g_j_in_j_1 + A_ji_8 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = -g_star_cross_h_j_in_j_0;
-    jac_phi_q_v_velocity[40] = -h_star_cross_f_j_in_j_0;
-    jac_phi_q_v_velocity[41] = -f_star_cross_g_j_in_j_0;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_1;
-    jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_1;
-    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = -g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[52] = -h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[53] = -f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[54] = -C_i[0];
-    jac_phi_q_v_velocity[55] = -C_i[1];
-    jac_phi_q_v_velocity[56] = -C_i[2];
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = -g_star_cross_h_j_in_j_0;
+    jac_phi_q_v_velocity[34] = -h_star_cross_f_j_in_j_0;
+    jac_phi_q_v_velocity[35] = -f_star_cross_g_j_in_j_0;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = -g_star_cross_h_j_in_j_1;
+    jac_phi_q_v_velocity[40] = -h_star_cross_f_j_in_j_1;
+    jac_phi_q_v_velocity[41] = -f_star_cross_g_j_in_j_1;
+    jac_phi_q_v_velocity[42] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_v_velocity[44] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    jac_phi_q_v_velocity[57] = -C_i[3];
-    jac_phi_q_v_velocity[58] = -C_i[4];
-    jac_phi_q_v_velocity[59] = -C_i[5];
-    jac_phi_q_v_velocity[60] = -f_star_dot_h_j;
-    jac_phi_q_v_velocity[61] = g_star_dot_g_j;
+    jac_phi_q_v_velocity[48] = -C_i[0];
+    jac_phi_q_v_velocity[49] = -C_i[1];
+    jac_phi_q_v_velocity[50] = -C_i[2];
+    jac_phi_q_v_velocity[51] = -C_i[3];
+    jac_phi_q_v_velocity[52] = -C_i[4];
+    jac_phi_q_v_velocity[53] = -C_i[5];
+    jac_phi_q_v_velocity[54] = -f_star_dot_h_j;
+    jac_phi_q_v_velocity[55] = g_star_dot_g_j;
 }
 
 static void jg_planar_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
@@ -2686,7 +2656,7 @@ int jac_jg_planar_parametric_phi_q_v_external(const double **arg, double **res, 
     double unwanted_3[54];
     double unwanted_4[2];
     double unwanted_5[45];
-    double unwanted_6[62];
+    double unwanted_6[56];
     (void)iw;
     (void)w;
     (void)mem;
@@ -2794,9 +2764,9 @@ const casadi_int *jac_jg_planar_parametric_phi_q_v_external_sparsity_out(casadi_
         5, 5, 5, 3, 3, 3
     };
     static const casadi_int pattern_6[] = {
-        6, 15, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 57, 60, 62, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4,
-        5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
-        2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 3, 5
+        6, 15, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 51, 54, 56, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4,
+        5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
+        2, 0, 1, 2, 3, 5
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

@@ -47,10 +47,10 @@ static void jg_planar_parametric_substituted_phi_jacobian(const jg_real *r_i, co
     jac_phi_r_i[7] = -A_i[5];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
+    /* v_0_world = r_j - r_i, world axes */
+    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_1_world_0 + s_j_world_0;
+    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
     /* g_j_world = g_j, world axes */
     const jg_real g_j_world_0 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
     const jg_real g_j_world_1 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
@@ -84,8 +84,8 @@ static void jg_planar_parametric_substituted_phi_jacobian(const jg_real *r_i, co
     /* f_star_in_i = f_star, axes of body i */
     const jg_real f_star_in_i_0 = C_i[3] * sine_0 + C_i[0] * cosine_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_1_world_1 + s_j_world_1;
+    const jg_real v_0_world_1 = r_j[1] - r_i[1];
+    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
     const jg_real t23 = f_j_world_1 * g_j_in_i_2 - g_j_world_1 * f_j_in_i_2;
     const jg_real t24 = g_j_world_1 * f_j_in_i_1 - f_j_world_1 * g_j_in_i_1;
     jac_phi_A_i[2] = f_j_world_0 * C_i[6];
@@ -97,8 +97,8 @@ static void jg_planar_parametric_substituted_phi_jacobian(const jg_real *r_i, co
     jac_phi_A_i[6] = f_j_world_1 * C_i[6];
     jac_phi_A_i[7] = g_j_world_1 * f_star_in_i_0;
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_1_world_2 + s_j_world_2;
+    const jg_real v_0_world_2 = r_j[2] - r_i[2];
+    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
     const jg_real t28 = f_j_world_2 * g_j_in_i_2 - g_j_world_2 * f_j_in_i_2;
     const jg_real t29 = f_j_in_i_1 * g_j_world_2 - f_j_world_2 * g_j_in_i_1;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;

@@ -227,7 +227,6 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, con
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -243,14 +242,14 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, con
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[1] * A_ji_5 + omega_i[0] * A_ji_2 + omega_i[2] * A_ji_8;
     const jg_real A_ji_1 = A_ji_6 * A_ji_5 - A_ji_3 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[31] = A_ji_4;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[22] = A_ji_3;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[25] = A_ji_4;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[24] = A_ji_1;
     const jg_real omega_i_in_j_1 = omega_i[1] * A_ji_4 + omega_i[0] * A_ji_1 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_7 * A_ji_5;
@@ -264,7 +263,7 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, con
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[21] = A_ji_0;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -302,791 +301,688 @@ static void jg_planar_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, con
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_3 * v_i[1] + v_i[0] * A_ji_0 + v_i[2] * A_ji_6;
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = A_ji_3 * C_i[1] + C_i[0] * A_ji_0 + C_i[2] * A_ji_6;
-    /* g_i_in_j = g_i, axes of body j */
-    const jg_real g_i_in_j_0 = A_ji_3 * C_i[4] + C_i[3] * A_ji_0 + C_i[5] * A_ji_6;
-    /* v_4_in_j = v_j - v_i - alphadot_0 f_i - alphadot_1 g_i + r_j x omega_i + s_j x omega_i - r_i x omega_i ... */
-    const jg_real v_4_in_j_0 = v_3_in_j_0 - alphadot[0] * f_i_in_j_0 - alphadot[1] * g_i_in_j_0;
-    const jg_real t45 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
-    const jg_real t46 = A_j[0] * A_ji_7 - A_j[3] * A_ji_6;
-    const jg_real t47 = A_j[6] * omega_i[1] + omega_i[0] * t46;
-    const jg_real t48 = A_j[6] * A_ji_6 - A_j[0] * A_ji_8;
-    const jg_real t49 = A_j[3] * omega_i[1] + omega_i[0] * t48;
-    const jg_real t50 = A_j[0] * C_i[1] + C_i[0] * t45;
-    const jg_real t51 = A_j[0] * C_i[4] + C_i[3] * t45;
-    const jg_real t52 = e_ij_in_j_1 * t47 - e_ij_in_j_2 * t49 - (A_j[0] * v_i[1] + v_i[0] * t45) - alphadot[0] * t50
-        - alphadot[1] * t51;
+    /* v_2_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_j[0];
+    const jg_real t40 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
+    const jg_real t41 = A_j[0] * A_ji_7 - A_j[3] * A_ji_6;
+    const jg_real t42 = A_j[6] * omega_i[1] + omega_i[0] * t41;
+    const jg_real t43 = A_j[6] * A_ji_6 - A_j[0] * A_ji_8;
+    const jg_real t44 = A_j[3] * omega_i[1] + omega_i[0] * t43;
+    const jg_real t45 = e_ij_in_j_1 * t42 - e_ij_in_j_2 * t44;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_4 * v_i[1] + v_i[0] * A_ji_1 + A_ji_7 * v_i[2];
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real f_i_in_j_1 = A_ji_4 * C_i[1] + C_i[0] * A_ji_1 + A_ji_7 * C_i[2];
-    const jg_real g_i_in_j_1 = C_i[3] * A_ji_1 + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
-    const jg_real v_4_in_j_1 = v_3_in_j_1 - alphadot[0] * f_i_in_j_1 - alphadot[1] * g_i_in_j_1;
-    const jg_real t63 = A_j[0] * omega_i[1] + omega_i[0] * t45;
-    const jg_real t64 = A_j[3] * C_i[1] + C_i[0] * t48;
-    const jg_real t65 = C_i[3] * t48 + A_j[3] * C_i[4];
-    const jg_real t66 = e_ij_in_j_2 * t63 - t47 * e_ij_in_j_0 - (A_j[3] * v_i[1] + v_i[0] * t48) - alphadot[0] * t64
-        - alphadot[1] * t65;
-    const jg_real v_1_in_j_2 = omega_i_in_j_1 * e_ij_in_j_0 - e_ij_in_j_1 * omega_i_in_j_0;
+    const jg_real v_2_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_j[1];
+    const jg_real t51 = A_j[0] * omega_i[1] + omega_i[0] * t40;
+    const jg_real t52 = e_ij_in_j_2 * t51 - t42 * e_ij_in_j_0;
+    const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real f_i_in_j_2 = C_i[0] * A_ji_2 + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
-    const jg_real g_i_in_j_2 = C_i[3] * A_ji_2 + C_i[4] * A_ji_5 + C_i[5] * A_ji_8;
-    const jg_real v_4_in_j_2 = v_3_in_j_2 - alphadot[0] * f_i_in_j_2 - alphadot[1] * g_i_in_j_2;
-    const jg_real t75 = C_i[0] * t46 + A_j[6] * C_i[1];
-    const jg_real t76 = C_i[3] * t46 + A_j[6] * C_i[4];
-    const jg_real t77 = t49 * e_ij_in_j_0 - e_ij_in_j_1 * t63 - (v_i[0] * t46 + A_j[6] * v_i[1]) - alphadot[0] * t75
-        - alphadot[1] * t76;
-    const jg_real t78 = A_j[0] * v_4_in_j_0;
-    const jg_real t79 = A_j[3] * v_4_in_j_1;
-    const jg_real t80 = A_j[6] * v_4_in_j_2;
+    const jg_real v_2_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_j[2];
+    const jg_real t56 = t44 * e_ij_in_j_0 - e_ij_in_j_1 * t51;
+    const jg_real t57 = A_j[0] * v_2_in_j_0;
+    const jg_real t58 = A_j[3] * v_2_in_j_1;
+    const jg_real t59 = A_j[6] * v_2_in_j_2;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = C_i[0] * A_ji_0 + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
+    const jg_real t61 = C_j[8] * t44 - t42 * C_j[7];
     /* omega_i_cross_h_j_in_j = omega_i x h_j, axes of body j */
-    const jg_real omega_i_cross_h_j_in_j_0 = omega_i_in_j_1 * C_j[8] - omega_i_in_j_2 * C_j[7];
-    const jg_real t82 = t49 * C_j[8] - t47 * C_j[7];
-    const jg_real omega_i_cross_h_j_in_j_1 = omega_i_in_j_2 * C_j[6] - omega_i_in_j_0 * C_j[8];
-    const jg_real t84 = t47 * C_j[6] - t63 * C_j[8];
-    const jg_real omega_i_cross_h_j_in_j_2 = omega_i_in_j_0 * C_j[7] - omega_i_in_j_1 * C_j[6];
-    const jg_real t86 = t63 * C_j[7] - t49 * C_j[6];
+    const jg_real omega_i_cross_h_j_in_j_0 = C_j[8] * omega_i_in_j_1 - C_j[7] * omega_i_in_j_2;
+    const jg_real t63 = C_i[0] * t40 + A_j[0] * C_i[1];
+    const jg_real f_i_in_j_1 = C_i[0] * A_ji_1 + A_ji_4 * C_i[1] + A_ji_7 * C_i[2];
+    const jg_real t65 = t42 * C_j[6] - C_j[8] * t51;
+    const jg_real omega_i_cross_h_j_in_j_1 = C_j[6] * omega_i_in_j_2 - C_j[8] * omega_i_in_j_0;
+    const jg_real t67 = C_i[0] * t43 + A_j[3] * C_i[1];
+    const jg_real f_i_in_j_2 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
+    const jg_real t69 = C_j[7] * t51 - C_j[6] * t44;
+    const jg_real omega_i_cross_h_j_in_j_2 = C_j[7] * omega_i_in_j_0 - C_j[6] * omega_i_in_j_1;
+    const jg_real t71 = t41 * C_i[0] + A_j[6] * C_i[1];
     /* omega_j_cross_h_j_in_j = omega_j x h_j, axes of body j */
     const jg_real omega_j_cross_h_j_in_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_in_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_in_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
+    /* g_i_in_j = g_i, axes of body j */
+    const jg_real g_i_in_j_0 = A_ji_0 * C_i[3] + A_ji_3 * C_i[4] + A_ji_6 * C_i[5];
+    const jg_real t76 = t40 * C_i[3] + A_j[0] * C_i[4];
+    const jg_real g_i_in_j_1 = A_ji_1 * C_i[3] + A_ji_4 * C_i[4] + A_ji_7 * C_i[5];
+    const jg_real t78 = t43 * C_i[3] + A_j[3] * C_i[4];
+    const jg_real g_i_in_j_2 = A_ji_2 * C_i[3] + A_ji_5 * C_i[4] + A_ji_8 * C_i[5];
+    const jg_real t80 = t41 * C_i[3] + A_j[6] * C_i[4];
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t46 * v_4_in_j_2 + A_ji_2 * t77 + (t45 * v_4_in_j_0 + A_ji_0 * t52 + (t48 * v_4_in_j_1 +
-        A_ji_1 * t66));
-    jac_phi_q_v_A_i[1] = t78 + A_ji_3 * t52 + (t79 + A_ji_4 * t66) + (t80 + A_ji_5 * t77);
-    jac_phi_q_v_A_i[2] = A_ji_6 * t52 + A_ji_7 * t66 + A_ji_8 * t77;
-    jac_phi_q_v_A_i[3] = t50 * omega_j_cross_h_j_in_j_0 + t64 * omega_j_cross_h_j_in_j_1 + t75 *
-        omega_j_cross_h_j_in_j_2 - (t75 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t86 + (t50 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t82 + (t64 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t84)));
-    jac_phi_q_v_A_i[4] = t51 * omega_j_cross_h_j_in_j_0 + t65 * omega_j_cross_h_j_in_j_1 + t76 *
-        omega_j_cross_h_j_in_j_2 - (t76 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t86 + (t51 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t82 + (t65 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t84)));
+    jac_phi_q_v_A_i[0] = t41 * v_2_in_j_2 + A_ji_2 * t56 + (t40 * v_2_in_j_0 + A_ji_0 * t45 + (t43 * v_2_in_j_1 +
+        A_ji_1 * t52));
+    jac_phi_q_v_A_i[1] = t59 + A_ji_5 * t56 + (t57 + A_ji_3 * t45 + (t58 + A_ji_4 * t52));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t45 + A_ji_7 * t52 + A_ji_8 * t56;
+    jac_phi_q_v_A_i[3] = t63 * omega_j_cross_h_j_in_j_0 + t67 * omega_j_cross_h_j_in_j_1 + t71 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t69 + t71 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t61 + t63 *
+        omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t65 + t67 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[4] = omega_j_cross_h_j_in_j_0 * t76 + omega_j_cross_h_j_in_j_1 * t78 + omega_j_cross_h_j_in_j_2
+        * t80 - (t69 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t80 + (t61 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 *
+        t76 + (t65 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t78)));
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = f_i_in_j_1 * C_j[2] - f_i_in_j_2 * C_j[1];
-    const jg_real t91 = t64 * C_j[2] - t75 * C_j[1];
+    const jg_real t82 = t67 * C_j[2] - t71 * C_j[1];
     const jg_real f_i_cross_f_j_in_j_1 = f_i_in_j_2 * C_j[0] - f_i_in_j_0 * C_j[2];
-    const jg_real t93 = t75 * C_j[0] - t50 * C_j[2];
+    const jg_real t84 = t71 * C_j[0] - t63 * C_j[2];
     const jg_real f_i_cross_f_j_in_j_2 = f_i_in_j_0 * C_j[1] - f_i_in_j_1 * C_j[0];
-    const jg_real t95 = t50 * C_j[1] - t64 * C_j[0];
-    const jg_real t96 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
-    const jg_real t97 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
-    const jg_real t98 = A_j[7] * omega_i[1] + omega_i[0] * t97;
-    const jg_real t99 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
-    const jg_real t100 = A_j[4] * omega_i[1] + omega_i[0] * t99;
-    const jg_real t101 = A_j[1] * C_i[1] + C_i[0] * t96;
-    const jg_real t102 = A_j[1] * C_i[4] + C_i[3] * t96;
-    const jg_real t103 = e_ij_in_j_1 * t98 - e_ij_in_j_2 * t100 - (A_j[1] * v_i[1] + v_i[0] * t96) - alphadot[0] *
-        t101 - alphadot[1] * t102;
-    const jg_real t104 = A_j[1] * omega_i[1] + omega_i[0] * t96;
-    const jg_real t105 = A_j[4] * C_i[1] + C_i[0] * t99;
-    const jg_real t106 = C_i[3] * t99 + A_j[4] * C_i[4];
-    const jg_real t107 = e_ij_in_j_2 * t104 - t98 * e_ij_in_j_0 - (A_j[4] * v_i[1] + v_i[0] * t99) - alphadot[0] *
-        t105 - alphadot[1] * t106;
-    const jg_real t108 = C_i[0] * t97 + A_j[7] * C_i[1];
-    const jg_real t109 = C_i[3] * t97 + A_j[7] * C_i[4];
-    const jg_real t110 = t100 * e_ij_in_j_0 - e_ij_in_j_1 * t104 - (v_i[0] * t97 + A_j[7] * v_i[1]) - alphadot[0] *
-        t108 - alphadot[1] * t109;
-    const jg_real t111 = A_j[1] * v_4_in_j_0;
-    const jg_real t112 = A_j[4] * v_4_in_j_1;
-    const jg_real t113 = A_j[7] * v_4_in_j_2;
-    const jg_real t114 = t100 * C_j[8] - t98 * C_j[7];
-    const jg_real t115 = t98 * C_j[6] - t104 * C_j[8];
-    const jg_real t116 = t104 * C_j[7] - t100 * C_j[6];
-    const jg_real t117 = t105 * C_j[2] - t108 * C_j[1];
-    const jg_real t118 = t108 * C_j[0] - t101 * C_j[2];
-    const jg_real t119 = t101 * C_j[1] - t105 * C_j[0];
-    const jg_real t120 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
-    const jg_real t121 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
-    const jg_real t122 = A_j[8] * omega_i[1] + omega_i[0] * t121;
-    const jg_real t123 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
-    const jg_real t124 = A_j[5] * omega_i[1] + omega_i[0] * t123;
-    const jg_real t125 = A_j[2] * C_i[1] + C_i[0] * t120;
-    const jg_real t126 = A_j[2] * C_i[4] + C_i[3] * t120;
-    const jg_real t127 = e_ij_in_j_1 * t122 - e_ij_in_j_2 * t124 - (A_j[2] * v_i[1] + v_i[0] * t120) - alphadot[0] *
-        t125 - alphadot[1] * t126;
-    const jg_real t128 = A_j[2] * omega_i[1] + omega_i[0] * t120;
-    const jg_real t129 = A_j[5] * C_i[1] + C_i[0] * t123;
-    const jg_real t130 = C_i[3] * t123 + A_j[5] * C_i[4];
-    const jg_real t131 = e_ij_in_j_2 * t128 - t122 * e_ij_in_j_0 - (A_j[5] * v_i[1] + v_i[0] * t123) - alphadot[0] *
-        t129 - alphadot[1] * t130;
-    const jg_real t132 = C_i[0] * t121 + A_j[8] * C_i[1];
-    const jg_real t133 = C_i[3] * t121 + A_j[8] * C_i[4];
-    const jg_real t134 = t124 * e_ij_in_j_0 - e_ij_in_j_1 * t128 - (v_i[0] * t121 + A_j[8] * v_i[1]) - alphadot[0] *
-        t132 - alphadot[1] * t133;
-    jac_phi_q_v_A_i[5] = t47 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t95 + (t63 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t91 + (t49 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t93)) - (omega_j[0] * t91 + omega_j[1]
-        * t93 + omega_j[2] * t95);
-    jac_phi_q_v_A_i[6] = t97 * v_4_in_j_2 + A_ji_2 * t110 + (t96 * v_4_in_j_0 + A_ji_0 * t103 + (t99 * v_4_in_j_1 +
-        A_ji_1 * t107));
-    jac_phi_q_v_A_i[7] = t111 + A_ji_3 * t103 + (t112 + A_ji_4 * t107) + (t113 + A_ji_5 * t110);
-    jac_phi_q_v_A_i[8] = A_ji_6 * t103 + A_ji_7 * t107 + A_ji_8 * t110;
-    jac_phi_q_v_A_i[9] = t101 * omega_j_cross_h_j_in_j_0 + t105 * omega_j_cross_h_j_in_j_1 + t108 *
-        omega_j_cross_h_j_in_j_2 - (t108 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t116 + (t101 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t114 + (t105 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t115)));
-    jac_phi_q_v_A_i[10] = t102 * omega_j_cross_h_j_in_j_0 + t106 * omega_j_cross_h_j_in_j_1 + t109 *
-        omega_j_cross_h_j_in_j_2 - (t109 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t116 + (t102 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t114 + (t106 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t115)));
-    jac_phi_q_v_A_i[11] = t98 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t119 + (t104 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t117 + (t100 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t118)) - (omega_j[0] * t117 +
-        omega_j[1] * t118 + omega_j[2] * t119);
-    jac_phi_q_v_A_i[12] = t121 * v_4_in_j_2 + A_ji_2 * t134 + (t120 * v_4_in_j_0 + A_ji_0 * t127 + (t123 *
-        v_4_in_j_1 + A_ji_1 * t131));
-    const jg_real t135 = A_j[2] * v_4_in_j_0;
-    const jg_real t136 = A_j[5] * v_4_in_j_1;
-    const jg_real t137 = A_j[8] * v_4_in_j_2;
-    const jg_real t138 = t124 * C_j[8] - t122 * C_j[7];
-    const jg_real t139 = t122 * C_j[6] - t128 * C_j[8];
-    const jg_real t140 = t128 * C_j[7] - t124 * C_j[6];
-    const jg_real t141 = t129 * C_j[2] - t132 * C_j[1];
-    const jg_real t142 = t132 * C_j[0] - t125 * C_j[2];
-    const jg_real t143 = t125 * C_j[1] - t129 * C_j[0];
-    const jg_real t144 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
-    const jg_real t145 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
-    const jg_real t146 = A_j[6] * omega_i[2] + omega_i[0] * t145;
-    const jg_real t147 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
-    const jg_real t148 = A_j[3] * omega_i[2] + omega_i[0] * t147;
-    const jg_real t149 = A_j[0] * C_i[2] + C_i[0] * t144;
-    const jg_real t150 = A_j[0] * C_i[5] + C_i[3] * t144;
-    const jg_real t151 = e_ij_in_j_1 * t146 - e_ij_in_j_2 * t148 - (A_j[0] * v_i[2] + v_i[0] * t144) - alphadot[0] *
-        t149 - alphadot[1] * t150;
-    const jg_real t152 = A_j[0] * omega_i[2] + omega_i[0] * t144;
-    const jg_real t153 = A_j[3] * C_i[2] + C_i[0] * t147;
-    const jg_real t154 = C_i[3] * t147 + A_j[3] * C_i[5];
-    const jg_real t155 = e_ij_in_j_2 * t152 - t146 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[0] * t147) - alphadot[0] *
-        t153 - alphadot[1] * t154;
-    const jg_real t156 = C_i[0] * t145 + A_j[6] * C_i[2];
-    const jg_real t157 = C_i[3] * t145 + A_j[6] * C_i[5];
-    const jg_real t158 = t148 * e_ij_in_j_0 - e_ij_in_j_1 * t152 - (v_i[0] * t145 + A_j[6] * v_i[2]) - alphadot[0] *
-        t156 - alphadot[1] * t157;
-    jac_phi_q_v_A_i[13] = t135 + A_ji_3 * t127 + (t136 + A_ji_4 * t131) + (t137 + A_ji_5 * t134);
-    jac_phi_q_v_A_i[14] = A_ji_6 * t127 + A_ji_7 * t131 + A_ji_8 * t134;
-    jac_phi_q_v_A_i[15] = t125 * omega_j_cross_h_j_in_j_0 + t129 * omega_j_cross_h_j_in_j_1 + t132 *
-        omega_j_cross_h_j_in_j_2 - (t132 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t140 + (t125 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t138 + (t129 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t139)));
-    jac_phi_q_v_A_i[16] = t126 * omega_j_cross_h_j_in_j_0 + t130 * omega_j_cross_h_j_in_j_1 + t133 *
-        omega_j_cross_h_j_in_j_2 - (t133 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t140 + (t126 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t138 + (t130 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t139)));
-    jac_phi_q_v_A_i[17] = t122 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t143 + (t128 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t141 + (t124 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t142)) - (omega_j[0] * t141 +
-        omega_j[1] * t142 + omega_j[2] * t143);
-    jac_phi_q_v_A_i[18] = t145 * v_4_in_j_2 + A_ji_2 * t158 + (t144 * v_4_in_j_0 + A_ji_0 * t151 + (t147 *
-        v_4_in_j_1 + A_ji_1 * t155));
-    jac_phi_q_v_A_i[19] = A_ji_3 * t151 + A_ji_4 * t155 + A_ji_5 * t158;
-    jac_phi_q_v_A_i[20] = t78 + A_ji_6 * t151 + (t79 + A_ji_7 * t155) + (t80 + A_ji_8 * t158);
-    const jg_real t159 = t148 * C_j[8] - t146 * C_j[7];
-    const jg_real t160 = t146 * C_j[6] - t152 * C_j[8];
-    const jg_real t161 = t152 * C_j[7] - t148 * C_j[6];
-    const jg_real t162 = t153 * C_j[2] - t156 * C_j[1];
-    const jg_real t163 = t156 * C_j[0] - t149 * C_j[2];
-    const jg_real t164 = t149 * C_j[1] - t153 * C_j[0];
-    const jg_real t165 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
-    const jg_real t166 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
-    const jg_real t167 = A_j[7] * omega_i[2] + omega_i[0] * t166;
-    const jg_real t168 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
-    const jg_real t169 = A_j[4] * omega_i[2] + omega_i[0] * t168;
-    const jg_real t170 = A_j[1] * C_i[2] + C_i[0] * t165;
-    const jg_real t171 = A_j[1] * C_i[5] + C_i[3] * t165;
-    const jg_real t172 = e_ij_in_j_1 * t167 - e_ij_in_j_2 * t169 - (A_j[1] * v_i[2] + v_i[0] * t165) - alphadot[0] *
-        t170 - alphadot[1] * t171;
-    const jg_real t173 = A_j[1] * omega_i[2] + omega_i[0] * t165;
-    const jg_real t174 = A_j[4] * C_i[2] + C_i[0] * t168;
-    const jg_real t175 = C_i[3] * t168 + A_j[4] * C_i[5];
-    const jg_real t176 = e_ij_in_j_2 * t173 - t167 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[0] * t168) - alphadot[0] *
-        t174 - alphadot[1] * t175;
-    const jg_real t177 = C_i[0] * t166 + A_j[7] * C_i[2];
-    const jg_real t178 = C_i[3] * t166 + A_j[7] * C_i[5];
-    const jg_real t179 = t169 * e_ij_in_j_0 - e_ij_in_j_1 * t173 - (v_i[0] * t166 + A_j[7] * v_i[2]) - alphadot[0] *
-        t177 - alphadot[1] * t178;
-    const jg_real t180 = t169 * C_j[8] - t167 * C_j[7];
-    const jg_real t181 = t167 * C_j[6] - t173 * C_j[8];
-    const jg_real t182 = t173 * C_j[7] - t169 * C_j[6];
-    jac_phi_q_v_A_i[21] = t149 * omega_j_cross_h_j_in_j_0 + t153 * omega_j_cross_h_j_in_j_1 + t156 *
-        omega_j_cross_h_j_in_j_2 - (t156 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t161 + (t149 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t159 + (t153 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t160)));
-    jac_phi_q_v_A_i[22] = t150 * omega_j_cross_h_j_in_j_0 + t154 * omega_j_cross_h_j_in_j_1 + t157 *
-        omega_j_cross_h_j_in_j_2 - (t157 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t161 + (t150 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t159 + (t154 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t160)));
-    jac_phi_q_v_A_i[23] = t146 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t164 + (t152 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t162 + (t148 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t163)) - (omega_j[0] * t162 +
-        omega_j[1] * t163 + omega_j[2] * t164);
-    jac_phi_q_v_A_i[24] = t166 * v_4_in_j_2 + A_ji_2 * t179 + (t165 * v_4_in_j_0 + A_ji_0 * t172 + (t168 *
-        v_4_in_j_1 + A_ji_1 * t176));
-    jac_phi_q_v_A_i[25] = A_ji_3 * t172 + A_ji_4 * t176 + A_ji_5 * t179;
-    jac_phi_q_v_A_i[26] = t111 + A_ji_6 * t172 + (t112 + A_ji_7 * t176) + (t113 + A_ji_8 * t179);
-    jac_phi_q_v_A_i[27] = t170 * omega_j_cross_h_j_in_j_0 + t174 * omega_j_cross_h_j_in_j_1 + t177 *
-        omega_j_cross_h_j_in_j_2 - (t177 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t182 + (t170 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t180 + (t174 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t181)));
-    jac_phi_q_v_A_i[28] = t171 * omega_j_cross_h_j_in_j_0 + t175 * omega_j_cross_h_j_in_j_1 + t178 *
-        omega_j_cross_h_j_in_j_2 - (t178 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t182 + (t171 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t180 + (t175 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t181)));
-    const jg_real t183 = t174 * C_j[2] - t177 * C_j[1];
-    const jg_real t184 = t177 * C_j[0] - t170 * C_j[2];
-    const jg_real t185 = t170 * C_j[1] - t174 * C_j[0];
-    const jg_real t186 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
-    const jg_real t187 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
-    const jg_real t188 = A_j[8] * omega_i[2] + omega_i[0] * t187;
-    const jg_real t189 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
-    const jg_real t190 = A_j[5] * omega_i[2] + omega_i[0] * t189;
-    const jg_real t191 = A_j[2] * C_i[2] + C_i[0] * t186;
-    const jg_real t192 = A_j[2] * C_i[5] + C_i[3] * t186;
-    const jg_real t193 = e_ij_in_j_1 * t188 - e_ij_in_j_2 * t190 - (A_j[2] * v_i[2] + v_i[0] * t186) - alphadot[0] *
-        t191 - alphadot[1] * t192;
-    const jg_real t194 = A_j[2] * omega_i[2] + omega_i[0] * t186;
-    const jg_real t195 = A_j[5] * C_i[2] + C_i[0] * t189;
-    const jg_real t196 = C_i[3] * t189 + A_j[5] * C_i[5];
-    const jg_real t197 = e_ij_in_j_2 * t194 - t188 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[0] * t189) - alphadot[0] *
-        t195 - alphadot[1] * t196;
-    const jg_real t198 = C_i[0] * t187 + A_j[8] * C_i[2];
-    const jg_real t199 = C_i[3] * t187 + A_j[8] * C_i[5];
-    const jg_real t200 = t190 * e_ij_in_j_0 - e_ij_in_j_1 * t194 - (v_i[0] * t187 + A_j[8] * v_i[2]) - alphadot[0] *
-        t198 - alphadot[1] * t199;
-    const jg_real t201 = t190 * C_j[8] - t188 * C_j[7];
-    const jg_real t202 = t188 * C_j[6] - t194 * C_j[8];
-    const jg_real t203 = t194 * C_j[7] - t190 * C_j[6];
-    const jg_real t204 = t195 * C_j[2] - t198 * C_j[1];
-    const jg_real t205 = t198 * C_j[0] - t191 * C_j[2];
-    const jg_real t206 = t191 * C_j[1] - t195 * C_j[0];
-    const jg_real t207 = A_i[3] * A_ji_7 - A_i[6] * A_ji_4;
-    const jg_real t208 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t209 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
-    const jg_real t210 = omega_i[0] * t209;
-    const jg_real t211 = A_i[6] * omega_i[2] + A_i[3] * omega_i[1];
-    const jg_real t212 = e_ij_in_j_1 * t211;
-    const jg_real t213 = v_i[0] * t207;
-    const jg_real t214 = C_i[0] * t207;
-    const jg_real t215 = alphadot[0] * t214;
-    const jg_real t216 = C_i[3] * t207;
-    const jg_real t217 = alphadot[1] * t216;
-    const jg_real t218 = t208 + t210 * e_ij_in_j_0 - t212 - t213 - t215 - t217;
-    const jg_real t219 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t220 = omega_i[0] * t207;
-    const jg_real t221 = e_ij_in_j_2 * t211;
-    const jg_real t222 = v_i[0] * t209;
-    const jg_real t223 = C_i[0] * t209;
-    const jg_real t224 = alphadot[0] * t223;
-    const jg_real t225 = C_i[3] * t209;
-    const jg_real t226 = alphadot[1] * t225;
-    const jg_real t227 = t221 - (t219 + t220 * e_ij_in_j_0) - t222 - t224 - t226;
-    const jg_real t228 = t220 * e_ij_in_j_1;
-    const jg_real t229 = e_ij_in_j_2 * t210;
-    const jg_real t230 = A_i[3] * v_i[1] + A_i[6] * v_i[2];
-    const jg_real t231 = A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real t232 = alphadot[0] * t231;
-    const jg_real t233 = A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real t234 = alphadot[1] * t233;
-    const jg_real t235 = t228 - t229 - t230 - t232 - t234;
-    jac_phi_q_v_A_i[29] = t167 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t185 + (t173 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t183 + (t169 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t184)) - (omega_j[0] * t183 +
-        omega_j[1] * t184 + omega_j[2] * t185);
-    jac_phi_q_v_A_i[30] = t187 * v_4_in_j_2 + A_ji_2 * t200 + (t186 * v_4_in_j_0 + A_ji_0 * t193 + (t189 *
-        v_4_in_j_1 + A_ji_1 * t197));
-    jac_phi_q_v_A_i[31] = A_ji_3 * t193 + A_ji_4 * t197 + A_ji_5 * t200;
-    jac_phi_q_v_A_i[32] = t135 + A_ji_6 * t193 + (t136 + A_ji_7 * t197) + (t137 + A_ji_8 * t200);
-    jac_phi_q_v_A_i[33] = t191 * omega_j_cross_h_j_in_j_0 + t195 * omega_j_cross_h_j_in_j_1 + t198 *
-        omega_j_cross_h_j_in_j_2 - (t198 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t203 + (t191 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t201 + (t195 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t202)));
-    jac_phi_q_v_A_i[34] = t192 * omega_j_cross_h_j_in_j_0 + t196 * omega_j_cross_h_j_in_j_1 + t199 *
-        omega_j_cross_h_j_in_j_2 - (t199 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t203 + (t192 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t201 + (t196 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t202)));
-    jac_phi_q_v_A_i[35] = t188 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t206 + (t194 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t204 + (t190 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t205)) - (omega_j[0] * t204 +
-        omega_j[1] * t205 + omega_j[2] * t206);
-    jac_phi_q_v_A_j[0] = t207 * v_4_in_j_2 + A_ji_2 * t218 + (t209 * v_4_in_j_1 + A_ji_1 * t227 + A_ji_0 * t235);
-    const jg_real t236 = t210 * C_j[8];
-    const jg_real t237 = t220 * C_j[7];
-    const jg_real t238 = t236 - t237;
-    const jg_real t239 = t211 * C_j[8];
-    const jg_real t240 = t220 * C_j[6] - t239;
-    const jg_real t241 = t211 * C_j[7];
-    const jg_real t242 = t241 - t210 * C_j[6];
-    const jg_real t243 = t223 * C_j[2];
-    const jg_real t244 = t214 * C_j[1];
+    const jg_real t86 = t63 * C_j[1] - t67 * C_j[0];
+    const jg_real t87 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
+    const jg_real t88 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
+    const jg_real t89 = A_j[7] * omega_i[1] + omega_i[0] * t88;
+    const jg_real t90 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
+    const jg_real t91 = A_j[4] * omega_i[1] + omega_i[0] * t90;
+    const jg_real t92 = e_ij_in_j_1 * t89 - e_ij_in_j_2 * t91;
+    const jg_real t93 = A_j[1] * omega_i[1] + omega_i[0] * t87;
+    const jg_real t94 = e_ij_in_j_2 * t93 - t89 * e_ij_in_j_0;
+    const jg_real t95 = t91 * e_ij_in_j_0 - e_ij_in_j_1 * t93;
+    const jg_real t96 = A_j[1] * v_2_in_j_0;
+    const jg_real t97 = A_j[4] * v_2_in_j_1;
+    const jg_real t98 = A_j[7] * v_2_in_j_2;
+    const jg_real t99 = C_j[8] * t91 - t89 * C_j[7];
+    const jg_real t100 = C_i[0] * t87 + A_j[1] * C_i[1];
+    const jg_real t101 = t89 * C_j[6] - C_j[8] * t93;
+    const jg_real t102 = C_i[0] * t90 + A_j[4] * C_i[1];
+    const jg_real t103 = C_j[7] * t93 - C_j[6] * t91;
+    const jg_real t104 = t88 * C_i[0] + A_j[7] * C_i[1];
+    const jg_real t105 = t87 * C_i[3] + A_j[1] * C_i[4];
+    const jg_real t106 = t90 * C_i[3] + A_j[4] * C_i[4];
+    const jg_real t107 = t88 * C_i[3] + A_j[7] * C_i[4];
+    const jg_real t108 = t102 * C_j[2] - t104 * C_j[1];
+    const jg_real t109 = t104 * C_j[0] - t100 * C_j[2];
+    const jg_real t110 = t100 * C_j[1] - t102 * C_j[0];
+    const jg_real t111 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
+    const jg_real t112 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
+    const jg_real t113 = A_j[8] * omega_i[1] + omega_i[0] * t112;
+    const jg_real t114 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
+    const jg_real t115 = A_j[5] * omega_i[1] + omega_i[0] * t114;
+    const jg_real t116 = e_ij_in_j_1 * t113 - e_ij_in_j_2 * t115;
+    const jg_real t117 = A_j[2] * omega_i[1] + omega_i[0] * t111;
+    const jg_real t118 = e_ij_in_j_2 * t117 - t113 * e_ij_in_j_0;
+    const jg_real t119 = t115 * e_ij_in_j_0 - e_ij_in_j_1 * t117;
+    jac_phi_q_v_A_i[5] = t42 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t86 + (t51 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t82 + (t44 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t84)) - (omega_j[0] * t82 + omega_j[1]
+        * t84 + omega_j[2] * t86);
+    jac_phi_q_v_A_i[6] = t88 * v_2_in_j_2 + A_ji_2 * t95 + (t87 * v_2_in_j_0 + A_ji_0 * t92 + (t90 * v_2_in_j_1 +
+        A_ji_1 * t94));
+    jac_phi_q_v_A_i[7] = t98 + A_ji_5 * t95 + (t96 + A_ji_3 * t92 + (t97 + A_ji_4 * t94));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t92 + A_ji_7 * t94 + A_ji_8 * t95;
+    jac_phi_q_v_A_i[9] = t100 * omega_j_cross_h_j_in_j_0 + t102 * omega_j_cross_h_j_in_j_1 + t104 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t103 + t104 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t99 + t100 *
+        omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t101 + t102 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[10] = omega_j_cross_h_j_in_j_0 * t105 + omega_j_cross_h_j_in_j_1 * t106 +
+        omega_j_cross_h_j_in_j_2 * t107 - (t103 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t107 + (t99 * g_i_in_j_0 +
+        omega_i_cross_h_j_in_j_0 * t105 + (t101 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t106)));
+    jac_phi_q_v_A_i[11] = t89 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t110 + (t93 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t108 + (t91 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t109)) - (omega_j[0] * t108 +
+        omega_j[1] * t109 + omega_j[2] * t110);
+    jac_phi_q_v_A_i[12] = t112 * v_2_in_j_2 + A_ji_2 * t119 + (t111 * v_2_in_j_0 + A_ji_0 * t116 + (t114 *
+        v_2_in_j_1 + A_ji_1 * t118));
+    const jg_real t120 = A_j[2] * v_2_in_j_0;
+    const jg_real t121 = A_j[5] * v_2_in_j_1;
+    const jg_real t122 = A_j[8] * v_2_in_j_2;
+    const jg_real t123 = C_j[8] * t115 - t113 * C_j[7];
+    const jg_real t124 = C_i[0] * t111 + A_j[2] * C_i[1];
+    const jg_real t125 = t113 * C_j[6] - C_j[8] * t117;
+    const jg_real t126 = C_i[0] * t114 + A_j[5] * C_i[1];
+    const jg_real t127 = C_j[7] * t117 - C_j[6] * t115;
+    const jg_real t128 = t112 * C_i[0] + A_j[8] * C_i[1];
+    const jg_real t129 = t111 * C_i[3] + A_j[2] * C_i[4];
+    const jg_real t130 = t114 * C_i[3] + A_j[5] * C_i[4];
+    const jg_real t131 = t112 * C_i[3] + A_j[8] * C_i[4];
+    const jg_real t132 = t126 * C_j[2] - t128 * C_j[1];
+    const jg_real t133 = t128 * C_j[0] - t124 * C_j[2];
+    const jg_real t134 = t124 * C_j[1] - t126 * C_j[0];
+    const jg_real t135 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
+    const jg_real t136 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
+    const jg_real t137 = A_j[6] * omega_i[2] + omega_i[0] * t136;
+    const jg_real t138 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
+    const jg_real t139 = A_j[3] * omega_i[2] + omega_i[0] * t138;
+    const jg_real t140 = e_ij_in_j_1 * t137 - e_ij_in_j_2 * t139;
+    const jg_real t141 = A_j[0] * omega_i[2] + omega_i[0] * t135;
+    const jg_real t142 = e_ij_in_j_2 * t141 - t137 * e_ij_in_j_0;
+    const jg_real t143 = e_ij_in_j_0 * t139 - e_ij_in_j_1 * t141;
+    jac_phi_q_v_A_i[13] = t122 + A_ji_5 * t119 + (t120 + A_ji_3 * t116 + (t121 + A_ji_4 * t118));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t116 + A_ji_7 * t118 + A_ji_8 * t119;
+    jac_phi_q_v_A_i[15] = t124 * omega_j_cross_h_j_in_j_0 + t126 * omega_j_cross_h_j_in_j_1 + t128 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t127 + t128 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t123 + t124
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t125 + t126 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[16] = omega_j_cross_h_j_in_j_0 * t129 + omega_j_cross_h_j_in_j_1 * t130 +
+        omega_j_cross_h_j_in_j_2 * t131 - (t127 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t131 + (t123 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t129 + (t125 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t130)));
+    jac_phi_q_v_A_i[17] = t113 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t134 + (t117 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t132 + (t115 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t133)) - (omega_j[0] * t132 +
+        omega_j[1] * t133 + omega_j[2] * t134);
+    jac_phi_q_v_A_i[18] = t136 * v_2_in_j_2 + A_ji_2 * t143 + (t135 * v_2_in_j_0 + A_ji_0 * t140 + (t138 *
+        v_2_in_j_1 + A_ji_1 * t142));
+    jac_phi_q_v_A_i[19] = A_ji_3 * t140 + A_ji_4 * t142 + A_ji_5 * t143;
+    jac_phi_q_v_A_i[20] = t59 + A_ji_8 * t143 + (t57 + A_ji_6 * t140 + (t58 + A_ji_7 * t142));
+    const jg_real t144 = C_j[8] * t139 - C_j[7] * t137;
+    const jg_real t145 = C_i[0] * t135 + A_j[0] * C_i[2];
+    const jg_real t146 = C_j[6] * t137 - C_j[8] * t141;
+    const jg_real t147 = C_i[0] * t138 + A_j[3] * C_i[2];
+    const jg_real t148 = C_j[7] * t141 - C_j[6] * t139;
+    const jg_real t149 = t136 * C_i[0] + A_j[6] * C_i[2];
+    const jg_real t150 = t135 * C_i[3] + A_j[0] * C_i[5];
+    const jg_real t151 = t138 * C_i[3] + A_j[3] * C_i[5];
+    const jg_real t152 = t136 * C_i[3] + A_j[6] * C_i[5];
+    const jg_real t153 = t147 * C_j[2] - t149 * C_j[1];
+    const jg_real t154 = t149 * C_j[0] - t145 * C_j[2];
+    const jg_real t155 = t145 * C_j[1] - t147 * C_j[0];
+    const jg_real t156 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
+    const jg_real t157 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
+    const jg_real t158 = A_j[7] * omega_i[2] + omega_i[0] * t157;
+    const jg_real t159 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
+    const jg_real t160 = A_j[4] * omega_i[2] + omega_i[0] * t159;
+    const jg_real t161 = e_ij_in_j_1 * t158 - e_ij_in_j_2 * t160;
+    const jg_real t162 = A_j[1] * omega_i[2] + omega_i[0] * t156;
+    const jg_real t163 = e_ij_in_j_2 * t162 - t158 * e_ij_in_j_0;
+    const jg_real t164 = e_ij_in_j_0 * t160 - e_ij_in_j_1 * t162;
+    const jg_real t165 = C_j[8] * t160 - C_j[7] * t158;
+    const jg_real t166 = C_i[0] * t156 + A_j[1] * C_i[2];
+    const jg_real t167 = C_j[6] * t158 - C_j[8] * t162;
+    const jg_real t168 = C_i[0] * t159 + A_j[4] * C_i[2];
+    const jg_real t169 = C_j[7] * t162 - C_j[6] * t160;
+    const jg_real t170 = t157 * C_i[0] + A_j[7] * C_i[2];
+    const jg_real t171 = t156 * C_i[3] + A_j[1] * C_i[5];
+    const jg_real t172 = t159 * C_i[3] + A_j[4] * C_i[5];
+    const jg_real t173 = t157 * C_i[3] + A_j[7] * C_i[5];
+    jac_phi_q_v_A_i[21] = t145 * omega_j_cross_h_j_in_j_0 + t147 * omega_j_cross_h_j_in_j_1 + t149 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t148 + t149 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t144 + t145
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t146 + t147 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[22] = omega_j_cross_h_j_in_j_0 * t150 + omega_j_cross_h_j_in_j_1 * t151 +
+        omega_j_cross_h_j_in_j_2 * t152 - (t148 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t152 + (t144 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t150 + (t146 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t151)));
+    jac_phi_q_v_A_i[23] = t137 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t155 + (t141 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t153 + (t139 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t154)) - (omega_j[0] * t153 +
+        omega_j[1] * t154 + omega_j[2] * t155);
+    jac_phi_q_v_A_i[24] = t157 * v_2_in_j_2 + A_ji_2 * t164 + (t156 * v_2_in_j_0 + A_ji_0 * t161 + (t159 *
+        v_2_in_j_1 + A_ji_1 * t163));
+    jac_phi_q_v_A_i[25] = A_ji_3 * t161 + A_ji_4 * t163 + A_ji_5 * t164;
+    jac_phi_q_v_A_i[26] = t98 + A_ji_8 * t164 + (t96 + A_ji_6 * t161 + (t97 + A_ji_7 * t163));
+    jac_phi_q_v_A_i[27] = t166 * omega_j_cross_h_j_in_j_0 + t168 * omega_j_cross_h_j_in_j_1 + t170 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t169 + t170 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t165 + t166
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t167 + t168 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[28] = omega_j_cross_h_j_in_j_0 * t171 + omega_j_cross_h_j_in_j_1 * t172 +
+        omega_j_cross_h_j_in_j_2 * t173 - (t169 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t173 + (t165 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t171 + (t167 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t172)));
+    const jg_real t174 = t168 * C_j[2] - t170 * C_j[1];
+    const jg_real t175 = t170 * C_j[0] - t166 * C_j[2];
+    const jg_real t176 = t166 * C_j[1] - t168 * C_j[0];
+    const jg_real t177 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
+    const jg_real t178 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
+    const jg_real t179 = A_j[8] * omega_i[2] + omega_i[0] * t178;
+    const jg_real t180 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
+    const jg_real t181 = A_j[5] * omega_i[2] + omega_i[0] * t180;
+    const jg_real t182 = e_ij_in_j_1 * t179 - e_ij_in_j_2 * t181;
+    const jg_real t183 = A_j[2] * omega_i[2] + omega_i[0] * t177;
+    const jg_real t184 = e_ij_in_j_2 * t183 - t179 * e_ij_in_j_0;
+    const jg_real t185 = e_ij_in_j_0 * t181 - e_ij_in_j_1 * t183;
+    const jg_real t186 = C_j[8] * t181 - C_j[7] * t179;
+    const jg_real t187 = C_i[0] * t177 + A_j[2] * C_i[2];
+    const jg_real t188 = C_j[6] * t179 - C_j[8] * t183;
+    const jg_real t189 = C_i[0] * t180 + A_j[5] * C_i[2];
+    const jg_real t190 = C_j[7] * t183 - C_j[6] * t181;
+    const jg_real t191 = t178 * C_i[0] + A_j[8] * C_i[2];
+    const jg_real t192 = t177 * C_i[3] + A_j[2] * C_i[5];
+    const jg_real t193 = t180 * C_i[3] + A_j[5] * C_i[5];
+    const jg_real t194 = t178 * C_i[3] + A_j[8] * C_i[5];
+    const jg_real t195 = t189 * C_j[2] - t191 * C_j[1];
+    const jg_real t196 = t191 * C_j[0] - t187 * C_j[2];
+    const jg_real t197 = t187 * C_j[1] - t189 * C_j[0];
+    const jg_real t198 = A_i[3] * A_ji_7 - A_i[6] * A_ji_4;
+    const jg_real t199 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t200 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
+    const jg_real t201 = omega_i[0] * t200;
+    const jg_real t202 = A_i[6] * omega_i[2] + A_i[3] * omega_i[1];
+    const jg_real t203 = e_ij_in_j_1 * t202;
+    const jg_real t204 = t199 + t201 * e_ij_in_j_0 - t203;
+    const jg_real t205 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t206 = omega_i[0] * t198;
+    const jg_real t207 = e_ij_in_j_2 * t202;
+    const jg_real t208 = t207 - (t205 + t206 * e_ij_in_j_0);
+    const jg_real t209 = t206 * e_ij_in_j_1;
+    const jg_real t210 = e_ij_in_j_2 * t201;
+    const jg_real t211 = t209 - t210;
+    jac_phi_q_v_A_i[29] = t158 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t176 + (t162 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t174 + (t160 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t175)) - (omega_j[0] * t174 +
+        omega_j[1] * t175 + omega_j[2] * t176);
+    jac_phi_q_v_A_i[30] = t178 * v_2_in_j_2 + A_ji_2 * t185 + (t177 * v_2_in_j_0 + A_ji_0 * t182 + (t180 *
+        v_2_in_j_1 + A_ji_1 * t184));
+    jac_phi_q_v_A_i[31] = A_ji_3 * t182 + A_ji_4 * t184 + A_ji_5 * t185;
+    jac_phi_q_v_A_i[32] = t122 + A_ji_8 * t185 + (t120 + A_ji_6 * t182 + (t121 + A_ji_7 * t184));
+    jac_phi_q_v_A_i[33] = t187 * omega_j_cross_h_j_in_j_0 + t189 * omega_j_cross_h_j_in_j_1 + t191 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t190 + t191 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t186 + t187
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t188 + t189 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[34] = omega_j_cross_h_j_in_j_0 * t192 + omega_j_cross_h_j_in_j_1 * t193 +
+        omega_j_cross_h_j_in_j_2 * t194 - (t190 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t194 + (t186 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t192 + (t188 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t193)));
+    jac_phi_q_v_A_i[35] = t179 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t197 + (t183 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t195 + (t181 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t196)) - (omega_j[0] * t195 +
+        omega_j[1] * t196 + omega_j[2] * t197);
+    jac_phi_q_v_A_j[0] = t198 * v_2_in_j_2 + A_ji_2 * t204 + (t200 * v_2_in_j_1 + A_ji_1 * t208 + A_ji_0 * t211);
+    const jg_real t212 = t201 * C_j[8];
+    const jg_real t213 = t206 * C_j[7];
+    const jg_real t214 = t212 - t213;
+    const jg_real t215 = A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real t216 = C_i[0] * t200;
+    const jg_real t217 = C_j[8] * t202;
+    const jg_real t218 = t206 * C_j[6] - t217;
+    const jg_real t219 = t198 * C_i[0];
+    const jg_real t220 = C_j[7] * t202;
+    const jg_real t221 = t220 - t201 * C_j[6];
+    const jg_real t222 = A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real t223 = t200 * C_i[3];
+    const jg_real t224 = t198 * C_i[3];
+    const jg_real t225 = t216 * C_j[2];
+    const jg_real t226 = t219 * C_j[1];
+    const jg_real t227 = t225 - t226;
+    const jg_real t228 = t215 * C_j[2];
+    const jg_real t229 = t219 * C_j[0] - t228;
+    const jg_real t230 = t215 * C_j[1];
+    const jg_real t231 = t230 - t216 * C_j[0];
+    const jg_real t232 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
+    const jg_real t233 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t234 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
+    const jg_real t235 = omega_i[0] * t234;
+    const jg_real t236 = A_i[7] * omega_i[2] + A_i[4] * omega_i[1];
+    const jg_real t237 = e_ij_in_j_1 * t236;
+    const jg_real t238 = t233 + t235 * e_ij_in_j_0 - t237;
+    const jg_real t239 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t240 = omega_i[0] * t232;
+    const jg_real t241 = e_ij_in_j_2 * t236;
+    const jg_real t242 = t241 - (t239 + t240 * e_ij_in_j_0);
+    const jg_real t243 = t240 * e_ij_in_j_1;
+    const jg_real t244 = e_ij_in_j_2 * t235;
     const jg_real t245 = t243 - t244;
-    const jg_real t246 = t231 * C_j[2];
-    const jg_real t247 = t214 * C_j[0] - t246;
-    const jg_real t248 = t231 * C_j[1];
-    const jg_real t249 = t248 - t223 * C_j[0];
-    const jg_real t250 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
-    const jg_real t251 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t252 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
-    const jg_real t253 = omega_i[0] * t252;
-    const jg_real t254 = A_i[7] * omega_i[2] + A_i[4] * omega_i[1];
-    const jg_real t255 = e_ij_in_j_1 * t254;
-    const jg_real t256 = v_i[0] * t250;
-    const jg_real t257 = C_i[0] * t250;
-    const jg_real t258 = alphadot[0] * t257;
-    const jg_real t259 = C_i[3] * t250;
-    const jg_real t260 = alphadot[1] * t259;
-    const jg_real t261 = t251 + t253 * e_ij_in_j_0 - t255 - t256 - t258 - t260;
-    const jg_real t262 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t263 = omega_i[0] * t250;
-    const jg_real t264 = e_ij_in_j_2 * t254;
-    const jg_real t265 = v_i[0] * t252;
-    const jg_real t266 = C_i[0] * t252;
-    const jg_real t267 = alphadot[0] * t266;
-    const jg_real t268 = C_i[3] * t252;
-    const jg_real t269 = alphadot[1] * t268;
-    const jg_real t270 = t264 - (t262 + t263 * e_ij_in_j_0) - t265 - t267 - t269;
-    const jg_real t271 = t263 * e_ij_in_j_1;
-    const jg_real t272 = e_ij_in_j_2 * t253;
-    const jg_real t273 = A_i[4] * v_i[1] + A_i[7] * v_i[2];
-    const jg_real t274 = A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real t275 = alphadot[0] * t274;
-    const jg_real t276 = A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real t277 = alphadot[1] * t276;
-    const jg_real t278 = t271 - t272 - t273 - t275 - t277;
-    jac_phi_q_v_A_j[1] = A_i[3] * v_4_in_j_0 + A_ji_3 * t235 + A_ji_4 * t227 + A_ji_5 * t218;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_4_in_j_0 + A_ji_6 * t235 + A_ji_7 * t227 + A_ji_8 * t218;
-    jac_phi_q_v_A_j[3] = t231 * omega_j_cross_h_j_in_j_0 + t223 * omega_j_cross_h_j_in_j_1 + t214 *
-        omega_j_cross_h_j_in_j_2 - (t214 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t242 + (t231 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t238 + (t223 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t240)));
-    jac_phi_q_v_A_j[4] = t233 * omega_j_cross_h_j_in_j_0 + t225 * omega_j_cross_h_j_in_j_1 + t216 *
-        omega_j_cross_h_j_in_j_2 - (t216 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t242 + (t233 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t238 + (t225 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t240)));
-    jac_phi_q_v_A_j[5] = t220 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t249 + (t211 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t245 + (t210 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t247)) - (omega_j[0] * t245 +
-        omega_j[1] * t247 + omega_j[2] * t249);
-    jac_phi_q_v_A_j[6] = t250 * v_4_in_j_2 + A_ji_2 * t261 + (t252 * v_4_in_j_1 + A_ji_1 * t270 + A_ji_0 * t278);
-    jac_phi_q_v_A_j[7] = A_i[4] * v_4_in_j_0 + A_ji_3 * t278 + A_ji_4 * t270 + A_ji_5 * t261;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_4_in_j_0 + A_ji_6 * t278 + A_ji_7 * t270 + A_ji_8 * t261;
-    const jg_real t279 = t253 * C_j[8];
-    const jg_real t280 = t263 * C_j[7];
-    const jg_real t281 = t279 - t280;
-    const jg_real t282 = t254 * C_j[8];
-    const jg_real t283 = t263 * C_j[6] - t282;
-    const jg_real t284 = t254 * C_j[7];
-    const jg_real t285 = t284 - t253 * C_j[6];
-    const jg_real t286 = t266 * C_j[2];
-    const jg_real t287 = t257 * C_j[1];
-    const jg_real t288 = t286 - t287;
-    const jg_real t289 = t274 * C_j[2];
-    const jg_real t290 = t257 * C_j[0] - t289;
-    const jg_real t291 = t274 * C_j[1];
-    const jg_real t292 = t291 - t266 * C_j[0];
-    const jg_real t293 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
-    const jg_real t294 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t295 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
-    const jg_real t296 = omega_i[0] * t295;
-    const jg_real t297 = A_i[8] * omega_i[2] + A_i[5] * omega_i[1];
-    const jg_real t298 = e_ij_in_j_1 * t297;
-    const jg_real t299 = v_i[0] * t293;
-    const jg_real t300 = C_i[0] * t293;
-    const jg_real t301 = alphadot[0] * t300;
-    const jg_real t302 = C_i[3] * t293;
-    const jg_real t303 = alphadot[1] * t302;
-    const jg_real t304 = t294 + t296 * e_ij_in_j_0 - t298 - t299 - t301 - t303;
-    const jg_real t305 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t306 = omega_i[0] * t293;
-    const jg_real t307 = e_ij_in_j_2 * t297;
-    const jg_real t308 = v_i[0] * t295;
-    const jg_real t309 = C_i[0] * t295;
-    const jg_real t310 = alphadot[0] * t309;
-    const jg_real t311 = C_i[3] * t295;
-    const jg_real t312 = alphadot[1] * t311;
-    const jg_real t313 = t307 - (t305 + t306 * e_ij_in_j_0) - t308 - t310 - t312;
-    const jg_real t314 = t306 * e_ij_in_j_1;
-    const jg_real t315 = e_ij_in_j_2 * t296;
-    const jg_real t316 = A_i[5] * v_i[1] + A_i[8] * v_i[2];
-    const jg_real t317 = A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real t318 = alphadot[0] * t317;
-    const jg_real t319 = A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real t320 = alphadot[1] * t319;
-    const jg_real t321 = t314 - t315 - t316 - t318 - t320;
-    const jg_real t322 = t296 * C_j[8];
-    const jg_real t323 = t306 * C_j[7];
-    const jg_real t324 = t322 - t323;
-    const jg_real t325 = t297 * C_j[8];
-    const jg_real t326 = t306 * C_j[6] - t325;
-    const jg_real t327 = t297 * C_j[7];
-    const jg_real t328 = t327 - t296 * C_j[6];
-    jac_phi_q_v_A_j[9] = t274 * omega_j_cross_h_j_in_j_0 + t266 * omega_j_cross_h_j_in_j_1 + t257 *
-        omega_j_cross_h_j_in_j_2 - (t257 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t285 + (t274 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t281 + (t266 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t283)));
-    jac_phi_q_v_A_j[10] = t276 * omega_j_cross_h_j_in_j_0 + t268 * omega_j_cross_h_j_in_j_1 + t259 *
-        omega_j_cross_h_j_in_j_2 - (t259 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t285 + (t276 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t281 + (t268 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t283)));
-    jac_phi_q_v_A_j[11] = t263 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t292 + (t254 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t288 + (t253 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t290)) - (omega_j[0] * t288 +
-        omega_j[1] * t290 + omega_j[2] * t292);
-    jac_phi_q_v_A_j[12] = t293 * v_4_in_j_2 + A_ji_2 * t304 + (t295 * v_4_in_j_1 + A_ji_1 * t313 + A_ji_0 * t321);
-    jac_phi_q_v_A_j[13] = A_i[5] * v_4_in_j_0 + A_ji_3 * t321 + A_ji_4 * t313 + A_ji_5 * t304;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_4_in_j_0 + A_ji_6 * t321 + A_ji_7 * t313 + A_ji_8 * t304;
-    jac_phi_q_v_A_j[15] = t317 * omega_j_cross_h_j_in_j_0 + t309 * omega_j_cross_h_j_in_j_1 + t300 *
-        omega_j_cross_h_j_in_j_2 - (t300 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t328 + (t317 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t324 + (t309 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t326)));
-    jac_phi_q_v_A_j[16] = t319 * omega_j_cross_h_j_in_j_0 + t311 * omega_j_cross_h_j_in_j_1 + t302 *
-        omega_j_cross_h_j_in_j_2 - (t302 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t328 + (t319 *
-        omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t324 + (t311 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t326)));
-    const jg_real t329 = t309 * C_j[2];
-    const jg_real t330 = t300 * C_j[1];
-    const jg_real t331 = t329 - t330;
-    const jg_real t332 = t317 * C_j[2];
-    const jg_real t333 = t300 * C_j[0] - t332;
-    const jg_real t334 = t317 * C_j[1];
-    const jg_real t335 = t334 - t309 * C_j[0];
-    const jg_real t336 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
-    const jg_real t337 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t338 = t211 * e_ij_in_j_0;
-    const jg_real t339 = v_i[0] * t336;
-    const jg_real t340 = C_i[0] * t336;
-    const jg_real t341 = alphadot[0] * t340;
-    const jg_real t342 = C_i[3] * t336;
-    const jg_real t343 = alphadot[1] * t342;
-    const jg_real t344 = t338 - (t337 - e_ij_in_j_1 * t210) - t339 - t341 - t343;
-    const jg_real t345 = omega_i[0] * t336;
-    const jg_real t346 = t345 * e_ij_in_j_1 + t219 - t221 + t222 + t224 + t226;
-    const jg_real t347 = t345 * e_ij_in_j_0;
-    const jg_real t348 = t229 + t347 + t230 + t232 + t234;
-    const jg_real t349 = t345 * C_j[6];
-    const jg_real t350 = t236 + t349;
-    const jg_real t351 = t239 - t345 * C_j[7];
-    const jg_real t352 = t211 * C_j[6];
-    const jg_real t353 = t352 + t210 * C_j[7];
-    const jg_real t354 = t340 * C_j[0];
-    const jg_real t355 = t243 + t354;
-    const jg_real t356 = t246 - t340 * C_j[1];
-    const jg_real t357 = t231 * C_j[0];
-    const jg_real t358 = t357 + t223 * C_j[1];
-    const jg_real t359 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
-    const jg_real t360 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t361 = t254 * e_ij_in_j_0;
-    const jg_real t362 = v_i[0] * t359;
-    const jg_real t363 = C_i[0] * t359;
-    const jg_real t364 = alphadot[0] * t363;
-    const jg_real t365 = C_i[3] * t359;
-    const jg_real t366 = alphadot[1] * t365;
-    const jg_real t367 = t361 - (t360 - e_ij_in_j_1 * t253) - t362 - t364 - t366;
-    const jg_real t368 = omega_i[0] * t359;
-    const jg_real t369 = t368 * e_ij_in_j_1 + t262 - t264 + t265 + t267 + t269;
-    const jg_real t370 = t368 * e_ij_in_j_0;
-    const jg_real t371 = t272 + t370 + t273 + t275 + t277;
-    jac_phi_q_v_A_j[17] = t306 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t335 + (t297 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t331 + (t296 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t333)) - (omega_j[0] * t331 +
-        omega_j[1] * t333 + omega_j[2] * t335);
-    jac_phi_q_v_A_j[18] = t336 * v_4_in_j_2 + A_ji_2 * t344 + (A_ji_0 * t346 - t209 * v_4_in_j_0 - A_ji_1 * t348);
-    jac_phi_q_v_A_j[19] = A_i[3] * v_4_in_j_1 - A_ji_4 * t348 + A_ji_3 * t346 + A_ji_5 * t344;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_4_in_j_1 - A_ji_7 * t348 + A_ji_6 * t346 + A_ji_8 * t344;
-    jac_phi_q_v_A_j[21] = t231 * omega_j_cross_h_j_in_j_1 - t223 * omega_j_cross_h_j_in_j_0 + t340 *
-        omega_j_cross_h_j_in_j_2 - (t340 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t353 + (f_i_in_j_0 * t351 - t223
-        * omega_i_cross_h_j_in_j_0 + (t231 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t350)));
-    jac_phi_q_v_A_j[22] = t233 * omega_j_cross_h_j_in_j_1 - t225 * omega_j_cross_h_j_in_j_0 + t342 *
-        omega_j_cross_h_j_in_j_2 - (t342 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t353 + (g_i_in_j_0 * t351 - t225
-        * omega_i_cross_h_j_in_j_0 + (t233 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t350)));
-    jac_phi_q_v_A_j[23] = t345 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t358 + (omega_i_in_j_0 * t356 - t210 *
-        f_i_cross_f_j_in_j_0 + (t211 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t355)) - (omega_j[0] * t356 +
-        omega_j[1] * t355 - omega_j[2] * t358);
-    jac_phi_q_v_A_j[24] = t359 * v_4_in_j_2 + A_ji_2 * t367 + (A_ji_0 * t369 - t252 * v_4_in_j_0 - A_ji_1 * t371);
-    const jg_real t372 = t368 * C_j[6];
-    const jg_real t373 = t279 + t372;
-    const jg_real t374 = t282 - t368 * C_j[7];
-    const jg_real t375 = t254 * C_j[6];
-    const jg_real t376 = t375 + t253 * C_j[7];
-    const jg_real t377 = t363 * C_j[0];
-    const jg_real t378 = t286 + t377;
-    const jg_real t379 = t289 - t363 * C_j[1];
-    const jg_real t380 = t274 * C_j[0];
-    const jg_real t381 = t380 + t266 * C_j[1];
-    const jg_real t382 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
-    const jg_real t383 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t384 = t297 * e_ij_in_j_0;
-    const jg_real t385 = v_i[0] * t382;
-    const jg_real t386 = C_i[0] * t382;
-    const jg_real t387 = alphadot[0] * t386;
-    const jg_real t388 = C_i[3] * t382;
-    const jg_real t389 = alphadot[1] * t388;
-    const jg_real t390 = t384 - (t383 - e_ij_in_j_1 * t296) - t385 - t387 - t389;
-    const jg_real t391 = omega_i[0] * t382;
-    const jg_real t392 = t391 * e_ij_in_j_1 + t305 - t307 + t308 + t310 + t312;
-    const jg_real t393 = t391 * e_ij_in_j_0;
-    const jg_real t394 = t315 + t393 + t316 + t318 + t320;
-    jac_phi_q_v_A_j[25] = A_i[4] * v_4_in_j_1 - A_ji_4 * t371 + A_ji_3 * t369 + A_ji_5 * t367;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_4_in_j_1 - A_ji_7 * t371 + A_ji_6 * t369 + A_ji_8 * t367;
-    jac_phi_q_v_A_j[27] = t274 * omega_j_cross_h_j_in_j_1 - t266 * omega_j_cross_h_j_in_j_0 + t363 *
-        omega_j_cross_h_j_in_j_2 - (t363 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t376 + (f_i_in_j_0 * t374 - t266
-        * omega_i_cross_h_j_in_j_0 + (t274 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t373)));
-    jac_phi_q_v_A_j[28] = t276 * omega_j_cross_h_j_in_j_1 - t268 * omega_j_cross_h_j_in_j_0 + t365 *
-        omega_j_cross_h_j_in_j_2 - (t365 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t376 + (g_i_in_j_0 * t374 - t268
-        * omega_i_cross_h_j_in_j_0 + (t276 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t373)));
-    jac_phi_q_v_A_j[29] = t368 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t381 + (omega_i_in_j_0 * t379 - t253 *
-        f_i_cross_f_j_in_j_0 + (t254 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t378)) - (omega_j[0] * t379 +
-        omega_j[1] * t378 - omega_j[2] * t381);
-    jac_phi_q_v_A_j[30] = t382 * v_4_in_j_2 + A_ji_2 * t390 + (A_ji_0 * t392 - t295 * v_4_in_j_0 - A_ji_1 * t394);
-    jac_phi_q_v_A_j[31] = A_i[5] * v_4_in_j_1 - A_ji_4 * t394 + A_ji_3 * t392 + A_ji_5 * t390;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_4_in_j_1 - A_ji_7 * t394 + A_ji_6 * t392 + A_ji_8 * t390;
-    const jg_real t395 = t391 * C_j[6];
-    const jg_real t396 = t322 + t395;
-    const jg_real t397 = t325 - t391 * C_j[7];
-    const jg_real t398 = t297 * C_j[6];
-    const jg_real t399 = t398 + t296 * C_j[7];
-    const jg_real t400 = t386 * C_j[0];
-    const jg_real t401 = t329 + t400;
-    const jg_real t402 = t332 - t386 * C_j[1];
-    const jg_real t403 = t317 * C_j[0];
-    const jg_real t404 = t403 + t309 * C_j[1];
-    const jg_real t405 = t212 - (t208 - t345 * e_ij_in_j_2) + t213 + t215 + t217;
-    const jg_real t406 = t337 - t220 * e_ij_in_j_2 - t338 + t339 + t341 + t343;
-    const jg_real t407 = t228 - t347 - t230 - t232 - t234;
-    const jg_real t408 = t349 - t237;
-    const jg_real t409 = t352 + t220 * C_j[8];
-    const jg_real t410 = t345 * C_j[8] + t241;
-    jac_phi_q_v_A_j[33] = t317 * omega_j_cross_h_j_in_j_1 - t309 * omega_j_cross_h_j_in_j_0 + t386 *
-        omega_j_cross_h_j_in_j_2 - (t386 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t399 + (f_i_in_j_0 * t397 - t309
-        * omega_i_cross_h_j_in_j_0 + (t317 * omega_i_cross_h_j_in_j_1 + f_i_in_j_1 * t396)));
-    jac_phi_q_v_A_j[34] = t319 * omega_j_cross_h_j_in_j_1 - t311 * omega_j_cross_h_j_in_j_0 + t388 *
-        omega_j_cross_h_j_in_j_2 - (t388 * omega_i_cross_h_j_in_j_2 - g_i_in_j_2 * t399 + (g_i_in_j_0 * t397 - t311
-        * omega_i_cross_h_j_in_j_0 + (t319 * omega_i_cross_h_j_in_j_1 + g_i_in_j_1 * t396)));
-    jac_phi_q_v_A_j[35] = t391 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t404 + (omega_i_in_j_0 * t402 - t296 *
-        f_i_cross_f_j_in_j_0 + (t297 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t401)) - (omega_j[0] * t402 +
-        omega_j[1] * t401 - omega_j[2] * t404);
-    jac_phi_q_v_A_j[36] = A_ji_0 * t405 - t207 * v_4_in_j_0 + (A_ji_1 * t406 - t336 * v_4_in_j_1) + A_ji_2 * t407;
-    jac_phi_q_v_A_j[37] = A_ji_3 * t405 + A_ji_4 * t406 + (A_i[3] * v_4_in_j_2 + A_ji_5 * t407);
-    jac_phi_q_v_A_j[38] = A_ji_6 * t405 + A_ji_7 * t406 + (A_i[6] * v_4_in_j_2 + A_ji_8 * t407);
-    jac_phi_q_v_A_j[39] = t231 * omega_j_cross_h_j_in_j_2 - (t214 * omega_j_cross_h_j_in_j_0 + t340 *
-        omega_j_cross_h_j_in_j_1) - (t231 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t408 + (f_i_in_j_1 * t409 - t340
-        * omega_i_cross_h_j_in_j_1 - (t214 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t410)));
-    jac_phi_q_v_A_j[40] = t233 * omega_j_cross_h_j_in_j_2 - (t216 * omega_j_cross_h_j_in_j_0 + t342 *
-        omega_j_cross_h_j_in_j_1) - (t233 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t408 + (g_i_in_j_1 * t409 - t342
-        * omega_i_cross_h_j_in_j_1 - (t216 * omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t410)));
-    const jg_real t411 = t354 - t244;
-    const jg_real t412 = t357 + t214 * C_j[2];
-    const jg_real t413 = t340 * C_j[2] + t248;
-    const jg_real t414 = t255 - (t251 - t368 * e_ij_in_j_2) + t256 + t258 + t260;
-    const jg_real t415 = t360 - t263 * e_ij_in_j_2 - t361 + t362 + t364 + t366;
-    const jg_real t416 = t271 - t370 - t273 - t275 - t277;
-    const jg_real t417 = t372 - t280;
-    const jg_real t418 = t375 + t263 * C_j[8];
-    const jg_real t419 = t368 * C_j[8] + t284;
-    const jg_real t420 = t377 - t287;
-    const jg_real t421 = t380 + t257 * C_j[2];
-    const jg_real t422 = t363 * C_j[2] + t291;
-    const jg_real t423 = t298 - (t294 - t391 * e_ij_in_j_2) + t299 + t301 + t303;
-    const jg_real t424 = t383 - t306 * e_ij_in_j_2 - t384 + t385 + t387 + t389;
-    const jg_real t425 = t314 - t393 - t316 - t318 - t320;
-    jac_phi_q_v_A_j[41] = t211 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t411 + (omega_i_in_j_1 * t412 - t345 *
-        f_i_cross_f_j_in_j_1 - (t220 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t413)) - (omega_j[1] * t412 -
-        omega_j[0] * t413 + omega_j[2] * t411);
-    jac_phi_q_v_A_j[42] = A_ji_0 * t414 - t250 * v_4_in_j_0 + (A_ji_1 * t415 - t359 * v_4_in_j_1) + A_ji_2 * t416;
-    jac_phi_q_v_A_j[43] = A_ji_3 * t414 + A_ji_4 * t415 + (A_i[4] * v_4_in_j_2 + A_ji_5 * t416);
-    jac_phi_q_v_A_j[44] = A_ji_6 * t414 + A_ji_7 * t415 + (A_i[7] * v_4_in_j_2 + A_ji_8 * t416);
-    jac_phi_q_v_A_j[45] = t274 * omega_j_cross_h_j_in_j_2 - (t257 * omega_j_cross_h_j_in_j_0 + t363 *
-        omega_j_cross_h_j_in_j_1) - (t274 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t417 + (f_i_in_j_1 * t418 - t363
-        * omega_i_cross_h_j_in_j_1 - (t257 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t419)));
-    jac_phi_q_v_A_j[46] = t276 * omega_j_cross_h_j_in_j_2 - (t259 * omega_j_cross_h_j_in_j_0 + t365 *
-        omega_j_cross_h_j_in_j_1) - (t276 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t417 + (g_i_in_j_1 * t418 - t365
-        * omega_i_cross_h_j_in_j_1 - (t259 * omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t419)));
-    jac_phi_q_v_A_j[47] = t254 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t420 + (omega_i_in_j_1 * t421 - t368 *
-        f_i_cross_f_j_in_j_1 - (t263 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t422)) - (omega_j[1] * t421 -
-        omega_j[0] * t422 + omega_j[2] * t420);
-    jac_phi_q_v_A_j[48] = A_ji_0 * t423 - t293 * v_4_in_j_0 + (A_ji_1 * t424 - t382 * v_4_in_j_1) + A_ji_2 * t425;
-    const jg_real t426 = t395 - t323;
-    const jg_real t427 = t398 + t306 * C_j[8];
-    const jg_real t428 = t391 * C_j[8] + t327;
-    const jg_real t429 = t400 - t330;
-    const jg_real t430 = t403 + t300 * C_j[2];
-    const jg_real t431 = t386 * C_j[2] + t334;
+    jac_phi_q_v_A_j[1] = A_i[3] * v_2_in_j_0 + A_ji_3 * t211 + A_ji_4 * t208 + A_ji_5 * t204;
+    jac_phi_q_v_A_j[2] = A_i[6] * v_2_in_j_0 + A_ji_6 * t211 + A_ji_7 * t208 + A_ji_8 * t204;
+    jac_phi_q_v_A_j[3] = t215 * omega_j_cross_h_j_in_j_0 + t216 * omega_j_cross_h_j_in_j_1 + t219 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t221 + t219 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t214 + t215
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t218 + t216 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[4] = omega_j_cross_h_j_in_j_0 * t222 + omega_j_cross_h_j_in_j_1 * t223 + t224 *
+        omega_j_cross_h_j_in_j_2 - (t221 * g_i_in_j_2 + t224 * omega_i_cross_h_j_in_j_2 + (t214 * g_i_in_j_0 +
+        omega_i_cross_h_j_in_j_0 * t222 + (t218 * g_i_in_j_1 + t223 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[5] = t206 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t231 + (t202 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t227 + (t201 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t229)) - (omega_j[0] * t227 +
+        omega_j[1] * t229 + omega_j[2] * t231);
+    jac_phi_q_v_A_j[6] = t232 * v_2_in_j_2 + A_ji_2 * t238 + (t234 * v_2_in_j_1 + A_ji_1 * t242 + A_ji_0 * t245);
+    jac_phi_q_v_A_j[7] = A_i[4] * v_2_in_j_0 + A_ji_3 * t245 + A_ji_4 * t242 + A_ji_5 * t238;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_2_in_j_0 + A_ji_6 * t245 + A_ji_7 * t242 + A_ji_8 * t238;
+    const jg_real t246 = t235 * C_j[8];
+    const jg_real t247 = t240 * C_j[7];
+    const jg_real t248 = t246 - t247;
+    const jg_real t249 = A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real t250 = C_i[0] * t234;
+    const jg_real t251 = C_j[8] * t236;
+    const jg_real t252 = t240 * C_j[6] - t251;
+    const jg_real t253 = t232 * C_i[0];
+    const jg_real t254 = C_j[7] * t236;
+    const jg_real t255 = t254 - t235 * C_j[6];
+    const jg_real t256 = A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t257 = t234 * C_i[3];
+    const jg_real t258 = t232 * C_i[3];
+    const jg_real t259 = t250 * C_j[2];
+    const jg_real t260 = t253 * C_j[1];
+    const jg_real t261 = t259 - t260;
+    const jg_real t262 = t249 * C_j[2];
+    const jg_real t263 = t253 * C_j[0] - t262;
+    const jg_real t264 = t249 * C_j[1];
+    const jg_real t265 = t264 - t250 * C_j[0];
+    const jg_real t266 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
+    const jg_real t267 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t268 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
+    const jg_real t269 = omega_i[0] * t268;
+    const jg_real t270 = A_i[8] * omega_i[2] + A_i[5] * omega_i[1];
+    const jg_real t271 = e_ij_in_j_1 * t270;
+    const jg_real t272 = t267 + t269 * e_ij_in_j_0 - t271;
+    const jg_real t273 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t274 = omega_i[0] * t266;
+    const jg_real t275 = e_ij_in_j_2 * t270;
+    const jg_real t276 = t275 - (t273 + t274 * e_ij_in_j_0);
+    const jg_real t277 = t274 * e_ij_in_j_1;
+    const jg_real t278 = e_ij_in_j_2 * t269;
+    const jg_real t279 = t277 - t278;
+    const jg_real t280 = t269 * C_j[8];
+    const jg_real t281 = t274 * C_j[7];
+    const jg_real t282 = t280 - t281;
+    const jg_real t283 = A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real t284 = C_i[0] * t268;
+    const jg_real t285 = C_j[8] * t270;
+    const jg_real t286 = t274 * C_j[6] - t285;
+    const jg_real t287 = t266 * C_i[0];
+    const jg_real t288 = C_j[7] * t270;
+    const jg_real t289 = t288 - t269 * C_j[6];
+    const jg_real t290 = A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real t291 = t268 * C_i[3];
+    const jg_real t292 = t266 * C_i[3];
+    jac_phi_q_v_A_j[9] = t249 * omega_j_cross_h_j_in_j_0 + t250 * omega_j_cross_h_j_in_j_1 + t253 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t255 + t253 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t248 + t249
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t252 + t250 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[10] = omega_j_cross_h_j_in_j_0 * t256 + omega_j_cross_h_j_in_j_1 * t257 + t258 *
+        omega_j_cross_h_j_in_j_2 - (t255 * g_i_in_j_2 + t258 * omega_i_cross_h_j_in_j_2 + (t248 * g_i_in_j_0 +
+        omega_i_cross_h_j_in_j_0 * t256 + (t252 * g_i_in_j_1 + t257 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[11] = t240 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t265 + (t236 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t261 + (t235 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t263)) - (omega_j[0] * t261 +
+        omega_j[1] * t263 + omega_j[2] * t265);
+    jac_phi_q_v_A_j[12] = t266 * v_2_in_j_2 + A_ji_2 * t272 + (t268 * v_2_in_j_1 + A_ji_1 * t276 + A_ji_0 * t279);
+    jac_phi_q_v_A_j[13] = A_i[5] * v_2_in_j_0 + A_ji_3 * t279 + A_ji_4 * t276 + A_ji_5 * t272;
+    jac_phi_q_v_A_j[14] = A_i[8] * v_2_in_j_0 + A_ji_6 * t279 + A_ji_7 * t276 + A_ji_8 * t272;
+    jac_phi_q_v_A_j[15] = t283 * omega_j_cross_h_j_in_j_0 + t284 * omega_j_cross_h_j_in_j_1 + t287 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t289 + t287 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t282 + t283
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t286 + t284 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[16] = omega_j_cross_h_j_in_j_0 * t290 + omega_j_cross_h_j_in_j_1 * t291 + t292 *
+        omega_j_cross_h_j_in_j_2 - (t289 * g_i_in_j_2 + t292 * omega_i_cross_h_j_in_j_2 + (t282 * g_i_in_j_0 +
+        omega_i_cross_h_j_in_j_0 * t290 + (t286 * g_i_in_j_1 + t291 * omega_i_cross_h_j_in_j_1)));
+    const jg_real t293 = t284 * C_j[2];
+    const jg_real t294 = t287 * C_j[1];
+    const jg_real t295 = t293 - t294;
+    const jg_real t296 = t283 * C_j[2];
+    const jg_real t297 = t287 * C_j[0] - t296;
+    const jg_real t298 = t283 * C_j[1];
+    const jg_real t299 = t298 - t284 * C_j[0];
+    const jg_real t300 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
+    const jg_real t301 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t302 = t202 * e_ij_in_j_0;
+    const jg_real t303 = t302 - (t301 - e_ij_in_j_1 * t201);
+    const jg_real t304 = omega_i[0] * t300;
+    const jg_real t305 = t304 * e_ij_in_j_1 + t205 - t207;
+    const jg_real t306 = t304 * e_ij_in_j_0;
+    const jg_real t307 = t306 + t210;
+    const jg_real t308 = t304 * C_j[6];
+    const jg_real t309 = t308 + t212;
+    const jg_real t310 = t217 - t304 * C_j[7];
+    const jg_real t311 = t300 * C_i[0];
+    const jg_real t312 = C_j[6] * t202;
+    const jg_real t313 = t312 + t201 * C_j[7];
+    const jg_real t314 = t300 * C_i[3];
+    const jg_real t315 = t311 * C_j[0];
+    const jg_real t316 = t225 + t315;
+    const jg_real t317 = t228 - t311 * C_j[1];
+    const jg_real t318 = t215 * C_j[0];
+    const jg_real t319 = t318 + t216 * C_j[1];
+    const jg_real t320 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
+    const jg_real t321 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t322 = t236 * e_ij_in_j_0;
+    const jg_real t323 = t322 - (t321 - e_ij_in_j_1 * t235);
+    const jg_real t324 = omega_i[0] * t320;
+    const jg_real t325 = t324 * e_ij_in_j_1 + t239 - t241;
+    const jg_real t326 = t324 * e_ij_in_j_0;
+    const jg_real t327 = t326 + t244;
+    jac_phi_q_v_A_j[17] = t274 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t299 + (t270 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t295 + (t269 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t297)) - (omega_j[0] * t295 +
+        omega_j[1] * t297 + omega_j[2] * t299);
+    jac_phi_q_v_A_j[18] = t300 * v_2_in_j_2 + A_ji_2 * t303 + (A_ji_0 * t305 - t200 * v_2_in_j_0 - A_ji_1 * t307);
+    jac_phi_q_v_A_j[19] = A_i[3] * v_2_in_j_1 - A_ji_4 * t307 + A_ji_3 * t305 + A_ji_5 * t303;
+    jac_phi_q_v_A_j[20] = A_i[6] * v_2_in_j_1 - A_ji_7 * t307 + A_ji_6 * t305 + A_ji_8 * t303;
+    jac_phi_q_v_A_j[21] = t215 * omega_j_cross_h_j_in_j_1 - t216 * omega_j_cross_h_j_in_j_0 + t311 *
+        omega_j_cross_h_j_in_j_2 - (t311 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t313 + (f_i_in_j_0 * t310 - t216
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t309 + t215 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[22] = omega_j_cross_h_j_in_j_1 * t222 - omega_j_cross_h_j_in_j_0 * t223 + t314 *
+        omega_j_cross_h_j_in_j_2 - (omega_i_cross_h_j_in_j_2 * t314 - t313 * g_i_in_j_2 + (t310 * g_i_in_j_0 - t223
+        * omega_i_cross_h_j_in_j_0 + (t309 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t222)));
+    jac_phi_q_v_A_j[23] = t304 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t319 + (omega_i_in_j_0 * t317 - t201 *
+        f_i_cross_f_j_in_j_0 + (t202 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t316)) - (omega_j[0] * t317 +
+        omega_j[1] * t316 - omega_j[2] * t319);
+    jac_phi_q_v_A_j[24] = t320 * v_2_in_j_2 + A_ji_2 * t323 + (A_ji_0 * t325 - t234 * v_2_in_j_0 - A_ji_1 * t327);
+    const jg_real t328 = t324 * C_j[6];
+    const jg_real t329 = t328 + t246;
+    const jg_real t330 = t251 - t324 * C_j[7];
+    const jg_real t331 = t320 * C_i[0];
+    const jg_real t332 = C_j[6] * t236;
+    const jg_real t333 = t332 + t235 * C_j[7];
+    const jg_real t334 = t320 * C_i[3];
+    const jg_real t335 = t331 * C_j[0];
+    const jg_real t336 = t259 + t335;
+    const jg_real t337 = t262 - t331 * C_j[1];
+    const jg_real t338 = t249 * C_j[0];
+    const jg_real t339 = t338 + t250 * C_j[1];
+    const jg_real t340 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
+    const jg_real t341 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t342 = t270 * e_ij_in_j_0;
+    const jg_real t343 = t342 - (t341 - e_ij_in_j_1 * t269);
+    const jg_real t344 = omega_i[0] * t340;
+    const jg_real t345 = t344 * e_ij_in_j_1 + t273 - t275;
+    const jg_real t346 = t344 * e_ij_in_j_0;
+    const jg_real t347 = t346 + t278;
+    jac_phi_q_v_A_j[25] = A_i[4] * v_2_in_j_1 - A_ji_4 * t327 + A_ji_3 * t325 + A_ji_5 * t323;
+    jac_phi_q_v_A_j[26] = A_i[7] * v_2_in_j_1 - A_ji_7 * t327 + A_ji_6 * t325 + A_ji_8 * t323;
+    jac_phi_q_v_A_j[27] = t249 * omega_j_cross_h_j_in_j_1 - t250 * omega_j_cross_h_j_in_j_0 + t331 *
+        omega_j_cross_h_j_in_j_2 - (t331 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t333 + (f_i_in_j_0 * t330 - t250
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t329 + t249 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[28] = omega_j_cross_h_j_in_j_1 * t256 - omega_j_cross_h_j_in_j_0 * t257 + t334 *
+        omega_j_cross_h_j_in_j_2 - (omega_i_cross_h_j_in_j_2 * t334 - t333 * g_i_in_j_2 + (t330 * g_i_in_j_0 - t257
+        * omega_i_cross_h_j_in_j_0 + (t329 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t256)));
+    jac_phi_q_v_A_j[29] = t324 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t339 + (omega_i_in_j_0 * t337 - t235 *
+        f_i_cross_f_j_in_j_0 + (t236 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t336)) - (omega_j[0] * t337 +
+        omega_j[1] * t336 - omega_j[2] * t339);
+    jac_phi_q_v_A_j[30] = t340 * v_2_in_j_2 + A_ji_2 * t343 + (A_ji_0 * t345 - t268 * v_2_in_j_0 - A_ji_1 * t347);
+    jac_phi_q_v_A_j[31] = A_i[5] * v_2_in_j_1 - A_ji_4 * t347 + A_ji_3 * t345 + A_ji_5 * t343;
+    jac_phi_q_v_A_j[32] = A_i[8] * v_2_in_j_1 - A_ji_7 * t347 + A_ji_6 * t345 + A_ji_8 * t343;
+    const jg_real t348 = t344 * C_j[6];
+    const jg_real t349 = t348 + t280;
+    const jg_real t350 = t285 - t344 * C_j[7];
+    const jg_real t351 = t340 * C_i[0];
+    const jg_real t352 = C_j[6] * t270;
+    const jg_real t353 = t352 + t269 * C_j[7];
+    const jg_real t354 = t340 * C_i[3];
+    const jg_real t355 = t351 * C_j[0];
+    const jg_real t356 = t293 + t355;
+    const jg_real t357 = t296 - t351 * C_j[1];
+    const jg_real t358 = t283 * C_j[0];
+    const jg_real t359 = t358 + t284 * C_j[1];
+    const jg_real t360 = t203 - (t199 - t304 * e_ij_in_j_2);
+    const jg_real t361 = t301 - t206 * e_ij_in_j_2 - t302;
+    const jg_real t362 = t209 - t306;
+    const jg_real t363 = t308 - t213;
+    const jg_real t364 = t312 + t206 * C_j[8];
+    const jg_real t365 = t220 + t304 * C_j[8];
+    jac_phi_q_v_A_j[33] = t283 * omega_j_cross_h_j_in_j_1 - t284 * omega_j_cross_h_j_in_j_0 + t351 *
+        omega_j_cross_h_j_in_j_2 - (t351 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t353 + (f_i_in_j_0 * t350 - t284
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t349 + t283 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[34] = omega_j_cross_h_j_in_j_1 * t290 - omega_j_cross_h_j_in_j_0 * t291 + t354 *
+        omega_j_cross_h_j_in_j_2 - (omega_i_cross_h_j_in_j_2 * t354 - t353 * g_i_in_j_2 + (t350 * g_i_in_j_0 - t291
+        * omega_i_cross_h_j_in_j_0 + (t349 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 * t290)));
+    jac_phi_q_v_A_j[35] = t344 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t359 + (omega_i_in_j_0 * t357 - t269 *
+        f_i_cross_f_j_in_j_0 + (t270 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t356)) - (omega_j[0] * t357 +
+        omega_j[1] * t356 - omega_j[2] * t359);
+    jac_phi_q_v_A_j[36] = A_ji_0 * t360 - t198 * v_2_in_j_0 + (A_ji_1 * t361 - t300 * v_2_in_j_1) + A_ji_2 * t362;
+    jac_phi_q_v_A_j[37] = A_i[3] * v_2_in_j_2 + A_ji_5 * t362 + (A_ji_3 * t360 + A_ji_4 * t361);
+    jac_phi_q_v_A_j[38] = A_i[6] * v_2_in_j_2 + A_ji_8 * t362 + (A_ji_6 * t360 + A_ji_7 * t361);
+    jac_phi_q_v_A_j[39] = t215 * omega_j_cross_h_j_in_j_2 - (t219 * omega_j_cross_h_j_in_j_0 + t311 *
+        omega_j_cross_h_j_in_j_1) - (f_i_in_j_2 * t363 + t215 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_1 * t364 - t311
+        * omega_i_cross_h_j_in_j_1 - (f_i_in_j_0 * t365 + t219 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[40] = omega_j_cross_h_j_in_j_2 * t222 - (omega_j_cross_h_j_in_j_0 * t224 +
+        omega_j_cross_h_j_in_j_1 * t314) - (t363 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t222 + (t364 * g_i_in_j_1
+        - omega_i_cross_h_j_in_j_1 * t314 - (t365 * g_i_in_j_0 + t224 * omega_i_cross_h_j_in_j_0)));
+    const jg_real t366 = t315 - t226;
+    const jg_real t367 = t318 + t219 * C_j[2];
+    const jg_real t368 = t311 * C_j[2] + t230;
+    const jg_real t369 = t237 - (t233 - t324 * e_ij_in_j_2);
+    const jg_real t370 = t321 - t240 * e_ij_in_j_2 - t322;
+    const jg_real t371 = t243 - t326;
+    const jg_real t372 = t328 - t247;
+    const jg_real t373 = t332 + t240 * C_j[8];
+    const jg_real t374 = t254 + t324 * C_j[8];
+    const jg_real t375 = t335 - t260;
+    const jg_real t376 = t338 + t253 * C_j[2];
+    const jg_real t377 = t331 * C_j[2] + t264;
+    const jg_real t378 = t271 - (t267 - t344 * e_ij_in_j_2);
+    const jg_real t379 = t341 - t274 * e_ij_in_j_2 - t342;
+    const jg_real t380 = t277 - t346;
+    jac_phi_q_v_A_j[41] = t202 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t366 + (omega_i_in_j_1 * t367 - t304 *
+        f_i_cross_f_j_in_j_1 - (t206 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t368)) - (omega_j[1] * t367 -
+        omega_j[0] * t368 + omega_j[2] * t366);
+    jac_phi_q_v_A_j[42] = A_ji_0 * t369 - t232 * v_2_in_j_0 + (A_ji_1 * t370 - t320 * v_2_in_j_1) + A_ji_2 * t371;
+    jac_phi_q_v_A_j[43] = A_i[4] * v_2_in_j_2 + A_ji_5 * t371 + (A_ji_3 * t369 + A_ji_4 * t370);
+    jac_phi_q_v_A_j[44] = A_i[7] * v_2_in_j_2 + A_ji_8 * t371 + (A_ji_6 * t369 + A_ji_7 * t370);
+    jac_phi_q_v_A_j[45] = t249 * omega_j_cross_h_j_in_j_2 - (t253 * omega_j_cross_h_j_in_j_0 + t331 *
+        omega_j_cross_h_j_in_j_1) - (f_i_in_j_2 * t372 + t249 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_1 * t373 - t331
+        * omega_i_cross_h_j_in_j_1 - (f_i_in_j_0 * t374 + t253 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[46] = omega_j_cross_h_j_in_j_2 * t256 - (omega_j_cross_h_j_in_j_0 * t258 +
+        omega_j_cross_h_j_in_j_1 * t334) - (t372 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t256 + (t373 * g_i_in_j_1
+        - omega_i_cross_h_j_in_j_1 * t334 - (t374 * g_i_in_j_0 + t258 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[47] = t236 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t375 + (omega_i_in_j_1 * t376 - t324 *
+        f_i_cross_f_j_in_j_1 - (t240 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t377)) - (omega_j[1] * t376 -
+        omega_j[0] * t377 + omega_j[2] * t375);
+    jac_phi_q_v_A_j[48] = A_ji_0 * t378 - t266 * v_2_in_j_0 + (A_ji_1 * t379 - t340 * v_2_in_j_1) + A_ji_2 * t380;
+    const jg_real t381 = t348 - t281;
+    const jg_real t382 = t352 + t274 * C_j[8];
+    const jg_real t383 = t288 + t344 * C_j[8];
+    const jg_real t384 = t355 - t294;
+    const jg_real t385 = t358 + t287 * C_j[2];
+    const jg_real t386 = t351 * C_j[2] + t298;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[2], &sine_0, &cosine_0);
-    const jg_real t434 = alphadot[0] * A_ji_0;
-    const jg_real t435 = alphadot[0] * A_ji_1;
-    const jg_real t436 = alphadot[0] * A_ji_2;
-    jac_phi_q_v_A_j[49] = A_ji_3 * t423 + A_ji_4 * t424 + (A_i[5] * v_4_in_j_2 + A_ji_5 * t425);
-    jac_phi_q_v_A_j[50] = A_ji_6 * t423 + A_ji_7 * t424 + (A_i[8] * v_4_in_j_2 + A_ji_8 * t425);
-    jac_phi_q_v_A_j[51] = t317 * omega_j_cross_h_j_in_j_2 - (t300 * omega_j_cross_h_j_in_j_0 + t386 *
-        omega_j_cross_h_j_in_j_1) - (t317 * omega_i_cross_h_j_in_j_2 + f_i_in_j_2 * t426 + (f_i_in_j_1 * t427 - t386
-        * omega_i_cross_h_j_in_j_1 - (t300 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t428)));
-    jac_phi_q_v_A_j[52] = t319 * omega_j_cross_h_j_in_j_2 - (t302 * omega_j_cross_h_j_in_j_0 + t388 *
-        omega_j_cross_h_j_in_j_1) - (t319 * omega_i_cross_h_j_in_j_2 + g_i_in_j_2 * t426 + (g_i_in_j_1 * t427 - t388
-        * omega_i_cross_h_j_in_j_1 - (t302 * omega_i_cross_h_j_in_j_0 + g_i_in_j_0 * t428)));
-    jac_phi_q_v_A_j[53] = t297 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t429 + (omega_i_in_j_1 * t430 - t391 *
-        f_i_cross_f_j_in_j_1 - (t306 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t431)) - (omega_j[1] * t430 -
-        omega_j[0] * t431 + omega_j[2] * t429);
+    const jg_real t389 = -alphadot[0];
+    jac_phi_q_v_A_j[49] = A_i[5] * v_2_in_j_2 + A_ji_5 * t380 + (A_ji_3 * t378 + A_ji_4 * t379);
+    jac_phi_q_v_A_j[50] = A_i[8] * v_2_in_j_2 + A_ji_8 * t380 + (A_ji_6 * t378 + A_ji_7 * t379);
+    jac_phi_q_v_A_j[51] = t283 * omega_j_cross_h_j_in_j_2 - (t287 * omega_j_cross_h_j_in_j_0 + t351 *
+        omega_j_cross_h_j_in_j_1) - (f_i_in_j_2 * t381 + t283 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_1 * t382 - t351
+        * omega_i_cross_h_j_in_j_1 - (f_i_in_j_0 * t383 + t287 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[52] = omega_j_cross_h_j_in_j_2 * t290 - (omega_j_cross_h_j_in_j_0 * t292 +
+        omega_j_cross_h_j_in_j_1 * t354) - (t381 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t290 + (t382 * g_i_in_j_1
+        - omega_i_cross_h_j_in_j_1 * t354 - (t383 * g_i_in_j_0 + t292 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[53] = t270 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t384 + (omega_i_in_j_1 * t385 - t344 *
+        f_i_cross_f_j_in_j_1 - (t274 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t386)) - (omega_j[1] * t385 -
+        omega_j[0] * t386 + omega_j[2] * t384);
     jac_phi_q_v_alpha[0] = cosine_0 * alphadot[2];
-    jac_phi_q_v_geometry[0] = -(A_ji_0 * t434 + A_ji_1 * t435 + A_ji_2 * t436);
-    jac_phi_q_v_geometry[1] = -(A_ji_3 * t434 + A_ji_4 * t435 + A_ji_5 * t436);
-    const jg_real t437 = A_ji_0 * omega_j_cross_h_j_in_j_0 + A_ji_1 * omega_j_cross_h_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_geometry[0] = t389;
+    jac_phi_q_v_geometry[3] = t389;
+    jac_phi_q_v_geometry[6] = t389;
+    const jg_real t390 = A_ji_0 * omega_j_cross_h_j_in_j_0 + A_ji_1 * omega_j_cross_h_j_in_j_1 + A_ji_2 *
         omega_j_cross_h_j_in_j_2 - (A_ji_0 * omega_i_cross_h_j_in_j_0 + A_ji_1 * omega_i_cross_h_j_in_j_1 + A_ji_2 *
         omega_i_cross_h_j_in_j_2);
-    const jg_real t438 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
-    const jg_real t439 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
-    const jg_real t440 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    const jg_real t441 = A_ji_3 * alphadot[0];
-    const jg_real t442 = A_ji_4 * alphadot[0];
-    const jg_real t443 = alphadot[0] * A_ji_5;
-    const jg_real t444 = A_ji_3 * omega_j_cross_h_j_in_j_0 + A_ji_4 * omega_j_cross_h_j_in_j_1 + A_ji_5 *
+    const jg_real t391 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
+    const jg_real t392 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
+    const jg_real t393 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    const jg_real t394 = A_ji_3 * omega_j_cross_h_j_in_j_0 + A_ji_4 * omega_j_cross_h_j_in_j_1 + A_ji_5 *
         omega_j_cross_h_j_in_j_2 - (A_ji_3 * omega_i_cross_h_j_in_j_0 + A_ji_4 * omega_i_cross_h_j_in_j_1 + A_ji_5 *
         omega_i_cross_h_j_in_j_2);
-    jac_phi_q_v_geometry[2] = -(A_ji_6 * t434 + A_ji_7 * t435 + A_ji_8 * t436);
-    jac_phi_q_v_geometry[3] = t437;
-    jac_phi_q_v_geometry[18] = t437;
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t438 + omega_i_in_j_1 * t439 + omega_i_in_j_2 * t440 - (omega_j[0] *
-        t438 + omega_j[1] * t439 + omega_j[2] * t440);
-    jac_phi_q_v_geometry[5] = -(A_ji_0 * t441 + A_ji_1 * t442 + A_ji_2 * t443);
-    jac_phi_q_v_geometry[6] = -(A_ji_3 * t441 + A_ji_4 * t442 + A_ji_5 * t443);
-    jac_phi_q_v_geometry[7] = -(A_ji_6 * t441 + A_ji_7 * t442 + A_ji_8 * t443);
-    jac_phi_q_v_geometry[8] = t444;
-    jac_phi_q_v_geometry[22] = t444;
-    const jg_real t445 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
-    const jg_real t446 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
-    const jg_real t447 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    const jg_real t448 = alphadot[0] * A_ji_6;
-    const jg_real t449 = A_ji_7 * alphadot[0];
-    const jg_real t450 = alphadot[0] * A_ji_8;
-    const jg_real t451 = A_ji_6 * omega_j_cross_h_j_in_j_0 + A_ji_7 * omega_j_cross_h_j_in_j_1 + A_ji_8 *
+    const jg_real t395 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
+    const jg_real t396 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
+    const jg_real t397 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
+    const jg_real t398 = A_ji_6 * omega_j_cross_h_j_in_j_0 + A_ji_7 * omega_j_cross_h_j_in_j_1 + A_ji_8 *
         omega_j_cross_h_j_in_j_2 - (A_ji_6 * omega_i_cross_h_j_in_j_0 + A_ji_7 * omega_i_cross_h_j_in_j_1 + A_ji_8 *
         omega_i_cross_h_j_in_j_2);
-    const jg_real t452 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
-    const jg_real t453 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
-    const jg_real t454 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    const jg_real t455 = alphadot[1] * A_ji_0;
-    const jg_real t456 = alphadot[1] * A_ji_1;
-    const jg_real t457 = alphadot[1] * A_ji_2;
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t445 + omega_i_in_j_1 * t446 + omega_i_in_j_2 * t447 - (omega_j[0] *
-        t445 + omega_j[1] * t446 + omega_j[2] * t447);
-    jac_phi_q_v_geometry[10] = -(A_ji_0 * t448 + A_ji_1 * t449 + A_ji_2 * t450);
-    jac_phi_q_v_geometry[11] = -(A_ji_3 * t448 + A_ji_4 * t449 + A_ji_5 * t450);
-    jac_phi_q_v_geometry[12] = -(A_ji_6 * t448 + A_ji_7 * t449 + A_ji_8 * t450);
-    jac_phi_q_v_geometry[13] = t451;
-    jac_phi_q_v_geometry[26] = t451;
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t452 + omega_i_in_j_1 * t453 + omega_i_in_j_2 * t454 - (omega_j[0] *
-        t452 + omega_j[1] * t453 + omega_j[2] * t454);
-    jac_phi_q_v_geometry[15] = -(A_ji_0 * t455 + A_ji_1 * t456 + A_ji_2 * t457);
-    const jg_real t458 = A_ji_3 * alphadot[1];
-    const jg_real t459 = A_ji_4 * alphadot[1];
-    const jg_real t460 = alphadot[1] * A_ji_5;
-    const jg_real t461 = alphadot[1] * A_ji_6;
-    const jg_real t462 = A_ji_7 * alphadot[1];
-    const jg_real t463 = alphadot[1] * A_ji_8;
-    jac_phi_q_v_geometry[16] = -(A_ji_3 * t455 + A_ji_4 * t456 + A_ji_5 * t457);
-    jac_phi_q_v_geometry[17] = -(A_ji_6 * t455 + A_ji_7 * t456 + A_ji_8 * t457);
-    jac_phi_q_v_geometry[19] = -(A_ji_0 * t458 + A_ji_1 * t459 + A_ji_2 * t460);
-    jac_phi_q_v_geometry[20] = -(A_ji_3 * t458 + A_ji_4 * t459 + A_ji_5 * t460);
-    jac_phi_q_v_geometry[21] = -(A_ji_6 * t458 + A_ji_7 * t459 + A_ji_8 * t460);
-    jac_phi_q_v_geometry[23] = -(A_ji_0 * t461 + A_ji_1 * t462 + A_ji_2 * t463);
-    jac_phi_q_v_geometry[24] = -(A_ji_3 * t461 + A_ji_4 * t462 + A_ji_5 * t463);
-    jac_phi_q_v_geometry[25] = -(A_ji_6 * t461 + A_ji_7 * t462 + A_ji_8 * t463);
-    const jg_real t464 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t465 = omega_j[1] - omega_i_in_j_1;
-    const jg_real t466 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[27] = -(A_ji_1 * t464 + A_ji_2 * t465);
-    jac_phi_q_v_geometry[28] = -(A_ji_4 * t464 + A_ji_5 * t465);
-    jac_phi_q_v_geometry[29] = -(A_ji_7 * t464 + A_ji_8 * t465);
-    jac_phi_q_v_geometry[30] = A_ji_0 * t464 - A_ji_2 * t466;
-    jac_phi_q_v_geometry[31] = A_ji_3 * t464 - A_ji_5 * t466;
-    jac_phi_q_v_geometry[32] = A_ji_6 * t464 - A_ji_8 * t466;
-    jac_phi_q_v_geometry[33] = A_ji_0 * t465 + A_ji_1 * t466;
-    jac_phi_q_v_geometry[34] = A_ji_3 * t465 + A_ji_4 * t466;
-    const jg_real t467 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2 - (omega_i_in_j_2 * f_i_in_j_1 -
+    jac_phi_q_v_geometry[1] = t390;
+    jac_phi_q_v_geometry[10] = t390;
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t391 + omega_i_in_j_1 * t392 + omega_i_in_j_2 * t393 - (omega_j[0] *
+        t391 + omega_j[1] * t392 + omega_j[2] * t393);
+    jac_phi_q_v_geometry[4] = t394;
+    jac_phi_q_v_geometry[12] = t394;
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t395 + omega_i_in_j_1 * t396 + omega_i_in_j_2 * t397 - (omega_j[0] *
+        t395 + omega_j[1] * t396 + omega_j[2] * t397);
+    jac_phi_q_v_geometry[7] = t398;
+    jac_phi_q_v_geometry[14] = t398;
+    const jg_real t399 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
+    const jg_real t400 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
+    const jg_real t401 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
+    const jg_real t402 = -alphadot[1];
+    const jg_real t403 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t404 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t405 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t399 + omega_i_in_j_1 * t400 + omega_i_in_j_2 * t401 - (omega_j[0] *
+        t399 + omega_j[1] * t400 + omega_j[2] * t401);
+    jac_phi_q_v_geometry[9] = t402;
+    jac_phi_q_v_geometry[11] = t402;
+    jac_phi_q_v_geometry[13] = t402;
+    jac_phi_q_v_geometry[15] = -(A_ji_1 * t403 + A_ji_2 * t404);
+    jac_phi_q_v_geometry[16] = -(A_ji_4 * t403 + A_ji_5 * t404);
+    jac_phi_q_v_geometry[17] = -(A_ji_7 * t403 + A_ji_8 * t404);
+    jac_phi_q_v_geometry[18] = A_ji_0 * t403 - A_ji_2 * t405;
+    const jg_real t406 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2 - (omega_i_in_j_2 * f_i_in_j_1 -
         omega_i_in_j_1 * f_i_in_j_2);
-    const jg_real t468 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (omega_i_in_j_0 * f_i_in_j_2 -
+    const jg_real t407 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (omega_i_in_j_0 * f_i_in_j_2 -
         omega_i_in_j_2 * f_i_in_j_0);
-    const jg_real t469 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1 - (omega_i_in_j_1 * f_i_in_j_0 -
+    jac_phi_q_v_geometry[19] = A_ji_3 * t403 - A_ji_5 * t405;
+    jac_phi_q_v_geometry[20] = A_ji_6 * t403 - A_ji_8 * t405;
+    jac_phi_q_v_geometry[21] = A_ji_0 * t404 + A_ji_1 * t405;
+    jac_phi_q_v_geometry[22] = A_ji_3 * t404 + A_ji_4 * t405;
+    jac_phi_q_v_geometry[23] = A_ji_6 * t404 + A_ji_7 * t405;
+    jac_phi_q_v_geometry[24] = t406;
+    jac_phi_q_v_geometry[27] = t406;
+    jac_phi_q_v_geometry[25] = t407;
+    jac_phi_q_v_geometry[29] = t407;
+    const jg_real t408 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1 - (omega_i_in_j_1 * f_i_in_j_0 -
         omega_i_in_j_0 * f_i_in_j_1);
-    jac_phi_q_v_geometry[35] = A_ji_6 * t465 + A_ji_7 * t466;
-    jac_phi_q_v_geometry[36] = t467;
-    jac_phi_q_v_geometry[39] = t467;
-    jac_phi_q_v_geometry[37] = t468;
-    jac_phi_q_v_geometry[41] = t468;
-    jac_phi_q_v_geometry[38] = t469;
-    jac_phi_q_v_geometry[43] = t469;
-    jac_phi_q_v_geometry[40] = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2 - (omega_i_in_j_2 * g_i_in_j_1 -
+    jac_phi_q_v_geometry[26] = t408;
+    jac_phi_q_v_geometry[31] = t408;
+    jac_phi_q_v_geometry[28] = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2 - (omega_i_in_j_2 * g_i_in_j_1 -
         omega_i_in_j_1 * g_i_in_j_2);
-    const jg_real t470 = -(A_ji_3 * A_ji_0 + A_ji_4 * A_ji_1 + A_ji_5 * A_ji_2);
-    const jg_real t471 = -(A_ji_6 * A_ji_0 + A_ji_7 * A_ji_1 + A_ji_8 * A_ji_2);
-    jac_phi_q_v_geometry[42] = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0 - (omega_i_in_j_0 * g_i_in_j_2 -
+    jac_phi_q_v_geometry[30] = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0 - (omega_i_in_j_0 * g_i_in_j_2 -
         omega_i_in_j_2 * g_i_in_j_0);
-    jac_phi_q_v_geometry[44] = omega_j[1] * g_i_in_j_0 - omega_j[0] * g_i_in_j_1 - (omega_i_in_j_1 * g_i_in_j_0 -
+    jac_phi_q_v_geometry[32] = omega_j[1] * g_i_in_j_0 - omega_j[0] * g_i_in_j_1 - (omega_i_in_j_1 * g_i_in_j_0 -
         omega_i_in_j_0 * g_i_in_j_1);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t470;
-    jac_phi_q_v_velocity[3] = t470;
-    jac_phi_q_v_velocity[2] = t471;
-    jac_phi_q_v_velocity[6] = t471;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    const jg_real t472 = -(A_ji_3 * A_ji_6 + A_ji_7 * A_ji_4 + A_ji_5 * A_ji_8);
-    const jg_real t473 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t474 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t475 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    const jg_real t476 = A_ji_1 * C_j[8] - A_ji_2 * C_j[7];
-    const jg_real t477 = A_ji_2 * C_j[6] - A_ji_0 * C_j[8];
-    const jg_real t478 = A_ji_0 * C_j[7] - A_ji_1 * C_j[6];
-    jac_phi_q_v_velocity[5] = t472;
-    jac_phi_q_v_velocity[7] = t472;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t473 + A_ji_1 * t474 + A_ji_2 * t475;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t473 + A_ji_4 * t474 + A_ji_5 * t475;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t473 + A_ji_7 * t474 + A_ji_8 * t475;
-    jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t476 + f_i_in_j_1 * t477 + f_i_in_j_2 * t478);
-    jac_phi_q_v_velocity[13] = -(g_i_in_j_0 * t476 + g_i_in_j_1 * t477 + g_i_in_j_2 * t478);
-    const jg_real t479 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t480 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t481 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    const jg_real t482 = A_ji_4 * C_j[8] - A_ji_5 * C_j[7];
-    const jg_real t483 = A_ji_5 * C_j[6] - A_ji_3 * C_j[8];
-    const jg_real t484 = A_ji_3 * C_j[7] - A_ji_4 * C_j[6];
-    const jg_real t485 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t486 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t487 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    const jg_real t409 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t410 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t411 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t412 = A_ji_1 * C_j[8] - A_ji_2 * C_j[7];
+    const jg_real t413 = A_ji_2 * C_j[6] - A_ji_0 * C_j[8];
+    const jg_real t414 = A_ji_0 * C_j[7] - A_ji_1 * C_j[6];
+    const jg_real t415 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t416 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t417 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[3] = A_ji_0 * t409 + A_ji_1 * t410 + A_ji_2 * t411;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t409 + A_ji_4 * t410 + A_ji_5 * t411;
+    jac_phi_q_v_velocity[5] = A_ji_6 * t409 + A_ji_7 * t410 + A_ji_8 * t411;
+    jac_phi_q_v_velocity[6] = -(f_i_in_j_0 * t412 + f_i_in_j_1 * t413 + f_i_in_j_2 * t414);
+    jac_phi_q_v_velocity[7] = -(t412 * g_i_in_j_0 + t413 * g_i_in_j_1 + t414 * g_i_in_j_2);
+    jac_phi_q_v_velocity[8] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t479 + A_ji_1 * t480 + A_ji_2 * t481;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t479 + A_ji_4 * t480 + A_ji_5 * t481;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t479 + A_ji_7 * t480 + A_ji_8 * t481;
-    jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t482 + f_i_in_j_1 * t483 + f_i_in_j_2 * t484);
-    jac_phi_q_v_velocity[19] = -(g_i_in_j_0 * t482 + g_i_in_j_1 * t483 + g_i_in_j_2 * t484);
-    jac_phi_q_v_velocity[20] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[9] = A_ji_0 * t415 + A_ji_1 * t416 + A_ji_2 * t417;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t415 + A_ji_4 * t416 + A_ji_5 * t417;
+    const jg_real t418 = A_ji_4 * C_j[8] - A_ji_5 * C_j[7];
+    const jg_real t419 = A_ji_5 * C_j[6] - A_ji_3 * C_j[8];
+    const jg_real t420 = A_ji_3 * C_j[7] - A_ji_4 * C_j[6];
+    const jg_real t421 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t422 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t423 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    const jg_real t424 = A_ji_7 * C_j[8] - A_ji_8 * C_j[7];
+    const jg_real t425 = A_ji_8 * C_j[6] - A_ji_6 * C_j[8];
+    const jg_real t426 = A_ji_6 * C_j[7] - A_ji_7 * C_j[6];
+    jac_phi_q_v_velocity[11] = A_ji_6 * t415 + A_ji_7 * t416 + A_ji_8 * t417;
+    jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t418 + f_i_in_j_1 * t419 + f_i_in_j_2 * t420);
+    jac_phi_q_v_velocity[13] = -(t418 * g_i_in_j_0 + t419 * g_i_in_j_1 + t420 * g_i_in_j_2);
+    jac_phi_q_v_velocity[14] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t485 + A_ji_1 * t486 + A_ji_2 * t487;
-    const jg_real t488 = A_ji_7 * C_j[8] - A_ji_8 * C_j[7];
-    const jg_real t489 = A_ji_8 * C_j[6] - A_ji_6 * C_j[8];
-    const jg_real t490 = A_ji_6 * C_j[7] - A_ji_7 * C_j[6];
-    jac_phi_q_v_velocity[22] = A_ji_3 * t485 + A_ji_4 * t486 + A_ji_5 * t487;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t485 + A_ji_7 * t486 + A_ji_8 * t487;
-    jac_phi_q_v_velocity[24] = -(f_i_in_j_0 * t488 + f_i_in_j_1 * t489 + f_i_in_j_2 * t490);
-    jac_phi_q_v_velocity[25] = -(g_i_in_j_0 * t488 + g_i_in_j_1 * t489 + g_i_in_j_2 * t490);
-    jac_phi_q_v_velocity[26] = A_ji_6 * f_i_cross_f_j_in_j_0 + A_ji_7 * f_i_cross_f_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[15] = A_ji_0 * t421 + A_ji_1 * t422 + A_ji_2 * t423;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t421 + A_ji_4 * t422 + A_ji_5 * t423;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t421 + A_ji_7 * t422 + A_ji_8 * t423;
+    jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t424 + f_i_in_j_1 * t425 + f_i_in_j_2 * t426);
+    jac_phi_q_v_velocity[19] = -(t424 * g_i_in_j_0 + t425 * g_i_in_j_1 + t426 * g_i_in_j_2);
+    jac_phi_q_v_velocity[20] = A_ji_6 * f_i_cross_f_j_in_j_0 + A_ji_7 * f_i_cross_f_j_in_j_1 + A_ji_8 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = C_j[7] * f_i_in_j_2 - f_i_in_j_1 * C_j[8];
-    jac_phi_q_v_velocity[40] = C_j[7] * g_i_in_j_2 - g_i_in_j_1 * C_j[8];
-    jac_phi_q_v_velocity[41] = -f_i_cross_f_j_in_j_0;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = A_ji_3 * s_j[2] - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = f_i_in_j_0 * C_j[8] - C_j[6] * f_i_in_j_2;
-    jac_phi_q_v_velocity[46] = g_i_in_j_0 * C_j[8] - C_j[6] * g_i_in_j_2;
-    jac_phi_q_v_velocity[47] = -f_i_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
-    jac_phi_q_v_velocity[50] = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = f_i_in_j_1 * C_j[6] - f_i_in_j_0 * C_j[7];
-    jac_phi_q_v_velocity[52] = g_i_in_j_1 * C_j[6] - g_i_in_j_0 * C_j[7];
-    jac_phi_q_v_velocity[53] = -f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[54] = -(A_ji_0 * f_i_in_j_0 + A_ji_1 * f_i_in_j_1 + A_ji_2 * f_i_in_j_2);
-    jac_phi_q_v_velocity[55] = -(A_ji_3 * f_i_in_j_0 + A_ji_4 * f_i_in_j_1 + A_ji_5 * f_i_in_j_2);
-    jac_phi_q_v_velocity[56] = -(A_ji_6 * f_i_in_j_0 + A_ji_7 * f_i_in_j_1 + A_ji_8 * f_i_in_j_2);
-    jac_phi_q_v_velocity[57] = -(A_ji_0 * g_i_in_j_0 + A_ji_1 * g_i_in_j_1 + A_ji_2 * g_i_in_j_2);
-    jac_phi_q_v_velocity[58] = -(A_ji_3 * g_i_in_j_0 + A_ji_4 * g_i_in_j_1 + A_ji_5 * g_i_in_j_2);
-    jac_phi_q_v_velocity[59] = -(A_ji_6 * g_i_in_j_0 + A_ji_7 * g_i_in_j_1 + A_ji_8 * g_i_in_j_2);
-    jac_phi_q_v_velocity[60] = sine_0;
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    jac_phi_q_v_velocity[34] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    jac_phi_q_v_velocity[35] = -f_i_cross_f_j_in_j_0;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = A_ji_3 * s_j[2] - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
+    jac_phi_q_v_velocity[40] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    jac_phi_q_v_velocity[41] = -f_i_cross_f_j_in_j_1;
+    jac_phi_q_v_velocity[42] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    jac_phi_q_v_velocity[44] = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[45] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
+    jac_phi_q_v_velocity[46] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    jac_phi_q_v_velocity[47] = -f_i_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[48] = -C_i[0];
+    jac_phi_q_v_velocity[49] = -C_i[1];
+    jac_phi_q_v_velocity[50] = -C_i[2];
+    jac_phi_q_v_velocity[51] = -C_i[3];
+    jac_phi_q_v_velocity[52] = -C_i[4];
+    jac_phi_q_v_velocity[53] = -C_i[5];
+    jac_phi_q_v_velocity[54] = sine_0;
 }
 
 static void jg_planar_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -2128,8 +2024,8 @@ int jac_jg_planar_parametric_table4_phi_q_v_external(const double **arg, double 
     double unwanted_2[9];
     double unwanted_3[54];
     double unwanted_4[1];
-    double unwanted_5[45];
-    double unwanted_6[61];
+    double unwanted_5[33];
+    double unwanted_6[55];
     (void)iw;
     (void)w;
     (void)mem;
@@ -2232,14 +2128,13 @@ const casadi_int *jac_jg_planar_parametric_table4_phi_q_v_external_sparsity_out(
         6, 3, 0, 0, 0, 1, 5
     };
     static const casadi_int pattern_5[] = {
-        6, 24, 0, 0, 0, 0, 5, 10, 15, 19, 23, 27, 27, 27, 27, 30, 33, 36, 37, 38, 39, 39, 39, 39, 41, 43, 45, 0, 1,
-        2, 3, 5, 0, 1, 2, 3, 5, 0, 1, 2, 3, 5, 0, 1, 2, 4, 0, 1, 2, 4, 0, 1, 2, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 5, 5,
-        5, 3, 4, 3, 4, 3, 4
+        6, 24, 0, 0, 0, 0, 3, 6, 9, 11, 13, 15, 15, 15, 15, 18, 21, 24, 25, 26, 27, 27, 27, 27, 29, 31, 33, 0, 3, 5,
+        1, 3, 5, 2, 3, 5, 0, 4, 1, 4, 2, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 5, 5, 5, 3, 4, 3, 4, 3, 4
     };
     static const casadi_int pattern_6[] = {
-        6, 15, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 57, 60, 61, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4,
-        5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
-        2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 5
+        6, 15, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 51, 54, 55, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4,
+        5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
+        2, 0, 1, 2, 5
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

@@ -228,7 +228,7 @@ static void jg_revolute_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRICT
     jac_phi_q_v_A_i[19] = C_i[2] * omega_j_cross_h_j_world_0 - (C_i[0] * t8 - C_i[1] * t17);
     jac_phi_q_v_A_i[20] = C_i[5] * omega_j_cross_h_j_world_0 - (C_i[3] * t8 - C_i[4] * t17);
     jac_phi_q_v_A_i[22] = C_i[2] * omega_j_cross_h_j_world_1 - (C_i[0] * t12 - C_i[1] * t18);
-    const jg_real t21 = omega_j[1] * s_j[2] - omega_j[2] * s_j[1];
+    const jg_real t21 = s_j[2] * omega_j[1] - s_j[1] * omega_j[2];
     const jg_real t22 = omega_j[0] * h_j_world_2 - C_j[6] * omega_j_world_2;
     const jg_real t23 = C_j[6] * omega_j_world_1 - omega_j[0] * h_j_world_1;
     const jg_real t24 = A_i[1] * t22 + A_i[2] * t23;

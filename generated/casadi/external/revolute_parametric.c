@@ -369,10 +369,12 @@ static void jg_revolute_parametric_phi_jacobian(const jg_real *JG_RESTRICT r_i, 
     jac_phi_geometry[35] = f_star_in_j_2;
 }
 
-static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
-    const jg_real *A_j, const jg_real *alpha, const jg_real *geometry, const jg_real *velocity,
-    jg_real *jac_phi_q_v_r_i, jg_real *jac_phi_q_v_A_i, jg_real *jac_phi_q_v_r_j, jg_real *jac_phi_q_v_A_j,
-    jg_real *jac_phi_q_v_alpha, jg_real *jac_phi_q_v_geometry, jg_real *jac_phi_q_v_velocity)
+static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
+    const jg_real *JG_RESTRICT r_j, const jg_real *JG_RESTRICT A_j, const jg_real *JG_RESTRICT alpha,
+    const jg_real *JG_RESTRICT geometry, const jg_real *JG_RESTRICT velocity, jg_real *JG_RESTRICT jac_phi_q_v_r_i,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_i, jg_real *JG_RESTRICT jac_phi_q_v_r_j,
+    jg_real *JG_RESTRICT jac_phi_q_v_A_j, jg_real *JG_RESTRICT jac_phi_q_v_alpha,
+    jg_real *JG_RESTRICT jac_phi_q_v_geometry, jg_real *JG_RESTRICT jac_phi_q_v_velocity)
 {
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
@@ -381,10 +383,10 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
     const jg_real alphadot = velocity[12];
-    const jg_real t0 = omega_i[2] * A_i[3] - A_i[6] * omega_i[1];
+    const jg_real t0 = A_i[3] * omega_i[2] - A_i[6] * omega_i[1];
     const jg_real t1 = A_i[6] * omega_i[0] - A_i[0] * omega_i[2];
     const jg_real t2 = A_i[0] * omega_i[1] - A_i[3] * omega_i[0];
-    const jg_real t3 = omega_i[2] * A_i[4] - A_i[7] * omega_i[1];
+    const jg_real t3 = A_i[4] * omega_i[2] - A_i[7] * omega_i[1];
     jac_phi_q_v_r_j[0] = t0;
     jac_phi_q_v_r_i[0] = -t0;
     jac_phi_q_v_r_j[1] = t1;
@@ -395,7 +397,7 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg
     jac_phi_q_v_r_i[3] = -t3;
     const jg_real t4 = A_i[7] * omega_i[0] - A_i[1] * omega_i[2];
     const jg_real t5 = A_i[1] * omega_i[1] - A_i[4] * omega_i[0];
-    const jg_real t6 = omega_i[2] * A_i[5] - A_i[8] * omega_i[1];
+    const jg_real t6 = A_i[5] * omega_i[2] - A_i[8] * omega_i[1];
     const jg_real t7 = A_i[8] * omega_i[0] - A_i[2] * omega_i[2];
     jac_phi_q_v_r_j[4] = t4;
     jac_phi_q_v_r_i[4] = -t4;
@@ -406,43 +408,50 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
+    const jg_real t15 = A_j[0] * v_2_in_j_0 + A_j[3] * v_2_in_j_1 + A_j[6] * v_2_in_j_2;
     /* A_ji = turns i axes to j axes */
     const jg_real A_ji_7 = A_j[3] * A_i[6] + A_j[4] * A_i[7] + A_j[5] * A_i[8];
     const jg_real A_ji_8 = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real t11 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
-    const jg_real A_ji_6 = A_i[6] * A_j[0] + A_i[7] * A_j[1] + A_i[8] * A_j[2];
-    const jg_real t13 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t14 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t15 = s_j[0] * t11 + s_j[1] * t13 + s_j[2] * t14;
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_0_in_j = v_j - s_j x omega_j, axes of body j */
-    const jg_real v_0_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real v_0_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
-    const jg_real t22 = A_j[0] * v_0_in_j_0 + A_j[3] * v_0_in_j_1 + A_j[6] * v_0_in_j_2;
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
-    const jg_real t24 = omega_i[2] * v_1_world_0;
-    const jg_real t25 = A_j[3] * s_j[1] + s_j[0] * A_j[0] + A_j[6] * s_j[2];
+    const jg_real t18 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real A_ji_6 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
+    const jg_real t20 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t21 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    const jg_real t24 = omega_i[2] * e_ij_world_0;
     jac_phi_q_v_r_j[8] = t8;
     jac_phi_q_v_r_i[8] = -t8;
+    jac_phi_q_v_A_i[0] = t15;
+    jac_phi_q_v_A_i[26] = t15;
     jac_phi_q_v_velocity[23] = A_ji_7;
     jac_phi_q_v_velocity[26] = A_ji_8;
     jac_phi_q_v_velocity[20] = A_ji_6;
-    jac_phi_q_v_A_i[0] = t22 + omega_i[2] * t15;
     jac_phi_q_v_A_i[18] = t24;
-    jac_phi_q_v_A_i[1] = v_0_in_j_0 * t11 + v_0_in_j_1 * t13 + v_0_in_j_2 * t14 - t24 - omega_i[2] * t25;
-    const jg_real t26 = omega_i[1] * t25;
-    const jg_real t27 = omega_i[1] * v_1_world_0;
+    const jg_real t25 = omega_i[1] * e_ij_world_0;
     const jg_real A_ji_2 = A_i[0] * A_j[6] + A_i[1] * A_j[7] + A_i[2] * A_j[8];
     const jg_real A_ji_1 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
     const jg_real A_ji_3 = A_ji_2 * A_ji_7 - A_ji_1 * A_ji_8;
-    const jg_real A_ji_0 = A_i[0] * A_j[0] + A_i[1] * A_j[1] + A_i[2] * A_j[2];
-    const jg_real A_ji_4 = A_ji_8 * A_ji_0 - A_ji_2 * A_ji_6;
-    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_7 * A_ji_0;
+    const jg_real A_ji_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_2 * A_ji_6;
+    const jg_real A_ji_5 = A_ji_1 * A_ji_6 - A_ji_0 * A_ji_7;
+    jac_phi_q_v_A_i[1] = v_2_in_j_0 * t18 + v_2_in_j_1 * t20 + v_2_in_j_2 * t21 - t24;
+    jac_phi_q_v_A_i[2] = t25;
+    jac_phi_q_v_velocity[24] = A_ji_2;
+    jac_phi_q_v_velocity[21] = A_ji_1;
+    jac_phi_q_v_velocity[19] = A_ji_3;
+    jac_phi_q_v_velocity[18] = A_ji_0;
+    jac_phi_q_v_velocity[22] = A_ji_4;
+    jac_phi_q_v_velocity[25] = A_ji_5;
     /* g_j_in_i = g_j, axes of body i */
     const jg_real g_j_in_i_1 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
     const jg_real g_j_in_i_0 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
@@ -455,33 +464,33 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg
     const jg_real g_j_in_joint_i_1 = C_i[4] * g_j_in_i_1 + C_i[3] * g_j_in_i_0 + C_i[5] * g_j_in_i_2;
     /* f_star_dot_g_j = f_star . g_j */
     const jg_real f_star_dot_g_j = g_j_in_joint_i_0 * cosine_0 + g_j_in_joint_i_1 * sine_0;
-    const jg_real t42 = t11 * C_j[6] + t13 * C_j[7] + t14 * C_j[8];
-    const jg_real t43 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
-    const jg_real t44 = t42 * C_i[7] + C_i[6] * t43;
+    const jg_real t40 = C_j[6] * t18 + C_j[7] * t20 + C_j[8] * t21;
+    const jg_real t41 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
+    const jg_real t42 = C_i[6] * t41 + C_i[7] * t40;
     /* h_j_in_i = h_j, axes of body i */
-    const jg_real h_j_in_i_1 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    const jg_real h_j_in_i_1 = C_j[6] * A_ji_3 + C_j[7] * A_ji_4 + C_j[8] * A_ji_5;
     const jg_real h_j_in_i_0 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    const jg_real h_j_in_i_2 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    const jg_real h_j_in_i_2 = C_j[6] * A_ji_6 + C_j[7] * A_ji_7 + C_j[8] * A_ji_8;
     /* h_j_in_joint_i = h_j, axes of joint i */
-    const jg_real h_j_in_joint_i_2 = h_j_in_i_1 * C_i[7] + C_i[6] * h_j_in_i_0 + C_i[8] * h_j_in_i_2;
-    const jg_real t49 = t11 * C_j[3] + t13 * C_j[4] + t14 * C_j[5];
-    const jg_real t50 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
-    const jg_real t51 = C_i[1] * t49 + C_i[0] * t50;
-    const jg_real t52 = C_i[4] * t49 + C_i[3] * t50;
+    const jg_real h_j_in_joint_i_2 = C_i[6] * h_j_in_i_0 + C_i[7] * h_j_in_i_1 + C_i[8] * h_j_in_i_2;
+    const jg_real t47 = t18 * C_j[3] + t20 * C_j[4] + t21 * C_j[5];
+    const jg_real t48 = A_j[0] * C_j[3] + A_j[3] * C_j[4] + A_j[6] * C_j[5];
+    const jg_real t49 = C_i[1] * t47 + C_i[0] * t48;
+    const jg_real t50 = C_i[4] * t47 + C_i[3] * t48;
     const jg_real g_j_in_joint_i_2 = C_i[7] * g_j_in_i_1 + C_i[6] * g_j_in_i_0 + C_i[8] * g_j_in_i_2;
-    const jg_real t54 = C_i[1] * t42 + C_i[0] * t43;
-    const jg_real t55 = t42 * C_i[4] + C_i[3] * t43;
-    const jg_real t56 = t54 * cosine_0 + t55 * sine_0;
-    const jg_real h_j_in_joint_i_0 = C_i[1] * h_j_in_i_1 + C_i[0] * h_j_in_i_0 + C_i[2] * h_j_in_i_2;
-    const jg_real h_j_in_joint_i_1 = h_j_in_i_1 * C_i[4] + C_i[3] * h_j_in_i_0 + C_i[5] * h_j_in_i_2;
+    const jg_real t52 = C_i[0] * t41 + C_i[1] * t40;
+    const jg_real t53 = C_i[3] * t41 + C_i[4] * t40;
+    const jg_real t54 = t52 * cosine_0 + t53 * sine_0;
+    const jg_real h_j_in_joint_i_0 = C_i[0] * h_j_in_i_0 + C_i[1] * h_j_in_i_1 + C_i[2] * h_j_in_i_2;
+    const jg_real h_j_in_joint_i_1 = C_i[3] * h_j_in_i_0 + C_i[4] * h_j_in_i_1 + C_i[5] * h_j_in_i_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = h_j_in_joint_i_0 * cosine_0 + h_j_in_joint_i_1 * sine_0;
-    const jg_real t60 = C_i[7] * t49 + C_i[6] * t50;
-    const jg_real t61 = t44 * f_star_dot_g_j + h_j_in_joint_i_2 * (t51 * cosine_0 + t52 * sine_0) -
-        (g_j_in_joint_i_2 * t56 + t60 * f_star_dot_h_j);
+    const jg_real t58 = C_i[7] * t47 + C_i[6] * t48;
+    const jg_real t59 = t42 * f_star_dot_g_j + h_j_in_joint_i_2 * (t49 * cosine_0 + t50 * sine_0) -
+        (g_j_in_joint_i_2 * t54 + t58 * f_star_dot_h_j);
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
-    const jg_real t63 = t52 * cosine_0 - t51 * sine_0;
+    const jg_real t61 = t50 * cosine_0 - t49 * sine_0;
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     /* omega_i_in_joint_i = omega_i, axes of joint i */
     const jg_real omega_i_in_joint_i_2 = omega_i[0] * C_i[6] + omega_i[1] * C_i[7] + omega_i[2] * C_i[8];
@@ -489,697 +498,680 @@ static void jg_revolute_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg
     const jg_real omega_i_in_joint_i_1 = omega_i[0] * C_i[3] + omega_i[1] * C_i[4] + omega_i[2] * C_i[5];
     /* omega_i_in_star = omega_i, axes of body star */
     const jg_real omega_i_in_star_0 = omega_i_in_joint_i_0 * cosine_0 + omega_i_in_joint_i_1 * sine_0;
-    jac_phi_q_v_A_i[2] = t26 - omega_i[0] * t15 + t27;
-    jac_phi_q_v_velocity[24] = A_ji_2;
-    jac_phi_q_v_velocity[21] = A_ji_1;
-    jac_phi_q_v_velocity[19] = A_ji_3;
-    jac_phi_q_v_velocity[18] = A_ji_0;
-    jac_phi_q_v_velocity[22] = A_ji_4;
-    jac_phi_q_v_velocity[25] = A_ji_5;
-    jac_phi_q_v_A_i[3] = t44 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t56 - alphadot * t56 -
-        (omega_j_in_joint_j_0 * t63 + omega_j_in_joint_j_1 * t61);
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = g_j_in_joint_i_1 * cosine_0 - g_j_in_joint_i_0 * sine_0;
     /* g_star_dot_h_j = g_star . h_j */
     const jg_real g_star_dot_h_j = h_j_in_joint_i_1 * cosine_0 - h_j_in_joint_i_0 * sine_0;
-    const jg_real t71 = t44 * g_star_dot_g_j + h_j_in_joint_i_2 * t63 - (g_j_in_joint_i_2 * (t55 * cosine_0 - t54 *
-        sine_0) + t60 * g_star_dot_h_j);
+    const jg_real t69 = t42 * g_star_dot_g_j + h_j_in_joint_i_2 * t61 - (g_j_in_joint_i_2 * (t53 * cosine_0 - t52 *
+        sine_0) + t58 * g_star_dot_h_j);
     const jg_real omega_i_in_star_1 = omega_i_in_joint_i_1 * cosine_0 - omega_i_in_joint_i_0 * sine_0;
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
-    const jg_real t74 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t75 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t76 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t77 = s_j[0] * t74 + s_j[1] * t75 + s_j[2] * t76;
-    const jg_real t78 = A_j[1] * v_0_in_j_0 + A_j[4] * v_0_in_j_1 + A_j[7] * v_0_in_j_2;
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real t80 = omega_i[2] * v_1_world_1;
-    const jg_real t81 = A_j[4] * s_j[1] + s_j[0] * A_j[1] + A_j[7] * s_j[2];
-    const jg_real t82 = omega_i[1] * t81;
-    const jg_real t83 = omega_i[1] * v_1_world_1;
-    const jg_real t84 = t74 * C_j[6] + t75 * C_j[7] + t76 * C_j[8];
-    const jg_real t85 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
-    const jg_real t86 = t84 * C_i[7] + C_i[6] * t85;
-    const jg_real t87 = t74 * C_j[3] + t75 * C_j[4] + t76 * C_j[5];
-    const jg_real t88 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
-    const jg_real t89 = C_i[1] * t87 + C_i[0] * t88;
-    const jg_real t90 = C_i[4] * t87 + C_i[3] * t88;
-    const jg_real t91 = C_i[1] * t84 + C_i[0] * t85;
-    const jg_real t92 = t84 * C_i[4] + C_i[3] * t85;
-    const jg_real t93 = t91 * cosine_0 + t92 * sine_0;
-    const jg_real t94 = C_i[7] * t87 + C_i[6] * t88;
-    const jg_real t95 = t86 * f_star_dot_g_j + h_j_in_joint_i_2 * (t89 * cosine_0 + t90 * sine_0) -
-        (g_j_in_joint_i_2 * t93 + t94 * f_star_dot_h_j);
-    const jg_real t96 = t90 * cosine_0 - t89 * sine_0;
+    const jg_real t72 = A_j[1] * v_2_in_j_0 + A_j[4] * v_2_in_j_1 + A_j[7] * v_2_in_j_2;
+    const jg_real t73 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t74 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t75 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real t78 = omega_i[2] * e_ij_world_1;
+    jac_phi_q_v_A_i[3] = t42 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t54 - alphadot * t54 -
+        (omega_j_in_joint_j_0 * t61 + omega_j_in_joint_j_1 * t59);
     jac_phi_q_v_velocity[46] = g_star_dot_g_j;
-    jac_phi_q_v_A_i[4] = omega_i_in_star_0 * t61 + omega_i_in_star_1 * t71 - (t44 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t60);
-    jac_phi_q_v_A_i[5] = omega_i_in_joint_i_2 * t63 - t60 * omega_i_in_star_1 + alphadot * t63 -
-        (omega_j_in_joint_j_2 * t71 - omega_j_in_joint_j_0 * t56);
-    jac_phi_q_v_A_i[6] = t78 + omega_i[2] * t77;
-    jac_phi_q_v_A_i[20] = t80;
-    jac_phi_q_v_A_i[7] = v_0_in_j_0 * t74 + v_0_in_j_1 * t75 + v_0_in_j_2 * t76 - t80 - omega_i[2] * t81;
-    jac_phi_q_v_A_i[8] = t82 - omega_i[0] * t77 + t83;
-    jac_phi_q_v_A_i[9] = t86 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t93 - alphadot * t93 -
-        (omega_j_in_joint_j_0 * t96 + omega_j_in_joint_j_1 * t95);
-    const jg_real t97 = t86 * g_star_dot_g_j + h_j_in_joint_i_2 * t96 - (g_j_in_joint_i_2 * (t92 * cosine_0 - t91 *
-        sine_0) + t94 * g_star_dot_h_j);
-    const jg_real t98 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t99 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t100 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t101 = s_j[0] * t98 + s_j[1] * t99 + s_j[2] * t100;
-    const jg_real t102 = A_j[2] * v_0_in_j_0 + A_j[5] * v_0_in_j_1 + A_j[8] * v_0_in_j_2;
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    const jg_real t104 = omega_i[2] * v_1_world_2;
-    const jg_real t105 = A_j[5] * s_j[1] + s_j[0] * A_j[2] + A_j[8] * s_j[2];
-    const jg_real t106 = omega_i[1] * t105;
-    const jg_real t107 = omega_i[1] * v_1_world_2;
-    const jg_real t108 = t98 * C_j[6] + t99 * C_j[7] + t100 * C_j[8];
-    const jg_real t109 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
-    const jg_real t110 = t108 * C_i[7] + C_i[6] * t109;
-    const jg_real t111 = t98 * C_j[3] + t99 * C_j[4] + t100 * C_j[5];
-    const jg_real t112 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
-    const jg_real t113 = C_i[1] * t111 + C_i[0] * t112;
-    const jg_real t114 = C_i[4] * t111 + C_i[3] * t112;
-    const jg_real t115 = C_i[1] * t108 + C_i[0] * t109;
-    const jg_real t116 = t108 * C_i[4] + C_i[3] * t109;
-    const jg_real t117 = t115 * cosine_0 + t116 * sine_0;
-    const jg_real t118 = C_i[7] * t111 + C_i[6] * t112;
-    const jg_real t119 = t110 * f_star_dot_g_j + h_j_in_joint_i_2 * (t113 * cosine_0 + t114 * sine_0) -
-        (g_j_in_joint_i_2 * t117 + t118 * f_star_dot_h_j);
-    const jg_real t120 = t114 * cosine_0 - t113 * sine_0;
-    const jg_real t121 = t110 * g_star_dot_g_j + h_j_in_joint_i_2 * t120 - (g_j_in_joint_i_2 * (t116 * cosine_0 -
-        t115 * sine_0) + t118 * g_star_dot_h_j);
-    jac_phi_q_v_A_i[10] = omega_i_in_star_0 * t95 + omega_i_in_star_1 * t97 - (t86 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t94);
-    jac_phi_q_v_A_i[11] = omega_i_in_joint_i_2 * t96 - t94 * omega_i_in_star_1 + alphadot * t96 -
-        (omega_j_in_joint_j_2 * t97 - omega_j_in_joint_j_0 * t93);
-    jac_phi_q_v_A_i[12] = t102 + omega_i[2] * t101;
-    jac_phi_q_v_A_i[22] = t104;
-    jac_phi_q_v_A_i[13] = v_0_in_j_0 * t98 + v_0_in_j_1 * t99 + v_0_in_j_2 * t100 - t104 - omega_i[2] * t105;
-    jac_phi_q_v_A_i[14] = t106 - omega_i[0] * t101 + t107;
-    jac_phi_q_v_A_i[15] = t110 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t117 - alphadot * t117 -
-        (omega_j_in_joint_j_0 * t120 + omega_j_in_joint_j_1 * t119);
-    jac_phi_q_v_A_i[16] = omega_i_in_star_0 * t119 + omega_i_in_star_1 * t121 - (t110 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t118);
-    const jg_real t122 = v_1_world_0 * omega_i[0];
-    const jg_real t123 = v_1_world_1 * omega_i[0];
-    const jg_real t124 = v_1_world_2 * omega_i[0];
-    const jg_real t125 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t126 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t127 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t128 = s_j[0] * t125 + s_j[1] * t126 + s_j[2] * t127;
-    const jg_real t129 = t125 * C_j[6] + t126 * C_j[7] + t127 * C_j[8];
-    const jg_real t130 = t129 * C_i[7] + t43 * C_i[8];
-    const jg_real t131 = t125 * C_j[3] + t126 * C_j[4] + t127 * C_j[5];
-    const jg_real t132 = C_i[1] * t131 + C_i[2] * t50;
-    const jg_real t133 = C_i[4] * t131 + C_i[5] * t50;
-    const jg_real t134 = C_i[1] * t129 + C_i[2] * t43;
-    const jg_real t135 = t129 * C_i[4] + C_i[5] * t43;
-    const jg_real t136 = t134 * cosine_0 + t135 * sine_0;
-    const jg_real t137 = C_i[7] * t131 + C_i[8] * t50;
-    const jg_real t138 = t130 * f_star_dot_g_j + h_j_in_joint_i_2 * (t132 * cosine_0 + t133 * sine_0) -
-        (g_j_in_joint_i_2 * t136 + t137 * f_star_dot_h_j);
-    const jg_real t139 = t133 * cosine_0 - t132 * sine_0;
-    jac_phi_q_v_A_i[17] = omega_i_in_joint_i_2 * t120 - t118 * omega_i_in_star_1 + alphadot * t120 -
-        (omega_j_in_joint_j_2 * t121 - omega_j_in_joint_j_0 * t117);
-    jac_phi_q_v_A_i[19] = -t122;
-    jac_phi_q_v_A_i[21] = -t123;
-    jac_phi_q_v_A_i[23] = -t124;
-    jac_phi_q_v_A_i[24] = omega_i[2] * t128 - t26 - t27;
-    jac_phi_q_v_A_i[25] = v_0_in_j_0 * t125 + v_0_in_j_1 * t126 + v_0_in_j_2 * t127 + t122 + omega_i[0] * t25;
-    jac_phi_q_v_A_i[26] = t22 - omega_i[0] * t128;
-    jac_phi_q_v_A_i[27] = t130 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t136 - alphadot * t136 -
-        (omega_j_in_joint_j_0 * t139 + omega_j_in_joint_j_1 * t138);
-    const jg_real t140 = t130 * g_star_dot_g_j + h_j_in_joint_i_2 * t139 - (g_j_in_joint_i_2 * (t135 * cosine_0 -
-        t134 * sine_0) + t137 * g_star_dot_h_j);
-    const jg_real t141 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t142 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t143 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t144 = s_j[0] * t141 + s_j[1] * t142 + s_j[2] * t143;
-    const jg_real t145 = t141 * C_j[6] + t142 * C_j[7] + t143 * C_j[8];
-    const jg_real t146 = t145 * C_i[7] + t85 * C_i[8];
-    const jg_real t147 = t141 * C_j[3] + t142 * C_j[4] + t143 * C_j[5];
-    const jg_real t148 = C_i[1] * t147 + C_i[2] * t88;
-    const jg_real t149 = C_i[4] * t147 + C_i[5] * t88;
-    const jg_real t150 = C_i[1] * t145 + C_i[2] * t85;
-    const jg_real t151 = t145 * C_i[4] + C_i[5] * t85;
-    const jg_real t152 = t150 * cosine_0 + t151 * sine_0;
-    const jg_real t153 = C_i[7] * t147 + C_i[8] * t88;
-    const jg_real t154 = t146 * f_star_dot_g_j + h_j_in_joint_i_2 * (t148 * cosine_0 + t149 * sine_0) -
-        (g_j_in_joint_i_2 * t152 + t153 * f_star_dot_h_j);
-    const jg_real t155 = t149 * cosine_0 - t148 * sine_0;
-    const jg_real t156 = t146 * g_star_dot_g_j + h_j_in_joint_i_2 * t155 - (g_j_in_joint_i_2 * (t151 * cosine_0 -
-        t150 * sine_0) + t153 * g_star_dot_h_j);
-    jac_phi_q_v_A_i[28] = omega_i_in_star_0 * t138 + omega_i_in_star_1 * t140 - (t130 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t137);
-    jac_phi_q_v_A_i[29] = omega_i_in_joint_i_2 * t139 - t137 * omega_i_in_star_1 + alphadot * t139 -
-        (omega_j_in_joint_j_2 * t140 - omega_j_in_joint_j_0 * t136);
-    jac_phi_q_v_A_i[30] = omega_i[2] * t144 - t82 - t83;
-    jac_phi_q_v_A_i[31] = v_0_in_j_0 * t141 + v_0_in_j_1 * t142 + v_0_in_j_2 * t143 + t123 + omega_i[0] * t81;
-    jac_phi_q_v_A_i[32] = t78 - omega_i[0] * t144;
-    jac_phi_q_v_A_i[33] = t146 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t152 - alphadot * t152 -
-        (omega_j_in_joint_j_0 * t155 + omega_j_in_joint_j_1 * t154);
-    jac_phi_q_v_A_i[34] = omega_i_in_star_0 * t154 + omega_i_in_star_1 * t156 - (t146 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t153);
-    jac_phi_q_v_A_i[35] = omega_i_in_joint_i_2 * t155 - t153 * omega_i_in_star_1 + alphadot * t155 -
-        (omega_j_in_joint_j_2 * t156 - omega_j_in_joint_j_0 * t152);
-    const jg_real t157 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t158 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t159 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t160 = s_j[0] * t157 + s_j[1] * t158 + s_j[2] * t159;
-    const jg_real t161 = t157 * C_j[6] + t158 * C_j[7] + t159 * C_j[8];
-    const jg_real t162 = t161 * C_i[7] + t109 * C_i[8];
-    const jg_real t163 = t157 * C_j[3] + t158 * C_j[4] + t159 * C_j[5];
-    const jg_real t164 = C_i[1] * t163 + C_i[2] * t112;
-    const jg_real t165 = C_i[4] * t163 + C_i[5] * t112;
-    const jg_real t166 = C_i[1] * t161 + C_i[2] * t109;
-    const jg_real t167 = t161 * C_i[4] + C_i[5] * t109;
-    const jg_real t168 = t166 * cosine_0 + t167 * sine_0;
-    const jg_real t169 = C_i[7] * t163 + C_i[8] * t112;
-    const jg_real t170 = t162 * f_star_dot_g_j + h_j_in_joint_i_2 * (t164 * cosine_0 + t165 * sine_0) -
-        (g_j_in_joint_i_2 * t168 + t169 * f_star_dot_h_j);
-    const jg_real t171 = t165 * cosine_0 - t164 * sine_0;
-    const jg_real t172 = t162 * g_star_dot_g_j + h_j_in_joint_i_2 * t171 - (g_j_in_joint_i_2 * (t167 * cosine_0 -
-        t166 * sine_0) + t169 * g_star_dot_h_j);
-    const jg_real t173 = A_i[6] * A_ji_2 - A_i[0] * A_ji_8;
-    const jg_real t174 = A_i[0] * A_ji_7 - A_i[6] * A_ji_1;
-    const jg_real t175 = s_j[1] * t173 + s_j[2] * t174;
-    const jg_real t176 = A_i[6] * s_j[0];
-    const jg_real t177 = A_i[0] * s_j[0];
-    jac_phi_q_v_A_i[36] = omega_i[2] * t160 - t106 - t107;
-    jac_phi_q_v_A_i[37] = v_0_in_j_0 * t157 + v_0_in_j_1 * t158 + v_0_in_j_2 * t159 + t124 + omega_i[0] * t105;
-    jac_phi_q_v_A_i[38] = t102 - omega_i[0] * t160;
-    jac_phi_q_v_A_i[39] = t162 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t168 - alphadot * t168 -
-        (omega_j_in_joint_j_0 * t171 + omega_j_in_joint_j_1 * t170);
-    jac_phi_q_v_A_i[40] = omega_i_in_star_0 * t170 + omega_i_in_star_1 * t172 - (t162 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t169);
-    jac_phi_q_v_A_i[41] = omega_i_in_joint_i_2 * t171 - t169 * omega_i_in_star_1 + alphadot * t171 -
-        (omega_j_in_joint_j_2 * t172 - omega_j_in_joint_j_0 * t168);
-    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_0 - (omega_i[1] * t176 + omega_i[2] * t175);
-    jac_phi_q_v_A_j[1] = omega_i[0] * t176 - omega_i[2] * t177 - (v_0_in_j_1 * t173 + v_0_in_j_2 * t174);
-    const jg_real t178 = t173 * C_j[7] + t174 * C_j[8];
-    const jg_real t179 = A_i[0] * C_j[6];
-    const jg_real t180 = A_i[6] * C_j[6];
-    const jg_real t181 = t179 * C_i[6] - t178 * C_i[7] + t180 * C_i[8];
-    const jg_real t182 = t173 * C_j[4] + t174 * C_j[5];
-    const jg_real t183 = A_i[0] * C_j[3];
-    const jg_real t184 = A_i[6] * C_j[3];
-    const jg_real t185 = C_i[0] * t183 - C_i[1] * t182 + C_i[2] * t184;
-    const jg_real t186 = C_i[3] * t183 - C_i[4] * t182 + C_i[5] * t184;
-    const jg_real t187 = t179 * C_i[0] - C_i[1] * t178 + t180 * C_i[2];
-    const jg_real t188 = t179 * C_i[3] - t178 * C_i[4] + t180 * C_i[5];
-    const jg_real t189 = t187 * cosine_0 + t188 * sine_0;
-    const jg_real t190 = C_i[6] * t183 - C_i[7] * t182 + C_i[8] * t184;
-    const jg_real t191 = t181 * f_star_dot_g_j + h_j_in_joint_i_2 * (t185 * cosine_0 + t186 * sine_0) -
-        (g_j_in_joint_i_2 * t189 + t190 * f_star_dot_h_j);
-    const jg_real t192 = t186 * cosine_0 - t185 * sine_0;
-    const jg_real t193 = t181 * g_star_dot_g_j + h_j_in_joint_i_2 * t192 - (g_j_in_joint_i_2 * (t188 * cosine_0 -
-        t187 * sine_0) + t190 * g_star_dot_h_j);
-    const jg_real t194 = A_i[7] * A_ji_2 - A_i[1] * A_ji_8;
-    const jg_real t195 = A_i[1] * A_ji_7 - A_i[7] * A_ji_1;
-    const jg_real t196 = s_j[1] * t194 + s_j[2] * t195;
-    const jg_real t197 = A_i[7] * s_j[0];
-    const jg_real t198 = A_i[1] * s_j[0];
-    const jg_real t199 = t194 * C_j[7] + t195 * C_j[8];
-    const jg_real t200 = A_i[1] * C_j[6];
-    const jg_real t201 = A_i[7] * C_j[6];
-    const jg_real t202 = t200 * C_i[6] - t199 * C_i[7] + t201 * C_i[8];
-    const jg_real t203 = t194 * C_j[4] + t195 * C_j[5];
-    const jg_real t204 = A_i[1] * C_j[3];
-    const jg_real t205 = A_i[7] * C_j[3];
-    const jg_real t206 = C_i[0] * t204 - C_i[1] * t203 + C_i[2] * t205;
-    const jg_real t207 = C_i[3] * t204 - C_i[4] * t203 + C_i[5] * t205;
-    const jg_real t208 = t200 * C_i[0] - C_i[1] * t199 + t201 * C_i[2];
-    const jg_real t209 = t200 * C_i[3] - t199 * C_i[4] + t201 * C_i[5];
-    const jg_real t210 = t208 * cosine_0 + t209 * sine_0;
-    const jg_real t211 = C_i[6] * t204 - C_i[7] * t203 + C_i[8] * t205;
-    const jg_real t212 = t202 * f_star_dot_g_j + h_j_in_joint_i_2 * (t206 * cosine_0 + t207 * sine_0) -
-        (g_j_in_joint_i_2 * t210 + t211 * f_star_dot_h_j);
-    const jg_real t213 = t207 * cosine_0 - t206 * sine_0;
-    jac_phi_q_v_A_j[2] = omega_i[0] * t175 + omega_i[1] * t177 + A_i[6] * v_0_in_j_0;
-    jac_phi_q_v_A_j[3] = t181 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t189 - alphadot * t189 -
-        (omega_j_in_joint_j_0 * t192 + omega_j_in_joint_j_1 * t191);
-    jac_phi_q_v_A_j[4] = omega_i_in_star_0 * t191 + omega_i_in_star_1 * t193 - (t181 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t190);
-    jac_phi_q_v_A_j[5] = omega_i_in_joint_i_2 * t192 - t190 * omega_i_in_star_1 + alphadot * t192 -
-        (omega_j_in_joint_j_2 * t193 - omega_j_in_joint_j_0 * t189);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_0 - (omega_i[1] * t197 + omega_i[2] * t196);
-    jac_phi_q_v_A_j[7] = omega_i[0] * t197 - omega_i[2] * t198 - (v_0_in_j_1 * t194 + v_0_in_j_2 * t195);
-    jac_phi_q_v_A_j[8] = omega_i[0] * t196 + omega_i[1] * t198 + A_i[7] * v_0_in_j_0;
-    jac_phi_q_v_A_j[9] = t202 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t210 - alphadot * t210 -
-        (omega_j_in_joint_j_0 * t213 + omega_j_in_joint_j_1 * t212);
-    const jg_real t214 = t202 * g_star_dot_g_j + h_j_in_joint_i_2 * t213 - (g_j_in_joint_i_2 * (t209 * cosine_0 -
-        t208 * sine_0) + t211 * g_star_dot_h_j);
-    const jg_real t215 = A_i[8] * A_ji_2 - A_i[2] * A_ji_8;
-    const jg_real t216 = A_i[2] * A_ji_7 - A_i[8] * A_ji_1;
-    const jg_real t217 = s_j[1] * t215 + s_j[2] * t216;
-    const jg_real t218 = A_i[8] * s_j[0];
-    const jg_real t219 = A_i[2] * s_j[0];
-    const jg_real t220 = t215 * C_j[7] + t216 * C_j[8];
-    const jg_real t221 = A_i[2] * C_j[6];
-    const jg_real t222 = A_i[8] * C_j[6];
-    const jg_real t223 = t221 * C_i[6] - t220 * C_i[7] + t222 * C_i[8];
-    const jg_real t224 = t215 * C_j[4] + t216 * C_j[5];
-    const jg_real t225 = A_i[2] * C_j[3];
-    const jg_real t226 = A_i[8] * C_j[3];
-    const jg_real t227 = C_i[0] * t225 - C_i[1] * t224 + C_i[2] * t226;
-    const jg_real t228 = C_i[3] * t225 - C_i[4] * t224 + C_i[5] * t226;
-    const jg_real t229 = t221 * C_i[0] - C_i[1] * t220 + t222 * C_i[2];
-    const jg_real t230 = t221 * C_i[3] - t220 * C_i[4] + t222 * C_i[5];
-    const jg_real t231 = t229 * cosine_0 + t230 * sine_0;
-    const jg_real t232 = C_i[6] * t225 - C_i[7] * t224 + C_i[8] * t226;
-    const jg_real t233 = t223 * f_star_dot_g_j + h_j_in_joint_i_2 * (t227 * cosine_0 + t228 * sine_0) -
-        (g_j_in_joint_i_2 * t231 + t232 * f_star_dot_h_j);
-    const jg_real t234 = t228 * cosine_0 - t227 * sine_0;
-    const jg_real t235 = t223 * g_star_dot_g_j + h_j_in_joint_i_2 * t234 - (g_j_in_joint_i_2 * (t230 * cosine_0 -
-        t229 * sine_0) + t232 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[10] = omega_i_in_star_0 * t212 + omega_i_in_star_1 * t214 - (t202 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t211);
-    jac_phi_q_v_A_j[11] = omega_i_in_joint_i_2 * t213 - t211 * omega_i_in_star_1 + alphadot * t213 -
-        (omega_j_in_joint_j_2 * t214 - omega_j_in_joint_j_0 * t210);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_0 - (omega_i[1] * t218 + omega_i[2] * t217);
-    jac_phi_q_v_A_j[13] = omega_i[0] * t218 - omega_i[2] * t219 - (v_0_in_j_1 * t215 + v_0_in_j_2 * t216);
-    jac_phi_q_v_A_j[14] = omega_i[0] * t217 + omega_i[1] * t219 + A_i[8] * v_0_in_j_0;
-    jac_phi_q_v_A_j[15] = t223 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t231 - alphadot * t231 -
-        (omega_j_in_joint_j_0 * t234 + omega_j_in_joint_j_1 * t233);
-    jac_phi_q_v_A_j[16] = omega_i_in_star_0 * t233 + omega_i_in_star_1 * t235 - (t223 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t232);
-    jac_phi_q_v_A_j[17] = omega_i_in_joint_i_2 * t234 - t232 * omega_i_in_star_1 + alphadot * t234 -
-        (omega_j_in_joint_j_2 * t235 - omega_j_in_joint_j_0 * t231);
-    const jg_real t236 = A_i[6] * A_ji_0 - A_i[0] * A_ji_6;
-    const jg_real t237 = s_j[0] * t173 - s_j[2] * t236;
-    const jg_real t238 = A_i[6] * s_j[1];
-    const jg_real t239 = A_i[0] * s_j[1];
-    const jg_real t240 = t173 * C_j[6] - t236 * C_j[8];
-    const jg_real t241 = A_i[0] * C_j[7];
-    const jg_real t242 = A_i[6] * C_j[7];
-    const jg_real t243 = t240 * C_i[7] + t241 * C_i[6] + t242 * C_i[8];
-    const jg_real t244 = t173 * C_j[3] - t236 * C_j[5];
-    const jg_real t245 = A_i[0] * C_j[4];
-    const jg_real t246 = A_i[6] * C_j[4];
-    const jg_real t247 = C_i[1] * t244 + C_i[0] * t245 + C_i[2] * t246;
-    const jg_real t248 = C_i[4] * t244 + C_i[3] * t245 + C_i[5] * t246;
-    const jg_real t249 = C_i[1] * t240 + t241 * C_i[0] + t242 * C_i[2];
-    const jg_real t250 = t240 * C_i[4] + t241 * C_i[3] + t242 * C_i[5];
-    const jg_real t251 = t249 * cosine_0 + t250 * sine_0;
-    const jg_real t252 = C_i[7] * t244 + C_i[6] * t245 + C_i[8] * t246;
-    const jg_real t253 = t243 * f_star_dot_g_j + h_j_in_joint_i_2 * (t247 * cosine_0 + t248 * sine_0) -
-        (g_j_in_joint_i_2 * t251 + t252 * f_star_dot_h_j);
-    const jg_real t254 = t248 * cosine_0 - t247 * sine_0;
-    const jg_real t255 = t243 * g_star_dot_g_j + h_j_in_joint_i_2 * t254 - (g_j_in_joint_i_2 * (t250 * cosine_0 -
-        t249 * sine_0) + t252 * g_star_dot_h_j);
-    const jg_real t256 = A_i[7] * A_ji_0 - A_i[1] * A_ji_6;
-    const jg_real t257 = s_j[0] * t194 - s_j[2] * t256;
-    const jg_real t258 = A_i[7] * s_j[1];
-    const jg_real t259 = A_i[1] * s_j[1];
-    jac_phi_q_v_A_j[18] = omega_i[2] * t237 - omega_i[1] * t238 + A_i[0] * v_0_in_j_1;
-    jac_phi_q_v_A_j[19] = v_0_in_j_0 * t173 - v_0_in_j_2 * t236 + (t238 * omega_i[0] - omega_i[2] * t239);
-    jac_phi_q_v_A_j[20] = omega_i[1] * t239 - omega_i[0] * t237 + A_i[6] * v_0_in_j_1;
-    jac_phi_q_v_A_j[21] = t243 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t251 - alphadot * t251 -
-        (omega_j_in_joint_j_0 * t254 + omega_j_in_joint_j_1 * t253);
-    jac_phi_q_v_A_j[22] = omega_i_in_star_0 * t253 + omega_i_in_star_1 * t255 - (t243 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t252);
-    jac_phi_q_v_A_j[23] = omega_i_in_joint_i_2 * t254 - t252 * omega_i_in_star_1 + alphadot * t254 -
-        (omega_j_in_joint_j_2 * t255 - omega_j_in_joint_j_0 * t251);
-    jac_phi_q_v_A_j[24] = omega_i[2] * t257 - omega_i[1] * t258 + A_i[1] * v_0_in_j_1;
-    jac_phi_q_v_A_j[25] = v_0_in_j_0 * t194 - v_0_in_j_2 * t256 + (t258 * omega_i[0] - omega_i[2] * t259);
-    const jg_real t260 = t194 * C_j[6] - t256 * C_j[8];
-    const jg_real t261 = A_i[1] * C_j[7];
-    const jg_real t262 = A_i[7] * C_j[7];
-    const jg_real t263 = t260 * C_i[7] + t261 * C_i[6] + t262 * C_i[8];
-    const jg_real t264 = t194 * C_j[3] - t256 * C_j[5];
-    const jg_real t265 = A_i[1] * C_j[4];
-    const jg_real t266 = A_i[7] * C_j[4];
-    const jg_real t267 = C_i[1] * t264 + C_i[0] * t265 + C_i[2] * t266;
-    const jg_real t268 = C_i[4] * t264 + C_i[3] * t265 + C_i[5] * t266;
-    const jg_real t269 = C_i[1] * t260 + t261 * C_i[0] + t262 * C_i[2];
-    const jg_real t270 = t260 * C_i[4] + t261 * C_i[3] + t262 * C_i[5];
-    const jg_real t271 = t269 * cosine_0 + t270 * sine_0;
-    const jg_real t272 = C_i[7] * t264 + C_i[6] * t265 + C_i[8] * t266;
-    const jg_real t273 = t263 * f_star_dot_g_j + h_j_in_joint_i_2 * (t267 * cosine_0 + t268 * sine_0) -
-        (g_j_in_joint_i_2 * t271 + t272 * f_star_dot_h_j);
-    const jg_real t274 = t268 * cosine_0 - t267 * sine_0;
-    const jg_real t275 = t263 * g_star_dot_g_j + h_j_in_joint_i_2 * t274 - (g_j_in_joint_i_2 * (t270 * cosine_0 -
-        t269 * sine_0) + t272 * g_star_dot_h_j);
-    const jg_real t276 = A_i[8] * A_ji_0 - A_i[2] * A_ji_6;
-    const jg_real t277 = s_j[0] * t215 - s_j[2] * t276;
-    const jg_real t278 = A_i[8] * s_j[1];
-    const jg_real t279 = A_i[2] * s_j[1];
-    const jg_real t280 = t215 * C_j[6] - t276 * C_j[8];
-    const jg_real t281 = A_i[2] * C_j[7];
-    const jg_real t282 = A_i[8] * C_j[7];
-    const jg_real t283 = t280 * C_i[7] + t281 * C_i[6] + t282 * C_i[8];
-    const jg_real t284 = t215 * C_j[3] - t276 * C_j[5];
-    const jg_real t285 = A_i[2] * C_j[4];
-    const jg_real t286 = A_i[8] * C_j[4];
-    const jg_real t287 = C_i[1] * t284 + C_i[0] * t285 + C_i[2] * t286;
-    const jg_real t288 = C_i[4] * t284 + C_i[3] * t285 + C_i[5] * t286;
-    const jg_real t289 = C_i[1] * t280 + t281 * C_i[0] + t282 * C_i[2];
-    const jg_real t290 = t280 * C_i[4] + t281 * C_i[3] + t282 * C_i[5];
-    const jg_real t291 = t289 * cosine_0 + t290 * sine_0;
-    const jg_real t292 = C_i[7] * t284 + C_i[6] * t285 + C_i[8] * t286;
-    const jg_real t293 = t283 * f_star_dot_g_j + h_j_in_joint_i_2 * (t287 * cosine_0 + t288 * sine_0) -
-        (g_j_in_joint_i_2 * t291 + t292 * f_star_dot_h_j);
-    const jg_real t294 = t288 * cosine_0 - t287 * sine_0;
-    jac_phi_q_v_A_j[26] = omega_i[1] * t259 - omega_i[0] * t257 + A_i[7] * v_0_in_j_1;
-    jac_phi_q_v_A_j[27] = t263 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t271 - alphadot * t271 -
-        (omega_j_in_joint_j_0 * t274 + omega_j_in_joint_j_1 * t273);
-    jac_phi_q_v_A_j[28] = omega_i_in_star_0 * t273 + omega_i_in_star_1 * t275 - (t263 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t272);
-    jac_phi_q_v_A_j[29] = omega_i_in_joint_i_2 * t274 - t272 * omega_i_in_star_1 + alphadot * t274 -
-        (omega_j_in_joint_j_2 * t275 - omega_j_in_joint_j_0 * t271);
-    jac_phi_q_v_A_j[30] = omega_i[2] * t277 - omega_i[1] * t278 + A_i[2] * v_0_in_j_1;
-    jac_phi_q_v_A_j[31] = v_0_in_j_0 * t215 - v_0_in_j_2 * t276 + (t278 * omega_i[0] - omega_i[2] * t279);
-    jac_phi_q_v_A_j[32] = omega_i[1] * t279 - omega_i[0] * t277 + A_i[8] * v_0_in_j_1;
-    jac_phi_q_v_A_j[33] = t283 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t291 - alphadot * t291 -
-        (omega_j_in_joint_j_0 * t294 + omega_j_in_joint_j_1 * t293);
-    const jg_real t295 = t283 * g_star_dot_g_j + h_j_in_joint_i_2 * t294 - (g_j_in_joint_i_2 * (t290 * cosine_0 -
-        t289 * sine_0) + t292 * g_star_dot_h_j);
-    const jg_real t296 = s_j[0] * t174 + s_j[1] * t236;
-    const jg_real t297 = A_i[6] * s_j[2];
-    const jg_real t298 = A_i[0] * s_j[2];
-    const jg_real t299 = t174 * C_j[6] + t236 * C_j[7];
-    const jg_real t300 = A_i[0] * C_j[8];
-    const jg_real t301 = A_i[6] * C_j[8];
-    const jg_real t302 = t299 * C_i[7] + t300 * C_i[6] + t301 * C_i[8];
-    const jg_real t303 = t174 * C_j[3] + t236 * C_j[4];
-    const jg_real t304 = A_i[0] * C_j[5];
-    const jg_real t305 = A_i[6] * C_j[5];
-    const jg_real t306 = C_i[1] * t303 + C_i[0] * t304 + C_i[2] * t305;
-    const jg_real t307 = C_i[4] * t303 + C_i[3] * t304 + C_i[5] * t305;
-    const jg_real t308 = C_i[1] * t299 + t300 * C_i[0] + t301 * C_i[2];
-    const jg_real t309 = t299 * C_i[4] + t300 * C_i[3] + t301 * C_i[5];
-    const jg_real t310 = t308 * cosine_0 + t309 * sine_0;
-    const jg_real t311 = C_i[7] * t303 + C_i[6] * t304 + C_i[8] * t305;
-    const jg_real t312 = t302 * f_star_dot_g_j + h_j_in_joint_i_2 * (t306 * cosine_0 + t307 * sine_0) -
-        (g_j_in_joint_i_2 * t310 + t311 * f_star_dot_h_j);
-    const jg_real t313 = t307 * cosine_0 - t306 * sine_0;
-    const jg_real t314 = t302 * g_star_dot_g_j + h_j_in_joint_i_2 * t313 - (g_j_in_joint_i_2 * (t309 * cosine_0 -
-        t308 * sine_0) + t311 * g_star_dot_h_j);
-    jac_phi_q_v_A_j[34] = omega_i_in_star_0 * t293 + omega_i_in_star_1 * t295 - (t283 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t292);
-    jac_phi_q_v_A_j[35] = omega_i_in_joint_i_2 * t294 - t292 * omega_i_in_star_1 + alphadot * t294 -
-        (omega_j_in_joint_j_2 * t295 - omega_j_in_joint_j_0 * t291);
-    jac_phi_q_v_A_j[36] = omega_i[2] * t296 - omega_i[1] * t297 + A_i[0] * v_0_in_j_2;
-    jac_phi_q_v_A_j[37] = v_0_in_j_0 * t174 + v_0_in_j_1 * t236 + (omega_i[0] * t297 - omega_i[2] * t298);
-    jac_phi_q_v_A_j[38] = omega_i[1] * t298 - omega_i[0] * t296 + A_i[6] * v_0_in_j_2;
-    jac_phi_q_v_A_j[39] = t302 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t310 - alphadot * t310 -
-        (omega_j_in_joint_j_0 * t313 + omega_j_in_joint_j_1 * t312);
-    jac_phi_q_v_A_j[40] = omega_i_in_star_0 * t312 + omega_i_in_star_1 * t314 - (t302 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t311);
-    jac_phi_q_v_A_j[41] = omega_i_in_joint_i_2 * t313 - t311 * omega_i_in_star_1 + alphadot * t313 -
-        (omega_j_in_joint_j_2 * t314 - omega_j_in_joint_j_0 * t310);
-    const jg_real t315 = s_j[0] * t195 + s_j[1] * t256;
-    const jg_real t316 = A_i[7] * s_j[2];
-    const jg_real t317 = A_i[1] * s_j[2];
-    const jg_real t318 = t195 * C_j[6] + t256 * C_j[7];
-    const jg_real t319 = A_i[1] * C_j[8];
-    const jg_real t320 = A_i[7] * C_j[8];
-    const jg_real t321 = t318 * C_i[7] + t319 * C_i[6] + t320 * C_i[8];
-    const jg_real t322 = t195 * C_j[3] + t256 * C_j[4];
-    const jg_real t323 = A_i[1] * C_j[5];
-    const jg_real t324 = A_i[7] * C_j[5];
-    const jg_real t325 = C_i[1] * t322 + C_i[0] * t323 + C_i[2] * t324;
-    const jg_real t326 = C_i[4] * t322 + C_i[3] * t323 + C_i[5] * t324;
-    const jg_real t327 = C_i[1] * t318 + t319 * C_i[0] + t320 * C_i[2];
-    const jg_real t328 = t318 * C_i[4] + t319 * C_i[3] + t320 * C_i[5];
-    const jg_real t329 = t327 * cosine_0 + t328 * sine_0;
-    const jg_real t330 = C_i[7] * t322 + C_i[6] * t323 + C_i[8] * t324;
-    const jg_real t331 = t321 * f_star_dot_g_j + h_j_in_joint_i_2 * (t325 * cosine_0 + t326 * sine_0) -
-        (g_j_in_joint_i_2 * t329 + t330 * f_star_dot_h_j);
-    const jg_real t332 = t326 * cosine_0 - t325 * sine_0;
-    const jg_real t333 = t321 * g_star_dot_g_j + h_j_in_joint_i_2 * t332 - (g_j_in_joint_i_2 * (t328 * cosine_0 -
-        t327 * sine_0) + t330 * g_star_dot_h_j);
-    const jg_real t334 = s_j[0] * t216 + s_j[1] * t276;
-    const jg_real t335 = A_i[8] * s_j[2];
-    const jg_real t336 = A_i[2] * s_j[2];
-    jac_phi_q_v_A_j[42] = omega_i[2] * t315 - omega_i[1] * t316 + A_i[1] * v_0_in_j_2;
-    jac_phi_q_v_A_j[43] = v_0_in_j_0 * t195 + v_0_in_j_1 * t256 + (omega_i[0] * t316 - omega_i[2] * t317);
-    jac_phi_q_v_A_j[44] = omega_i[1] * t317 - omega_i[0] * t315 + A_i[7] * v_0_in_j_2;
-    jac_phi_q_v_A_j[45] = t321 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t329 - alphadot * t329 -
-        (omega_j_in_joint_j_0 * t332 + omega_j_in_joint_j_1 * t331);
-    jac_phi_q_v_A_j[46] = omega_i_in_star_0 * t331 + omega_i_in_star_1 * t333 - (t321 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t330);
-    jac_phi_q_v_A_j[47] = omega_i_in_joint_i_2 * t332 - t330 * omega_i_in_star_1 + alphadot * t332 -
-        (omega_j_in_joint_j_2 * t333 - omega_j_in_joint_j_0 * t329);
-    jac_phi_q_v_A_j[48] = omega_i[2] * t334 - omega_i[1] * t335 + A_i[2] * v_0_in_j_2;
-    jac_phi_q_v_A_j[49] = v_0_in_j_0 * t216 + v_0_in_j_1 * t276 + (omega_i[0] * t335 - omega_i[2] * t336);
-    const jg_real t337 = t216 * C_j[6] + t276 * C_j[7];
-    const jg_real t338 = A_i[2] * C_j[8];
-    const jg_real t339 = A_i[8] * C_j[8];
-    const jg_real t340 = t337 * C_i[7] + t338 * C_i[6] + t339 * C_i[8];
-    const jg_real t341 = t216 * C_j[3] + t276 * C_j[4];
-    const jg_real t342 = A_i[2] * C_j[5];
-    const jg_real t343 = A_i[8] * C_j[5];
-    const jg_real t344 = C_i[1] * t341 + C_i[0] * t342 + C_i[2] * t343;
-    const jg_real t345 = C_i[4] * t341 + C_i[3] * t342 + C_i[5] * t343;
-    const jg_real t346 = C_i[1] * t337 + t338 * C_i[0] + t339 * C_i[2];
-    const jg_real t347 = t337 * C_i[4] + t338 * C_i[3] + t339 * C_i[5];
-    const jg_real t348 = t346 * cosine_0 + t347 * sine_0;
-    const jg_real t349 = C_i[7] * t341 + C_i[6] * t342 + C_i[8] * t343;
-    const jg_real t350 = t340 * f_star_dot_g_j + h_j_in_joint_i_2 * (t344 * cosine_0 + t345 * sine_0) -
-        (g_j_in_joint_i_2 * t348 + t349 * f_star_dot_h_j);
-    const jg_real t351 = t345 * cosine_0 - t344 * sine_0;
-    const jg_real t352 = t340 * g_star_dot_g_j + h_j_in_joint_i_2 * t351 - (g_j_in_joint_i_2 * (t347 * cosine_0 -
-        t346 * sine_0) + t349 * g_star_dot_h_j);
+    jac_phi_q_v_A_i[4] = omega_i_in_star_0 * t59 + omega_i_in_star_1 * t69 - (t42 * omega_j_in_joint_j_1 - t58 *
+        omega_j_in_joint_j_2);
+    jac_phi_q_v_A_i[5] = omega_i_in_joint_i_2 * t61 - t58 * omega_i_in_star_1 + alphadot * t61 +
+        (omega_j_in_joint_j_0 * t54 - omega_j_in_joint_j_2 * t69);
+    jac_phi_q_v_A_i[6] = t72;
+    jac_phi_q_v_A_i[32] = t72;
+    jac_phi_q_v_A_i[20] = t78;
+    jac_phi_q_v_A_i[7] = v_2_in_j_0 * t73 + v_2_in_j_1 * t74 + v_2_in_j_2 * t75 - t78;
+    const jg_real t79 = omega_i[1] * e_ij_world_1;
+    const jg_real t80 = C_j[6] * t73 + C_j[7] * t74 + C_j[8] * t75;
+    const jg_real t81 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
+    const jg_real t82 = C_i[6] * t81 + C_i[7] * t80;
+    const jg_real t83 = t73 * C_j[3] + t74 * C_j[4] + t75 * C_j[5];
+    const jg_real t84 = A_j[1] * C_j[3] + A_j[4] * C_j[4] + A_j[7] * C_j[5];
+    const jg_real t85 = C_i[1] * t83 + C_i[0] * t84;
+    const jg_real t86 = C_i[4] * t83 + C_i[3] * t84;
+    const jg_real t87 = C_i[0] * t81 + C_i[1] * t80;
+    const jg_real t88 = C_i[3] * t81 + C_i[4] * t80;
+    const jg_real t89 = t87 * cosine_0 + t88 * sine_0;
+    const jg_real t90 = C_i[7] * t83 + C_i[6] * t84;
+    const jg_real t91 = t82 * f_star_dot_g_j + h_j_in_joint_i_2 * (t85 * cosine_0 + t86 * sine_0) -
+        (g_j_in_joint_i_2 * t89 + t90 * f_star_dot_h_j);
+    const jg_real t92 = t86 * cosine_0 - t85 * sine_0;
+    const jg_real t93 = t82 * g_star_dot_g_j + h_j_in_joint_i_2 * t92 - (g_j_in_joint_i_2 * (t88 * cosine_0 - t87 *
+        sine_0) + t90 * g_star_dot_h_j);
+    const jg_real t94 = A_j[2] * v_2_in_j_0 + A_j[5] * v_2_in_j_1 + A_j[8] * v_2_in_j_2;
+    const jg_real t95 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t96 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t97 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real t100 = omega_i[2] * e_ij_world_2;
+    jac_phi_q_v_A_i[8] = t79;
+    jac_phi_q_v_A_i[9] = t82 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t89 - alphadot * t89 -
+        (omega_j_in_joint_j_0 * t92 + omega_j_in_joint_j_1 * t91);
+    jac_phi_q_v_A_i[10] = omega_i_in_star_0 * t91 + omega_i_in_star_1 * t93 - (t82 * omega_j_in_joint_j_1 - t90 *
+        omega_j_in_joint_j_2);
+    jac_phi_q_v_A_i[11] = omega_i_in_joint_i_2 * t92 - t90 * omega_i_in_star_1 + alphadot * t92 +
+        (omega_j_in_joint_j_0 * t89 - omega_j_in_joint_j_2 * t93);
+    jac_phi_q_v_A_i[12] = t94;
+    jac_phi_q_v_A_i[38] = t94;
+    jac_phi_q_v_A_i[22] = t100;
+    jac_phi_q_v_A_i[13] = v_2_in_j_0 * t95 + v_2_in_j_1 * t96 + v_2_in_j_2 * t97 - t100;
+    const jg_real t101 = omega_i[1] * e_ij_world_2;
+    const jg_real t102 = C_j[6] * t95 + C_j[7] * t96 + C_j[8] * t97;
+    const jg_real t103 = A_j[2] * C_j[6] + A_j[5] * C_j[7] + A_j[8] * C_j[8];
+    const jg_real t104 = C_i[6] * t103 + C_i[7] * t102;
+    const jg_real t105 = t95 * C_j[3] + t96 * C_j[4] + t97 * C_j[5];
+    const jg_real t106 = A_j[2] * C_j[3] + A_j[5] * C_j[4] + A_j[8] * C_j[5];
+    const jg_real t107 = C_i[1] * t105 + C_i[0] * t106;
+    const jg_real t108 = C_i[4] * t105 + C_i[3] * t106;
+    const jg_real t109 = C_i[0] * t103 + C_i[1] * t102;
+    const jg_real t110 = C_i[3] * t103 + C_i[4] * t102;
+    const jg_real t111 = t109 * cosine_0 + t110 * sine_0;
+    const jg_real t112 = C_i[7] * t105 + C_i[6] * t106;
+    const jg_real t113 = t104 * f_star_dot_g_j + h_j_in_joint_i_2 * (t107 * cosine_0 + t108 * sine_0) -
+        (g_j_in_joint_i_2 * t111 + t112 * f_star_dot_h_j);
+    const jg_real t114 = t108 * cosine_0 - t107 * sine_0;
+    const jg_real t115 = t104 * g_star_dot_g_j + h_j_in_joint_i_2 * t114 - (g_j_in_joint_i_2 * (t110 * cosine_0 -
+        t109 * sine_0) + t112 * g_star_dot_h_j);
+    const jg_real t116 = e_ij_world_0 * omega_i[0];
+    const jg_real t117 = omega_i[0] * e_ij_world_1;
+    const jg_real t118 = omega_i[0] * e_ij_world_2;
+    jac_phi_q_v_A_i[14] = t101;
+    jac_phi_q_v_A_i[15] = t104 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t111 - alphadot * t111 -
+        (omega_j_in_joint_j_0 * t114 + omega_j_in_joint_j_1 * t113);
+    jac_phi_q_v_A_i[16] = omega_i_in_star_0 * t113 + omega_i_in_star_1 * t115 - (t104 * omega_j_in_joint_j_1 - t112
+        * omega_j_in_joint_j_2);
+    jac_phi_q_v_A_i[17] = omega_i_in_joint_i_2 * t114 - t112 * omega_i_in_star_1 + alphadot * t114 +
+        (omega_j_in_joint_j_0 * t111 - omega_j_in_joint_j_2 * t115);
+    jac_phi_q_v_A_i[19] = -t116;
+    jac_phi_q_v_A_i[21] = -t117;
+    jac_phi_q_v_A_i[23] = -t118;
+    jac_phi_q_v_A_i[24] = -t25;
+    const jg_real t119 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t120 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t121 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t122 = C_j[6] * t119 + C_j[7] * t120 + C_j[8] * t121;
+    const jg_real t123 = C_i[8] * t41 + C_i[7] * t122;
+    const jg_real t124 = t119 * C_j[3] + t120 * C_j[4] + t121 * C_j[5];
+    const jg_real t125 = C_i[1] * t124 + C_i[2] * t48;
+    const jg_real t126 = C_i[4] * t124 + C_i[5] * t48;
+    const jg_real t127 = C_i[2] * t41 + C_i[1] * t122;
+    const jg_real t128 = C_i[5] * t41 + C_i[4] * t122;
+    const jg_real t129 = t127 * cosine_0 + t128 * sine_0;
+    const jg_real t130 = C_i[7] * t124 + C_i[8] * t48;
+    const jg_real t131 = t123 * f_star_dot_g_j + h_j_in_joint_i_2 * (t125 * cosine_0 + t126 * sine_0) -
+        (g_j_in_joint_i_2 * t129 + t130 * f_star_dot_h_j);
+    const jg_real t132 = t126 * cosine_0 - t125 * sine_0;
+    const jg_real t133 = t123 * g_star_dot_g_j + h_j_in_joint_i_2 * t132 - (g_j_in_joint_i_2 * (t128 * cosine_0 -
+        t127 * sine_0) + t130 * g_star_dot_h_j);
+    const jg_real t134 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t135 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t136 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t137 = C_j[6] * t134 + C_j[7] * t135 + C_j[8] * t136;
+    const jg_real t138 = C_i[8] * t81 + C_i[7] * t137;
+    const jg_real t139 = t134 * C_j[3] + t135 * C_j[4] + t136 * C_j[5];
+    const jg_real t140 = C_i[1] * t139 + C_i[2] * t84;
+    const jg_real t141 = C_i[4] * t139 + C_i[5] * t84;
+    const jg_real t142 = C_i[2] * t81 + C_i[1] * t137;
+    const jg_real t143 = C_i[5] * t81 + C_i[4] * t137;
+    const jg_real t144 = t142 * cosine_0 + t143 * sine_0;
+    const jg_real t145 = C_i[7] * t139 + C_i[8] * t84;
+    const jg_real t146 = t138 * f_star_dot_g_j + h_j_in_joint_i_2 * (t140 * cosine_0 + t141 * sine_0) -
+        (g_j_in_joint_i_2 * t144 + t145 * f_star_dot_h_j);
+    const jg_real t147 = t141 * cosine_0 - t140 * sine_0;
+    const jg_real t148 = t138 * g_star_dot_g_j + h_j_in_joint_i_2 * t147 - (g_j_in_joint_i_2 * (t143 * cosine_0 -
+        t142 * sine_0) + t145 * g_star_dot_h_j);
+    jac_phi_q_v_A_i[25] = v_2_in_j_0 * t119 + v_2_in_j_1 * t120 + v_2_in_j_2 * t121 + t116;
+    jac_phi_q_v_A_i[27] = t123 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t129 - alphadot * t129 -
+        (omega_j_in_joint_j_0 * t132 + omega_j_in_joint_j_1 * t131);
+    jac_phi_q_v_A_i[28] = omega_i_in_star_0 * t131 + omega_i_in_star_1 * t133 - (t123 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t130);
+    jac_phi_q_v_A_i[29] = omega_i_in_joint_i_2 * t132 - t130 * omega_i_in_star_1 + alphadot * t132 +
+        (omega_j_in_joint_j_0 * t129 - omega_j_in_joint_j_2 * t133);
+    jac_phi_q_v_A_i[30] = -t79;
+    jac_phi_q_v_A_i[31] = v_2_in_j_0 * t134 + v_2_in_j_1 * t135 + v_2_in_j_2 * t136 + t117;
+    jac_phi_q_v_A_i[33] = t138 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t144 - alphadot * t144 -
+        (omega_j_in_joint_j_0 * t147 + omega_j_in_joint_j_1 * t146);
+    jac_phi_q_v_A_i[34] = omega_i_in_star_0 * t146 + omega_i_in_star_1 * t148 - (t138 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t145);
+    const jg_real t149 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t150 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t151 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t152 = C_j[6] * t149 + C_j[7] * t150 + C_j[8] * t151;
+    const jg_real t153 = C_i[8] * t103 + C_i[7] * t152;
+    const jg_real t154 = t149 * C_j[3] + t150 * C_j[4] + t151 * C_j[5];
+    const jg_real t155 = C_i[1] * t154 + C_i[2] * t106;
+    const jg_real t156 = C_i[4] * t154 + C_i[5] * t106;
+    const jg_real t157 = C_i[2] * t103 + C_i[1] * t152;
+    const jg_real t158 = C_i[5] * t103 + C_i[4] * t152;
+    const jg_real t159 = t157 * cosine_0 + t158 * sine_0;
+    const jg_real t160 = C_i[7] * t154 + C_i[8] * t106;
+    const jg_real t161 = t153 * f_star_dot_g_j + h_j_in_joint_i_2 * (t155 * cosine_0 + t156 * sine_0) -
+        (g_j_in_joint_i_2 * t159 + t160 * f_star_dot_h_j);
+    const jg_real t162 = t156 * cosine_0 - t155 * sine_0;
+    const jg_real t163 = t153 * g_star_dot_g_j + h_j_in_joint_i_2 * t162 - (g_j_in_joint_i_2 * (t158 * cosine_0 -
+        t157 * sine_0) + t160 * g_star_dot_h_j);
+    const jg_real t164 = s_j[0] * A_i[3];
+    const jg_real t165 = s_j[0] * A_i[6];
+    const jg_real t166 = A_ji_2 * A_i[6] - A_i[0] * A_ji_8;
+    const jg_real t167 = A_i[0] * A_ji_7 - A_ji_1 * A_i[6];
+    const jg_real t168 = A_i[0] * s_j[0];
+    jac_phi_q_v_A_i[35] = omega_i_in_joint_i_2 * t147 - t145 * omega_i_in_star_1 + alphadot * t147 +
+        (omega_j_in_joint_j_0 * t144 - omega_j_in_joint_j_2 * t148);
+    jac_phi_q_v_A_i[36] = -t101;
+    jac_phi_q_v_A_i[37] = v_2_in_j_0 * t149 + v_2_in_j_1 * t150 + v_2_in_j_2 * t151 + t118;
+    jac_phi_q_v_A_i[39] = t153 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t159 - alphadot * t159 -
+        (omega_j_in_joint_j_0 * t162 + omega_j_in_joint_j_1 * t161);
+    jac_phi_q_v_A_i[40] = omega_i_in_star_0 * t161 + omega_i_in_star_1 * t163 - (t153 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t160);
+    jac_phi_q_v_A_i[41] = omega_i_in_joint_i_2 * t162 - t160 * omega_i_in_star_1 + alphadot * t162 +
+        (omega_j_in_joint_j_0 * t159 - omega_j_in_joint_j_2 * t163);
+    jac_phi_q_v_A_j[0] = omega_i[2] * t164 - omega_i[1] * t165 + A_i[0] * v_2_in_j_0;
+    jac_phi_q_v_A_j[1] = omega_i[0] * t165 - omega_i[2] * t168 - (v_2_in_j_1 * t166 + v_2_in_j_2 * t167);
+    const jg_real t169 = C_j[7] * t166 + C_j[8] * t167;
+    const jg_real t170 = A_i[0] * C_j[6];
+    const jg_real t171 = A_i[6] * C_j[6];
+    const jg_real t172 = t170 * C_i[6] - C_i[7] * t169 + C_i[8] * t171;
+    const jg_real t173 = t166 * C_j[4] + t167 * C_j[5];
+    const jg_real t174 = A_i[0] * C_j[3];
+    const jg_real t175 = A_i[6] * C_j[3];
+    const jg_real t176 = C_i[0] * t174 - C_i[1] * t173 + C_i[2] * t175;
+    const jg_real t177 = C_i[3] * t174 - C_i[4] * t173 + C_i[5] * t175;
+    const jg_real t178 = t170 * C_i[0] - C_i[1] * t169 + C_i[2] * t171;
+    const jg_real t179 = t170 * C_i[3] - C_i[4] * t169 + C_i[5] * t171;
+    const jg_real t180 = t178 * cosine_0 + t179 * sine_0;
+    const jg_real t181 = C_i[6] * t174 - C_i[7] * t173 + C_i[8] * t175;
+    const jg_real t182 = t172 * f_star_dot_g_j + h_j_in_joint_i_2 * (t176 * cosine_0 + t177 * sine_0) -
+        (g_j_in_joint_i_2 * t180 + t181 * f_star_dot_h_j);
+    const jg_real t183 = t177 * cosine_0 - t176 * sine_0;
+    const jg_real t184 = t172 * g_star_dot_g_j + h_j_in_joint_i_2 * t183 - (g_j_in_joint_i_2 * (t179 * cosine_0 -
+        t178 * sine_0) + t181 * g_star_dot_h_j);
+    const jg_real t185 = s_j[0] * A_i[4];
+    const jg_real t186 = s_j[0] * A_i[7];
+    const jg_real t187 = A_ji_2 * A_i[7] - A_i[1] * A_ji_8;
+    const jg_real t188 = A_i[1] * A_ji_7 - A_ji_1 * A_i[7];
+    const jg_real t189 = A_i[1] * s_j[0];
+    const jg_real t190 = C_j[7] * t187 + C_j[8] * t188;
+    const jg_real t191 = A_i[1] * C_j[6];
+    const jg_real t192 = A_i[7] * C_j[6];
+    const jg_real t193 = t191 * C_i[6] - C_i[7] * t190 + C_i[8] * t192;
+    const jg_real t194 = t187 * C_j[4] + t188 * C_j[5];
+    const jg_real t195 = A_i[1] * C_j[3];
+    const jg_real t196 = A_i[7] * C_j[3];
+    const jg_real t197 = C_i[0] * t195 - C_i[1] * t194 + C_i[2] * t196;
+    const jg_real t198 = C_i[3] * t195 - C_i[4] * t194 + C_i[5] * t196;
+    const jg_real t199 = t191 * C_i[0] - C_i[1] * t190 + C_i[2] * t192;
+    const jg_real t200 = t191 * C_i[3] - C_i[4] * t190 + C_i[5] * t192;
+    const jg_real t201 = t199 * cosine_0 + t200 * sine_0;
+    const jg_real t202 = C_i[6] * t195 - C_i[7] * t194 + C_i[8] * t196;
+    const jg_real t203 = t193 * f_star_dot_g_j + h_j_in_joint_i_2 * (t197 * cosine_0 + t198 * sine_0) -
+        (g_j_in_joint_i_2 * t201 + t202 * f_star_dot_h_j);
+    const jg_real t204 = t198 * cosine_0 - t197 * sine_0;
+    jac_phi_q_v_A_j[2] = omega_i[1] * t168 - omega_i[0] * t164 + v_2_in_j_0 * A_i[6];
+    jac_phi_q_v_A_j[3] = t172 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t180 - alphadot * t180 -
+        (omega_j_in_joint_j_0 * t183 + omega_j_in_joint_j_1 * t182);
+    jac_phi_q_v_A_j[4] = omega_i_in_star_0 * t182 + omega_i_in_star_1 * t184 - (t172 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t181);
+    jac_phi_q_v_A_j[5] = omega_i_in_joint_i_2 * t183 - t181 * omega_i_in_star_1 + alphadot * t183 +
+        (omega_j_in_joint_j_0 * t180 - omega_j_in_joint_j_2 * t184);
+    jac_phi_q_v_A_j[6] = omega_i[2] * t185 - omega_i[1] * t186 + A_i[1] * v_2_in_j_0;
+    jac_phi_q_v_A_j[7] = omega_i[0] * t186 - omega_i[2] * t189 - (v_2_in_j_1 * t187 + v_2_in_j_2 * t188);
+    jac_phi_q_v_A_j[8] = omega_i[1] * t189 - omega_i[0] * t185 + v_2_in_j_0 * A_i[7];
+    jac_phi_q_v_A_j[9] = t193 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t201 - alphadot * t201 -
+        (omega_j_in_joint_j_0 * t204 + omega_j_in_joint_j_1 * t203);
+    const jg_real t205 = t193 * g_star_dot_g_j + h_j_in_joint_i_2 * t204 - (g_j_in_joint_i_2 * (t200 * cosine_0 -
+        t199 * sine_0) + t202 * g_star_dot_h_j);
+    const jg_real t206 = s_j[0] * A_i[5];
+    const jg_real t207 = s_j[0] * A_i[8];
+    const jg_real t208 = A_ji_2 * A_i[8] - A_i[2] * A_ji_8;
+    const jg_real t209 = A_i[2] * A_ji_7 - A_ji_1 * A_i[8];
+    const jg_real t210 = A_i[2] * s_j[0];
+    const jg_real t211 = C_j[7] * t208 + C_j[8] * t209;
+    const jg_real t212 = A_i[2] * C_j[6];
+    const jg_real t213 = A_i[8] * C_j[6];
+    const jg_real t214 = t212 * C_i[6] - C_i[7] * t211 + C_i[8] * t213;
+    const jg_real t215 = t208 * C_j[4] + t209 * C_j[5];
+    const jg_real t216 = A_i[2] * C_j[3];
+    const jg_real t217 = A_i[8] * C_j[3];
+    const jg_real t218 = C_i[0] * t216 - C_i[1] * t215 + C_i[2] * t217;
+    const jg_real t219 = C_i[3] * t216 - C_i[4] * t215 + C_i[5] * t217;
+    const jg_real t220 = t212 * C_i[0] - C_i[1] * t211 + C_i[2] * t213;
+    const jg_real t221 = t212 * C_i[3] - C_i[4] * t211 + C_i[5] * t213;
+    const jg_real t222 = t220 * cosine_0 + t221 * sine_0;
+    const jg_real t223 = C_i[6] * t216 - C_i[7] * t215 + C_i[8] * t217;
+    const jg_real t224 = t214 * f_star_dot_g_j + h_j_in_joint_i_2 * (t218 * cosine_0 + t219 * sine_0) -
+        (g_j_in_joint_i_2 * t222 + t223 * f_star_dot_h_j);
+    const jg_real t225 = t219 * cosine_0 - t218 * sine_0;
+    const jg_real t226 = t214 * g_star_dot_g_j + h_j_in_joint_i_2 * t225 - (g_j_in_joint_i_2 * (t221 * cosine_0 -
+        t220 * sine_0) + t223 * g_star_dot_h_j);
+    jac_phi_q_v_A_j[10] = omega_i_in_star_0 * t203 + omega_i_in_star_1 * t205 - (t193 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t202);
+    jac_phi_q_v_A_j[11] = omega_i_in_joint_i_2 * t204 - t202 * omega_i_in_star_1 + alphadot * t204 +
+        (omega_j_in_joint_j_0 * t201 - omega_j_in_joint_j_2 * t205);
+    jac_phi_q_v_A_j[12] = omega_i[2] * t206 - omega_i[1] * t207 + A_i[2] * v_2_in_j_0;
+    jac_phi_q_v_A_j[13] = omega_i[0] * t207 - omega_i[2] * t210 - (v_2_in_j_1 * t208 + v_2_in_j_2 * t209);
+    jac_phi_q_v_A_j[14] = omega_i[1] * t210 - omega_i[0] * t206 + v_2_in_j_0 * A_i[8];
+    jac_phi_q_v_A_j[15] = t214 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t222 - alphadot * t222 -
+        (omega_j_in_joint_j_0 * t225 + omega_j_in_joint_j_1 * t224);
+    jac_phi_q_v_A_j[16] = omega_i_in_star_0 * t224 + omega_i_in_star_1 * t226 - (t214 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t223);
+    jac_phi_q_v_A_j[17] = omega_i_in_joint_i_2 * t225 - t223 * omega_i_in_star_1 + alphadot * t225 +
+        (omega_j_in_joint_j_0 * t222 - omega_j_in_joint_j_2 * t226);
+    const jg_real t227 = s_j[1] * A_i[3];
+    const jg_real t228 = s_j[1] * A_i[6];
+    const jg_real t229 = A_ji_0 * A_i[6] - A_i[0] * A_ji_6;
+    const jg_real t230 = s_j[1] * A_i[0];
+    const jg_real t231 = C_j[6] * t166 - C_j[8] * t229;
+    const jg_real t232 = A_i[0] * C_j[7];
+    const jg_real t233 = A_i[6] * C_j[7];
+    const jg_real t234 = t232 * C_i[6] + C_i[7] * t231 + C_i[8] * t233;
+    const jg_real t235 = t166 * C_j[3] - t229 * C_j[5];
+    const jg_real t236 = A_i[0] * C_j[4];
+    const jg_real t237 = A_i[6] * C_j[4];
+    const jg_real t238 = C_i[1] * t235 + C_i[0] * t236 + C_i[2] * t237;
+    const jg_real t239 = C_i[4] * t235 + C_i[3] * t236 + C_i[5] * t237;
+    const jg_real t240 = t232 * C_i[0] + C_i[1] * t231 + C_i[2] * t233;
+    const jg_real t241 = t232 * C_i[3] + C_i[4] * t231 + C_i[5] * t233;
+    const jg_real t242 = t240 * cosine_0 + t241 * sine_0;
+    const jg_real t243 = C_i[7] * t235 + C_i[6] * t236 + C_i[8] * t237;
+    const jg_real t244 = t234 * f_star_dot_g_j + h_j_in_joint_i_2 * (t238 * cosine_0 + t239 * sine_0) -
+        (g_j_in_joint_i_2 * t242 + t243 * f_star_dot_h_j);
+    const jg_real t245 = t239 * cosine_0 - t238 * sine_0;
+    const jg_real t246 = t234 * g_star_dot_g_j + h_j_in_joint_i_2 * t245 - (g_j_in_joint_i_2 * (t241 * cosine_0 -
+        t240 * sine_0) + t243 * g_star_dot_h_j);
+    const jg_real t247 = s_j[1] * A_i[4];
+    const jg_real t248 = s_j[1] * A_i[7];
+    const jg_real t249 = A_ji_0 * A_i[7] - A_i[1] * A_ji_6;
+    const jg_real t250 = s_j[1] * A_i[1];
+    jac_phi_q_v_A_j[18] = omega_i[2] * t227 - omega_i[1] * t228 + A_i[0] * v_2_in_j_1;
+    jac_phi_q_v_A_j[19] = omega_i[0] * t228 - omega_i[2] * t230 + (v_2_in_j_0 * t166 - v_2_in_j_2 * t229);
+    jac_phi_q_v_A_j[20] = omega_i[1] * t230 - omega_i[0] * t227 + v_2_in_j_1 * A_i[6];
+    jac_phi_q_v_A_j[21] = t234 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t242 - alphadot * t242 -
+        (omega_j_in_joint_j_0 * t245 + omega_j_in_joint_j_1 * t244);
+    jac_phi_q_v_A_j[22] = omega_i_in_star_0 * t244 + omega_i_in_star_1 * t246 - (t234 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t243);
+    jac_phi_q_v_A_j[23] = omega_i_in_joint_i_2 * t245 - t243 * omega_i_in_star_1 + alphadot * t245 +
+        (omega_j_in_joint_j_0 * t242 - omega_j_in_joint_j_2 * t246);
+    jac_phi_q_v_A_j[24] = omega_i[2] * t247 - omega_i[1] * t248 + A_i[1] * v_2_in_j_1;
+    jac_phi_q_v_A_j[25] = omega_i[0] * t248 - omega_i[2] * t250 + (v_2_in_j_0 * t187 - v_2_in_j_2 * t249);
+    const jg_real t251 = C_j[6] * t187 - C_j[8] * t249;
+    const jg_real t252 = A_i[1] * C_j[7];
+    const jg_real t253 = A_i[7] * C_j[7];
+    const jg_real t254 = t252 * C_i[6] + C_i[7] * t251 + C_i[8] * t253;
+    const jg_real t255 = t187 * C_j[3] - t249 * C_j[5];
+    const jg_real t256 = A_i[1] * C_j[4];
+    const jg_real t257 = A_i[7] * C_j[4];
+    const jg_real t258 = C_i[1] * t255 + C_i[0] * t256 + C_i[2] * t257;
+    const jg_real t259 = C_i[4] * t255 + C_i[3] * t256 + C_i[5] * t257;
+    const jg_real t260 = t252 * C_i[0] + C_i[1] * t251 + C_i[2] * t253;
+    const jg_real t261 = t252 * C_i[3] + C_i[4] * t251 + C_i[5] * t253;
+    const jg_real t262 = t260 * cosine_0 + t261 * sine_0;
+    const jg_real t263 = C_i[7] * t255 + C_i[6] * t256 + C_i[8] * t257;
+    const jg_real t264 = t254 * f_star_dot_g_j + h_j_in_joint_i_2 * (t258 * cosine_0 + t259 * sine_0) -
+        (g_j_in_joint_i_2 * t262 + t263 * f_star_dot_h_j);
+    const jg_real t265 = t259 * cosine_0 - t258 * sine_0;
+    const jg_real t266 = t254 * g_star_dot_g_j + h_j_in_joint_i_2 * t265 - (g_j_in_joint_i_2 * (t261 * cosine_0 -
+        t260 * sine_0) + t263 * g_star_dot_h_j);
+    const jg_real t267 = s_j[1] * A_i[5];
+    const jg_real t268 = s_j[1] * A_i[8];
+    const jg_real t269 = A_ji_0 * A_i[8] - A_i[2] * A_ji_6;
+    const jg_real t270 = s_j[1] * A_i[2];
+    const jg_real t271 = C_j[6] * t208 - C_j[8] * t269;
+    const jg_real t272 = A_i[2] * C_j[7];
+    const jg_real t273 = A_i[8] * C_j[7];
+    const jg_real t274 = t272 * C_i[6] + C_i[7] * t271 + C_i[8] * t273;
+    const jg_real t275 = t208 * C_j[3] - t269 * C_j[5];
+    const jg_real t276 = A_i[2] * C_j[4];
+    const jg_real t277 = A_i[8] * C_j[4];
+    const jg_real t278 = C_i[1] * t275 + C_i[0] * t276 + C_i[2] * t277;
+    const jg_real t279 = C_i[4] * t275 + C_i[3] * t276 + C_i[5] * t277;
+    const jg_real t280 = t272 * C_i[0] + C_i[1] * t271 + C_i[2] * t273;
+    const jg_real t281 = t272 * C_i[3] + C_i[4] * t271 + C_i[5] * t273;
+    const jg_real t282 = t280 * cosine_0 + t281 * sine_0;
+    const jg_real t283 = C_i[7] * t275 + C_i[6] * t276 + C_i[8] * t277;
+    const jg_real t284 = t274 * f_star_dot_g_j + h_j_in_joint_i_2 * (t278 * cosine_0 + t279 * sine_0) -
+        (g_j_in_joint_i_2 * t282 + t283 * f_star_dot_h_j);
+    const jg_real t285 = t279 * cosine_0 - t278 * sine_0;
+    jac_phi_q_v_A_j[26] = omega_i[1] * t250 - omega_i[0] * t247 + v_2_in_j_1 * A_i[7];
+    jac_phi_q_v_A_j[27] = t254 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t262 - alphadot * t262 -
+        (omega_j_in_joint_j_0 * t265 + omega_j_in_joint_j_1 * t264);
+    jac_phi_q_v_A_j[28] = omega_i_in_star_0 * t264 + omega_i_in_star_1 * t266 - (t254 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t263);
+    jac_phi_q_v_A_j[29] = omega_i_in_joint_i_2 * t265 - t263 * omega_i_in_star_1 + alphadot * t265 +
+        (omega_j_in_joint_j_0 * t262 - omega_j_in_joint_j_2 * t266);
+    jac_phi_q_v_A_j[30] = omega_i[2] * t267 - omega_i[1] * t268 + A_i[2] * v_2_in_j_1;
+    jac_phi_q_v_A_j[31] = omega_i[0] * t268 - omega_i[2] * t270 + (v_2_in_j_0 * t208 - v_2_in_j_2 * t269);
+    jac_phi_q_v_A_j[32] = omega_i[1] * t270 - omega_i[0] * t267 + v_2_in_j_1 * A_i[8];
+    jac_phi_q_v_A_j[33] = t274 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t282 - alphadot * t282 -
+        (omega_j_in_joint_j_0 * t285 + omega_j_in_joint_j_1 * t284);
+    const jg_real t286 = t274 * g_star_dot_g_j + h_j_in_joint_i_2 * t285 - (g_j_in_joint_i_2 * (t281 * cosine_0 -
+        t280 * sine_0) + t283 * g_star_dot_h_j);
+    const jg_real t287 = s_j[2] * A_i[3];
+    const jg_real t288 = s_j[2] * A_i[6];
+    const jg_real t289 = s_j[2] * A_i[0];
+    const jg_real t290 = C_j[6] * t167 + C_j[7] * t229;
+    const jg_real t291 = A_i[0] * C_j[8];
+    const jg_real t292 = A_i[6] * C_j[8];
+    const jg_real t293 = t291 * C_i[6] + C_i[7] * t290 + C_i[8] * t292;
+    const jg_real t294 = t167 * C_j[3] + t229 * C_j[4];
+    const jg_real t295 = A_i[0] * C_j[5];
+    const jg_real t296 = A_i[6] * C_j[5];
+    const jg_real t297 = C_i[1] * t294 + C_i[0] * t295 + C_i[2] * t296;
+    const jg_real t298 = C_i[4] * t294 + C_i[3] * t295 + C_i[5] * t296;
+    const jg_real t299 = t291 * C_i[0] + C_i[1] * t290 + C_i[2] * t292;
+    const jg_real t300 = t291 * C_i[3] + C_i[4] * t290 + C_i[5] * t292;
+    const jg_real t301 = t299 * cosine_0 + t300 * sine_0;
+    const jg_real t302 = C_i[7] * t294 + C_i[6] * t295 + C_i[8] * t296;
+    const jg_real t303 = t293 * f_star_dot_g_j + h_j_in_joint_i_2 * (t297 * cosine_0 + t298 * sine_0) -
+        (g_j_in_joint_i_2 * t301 + t302 * f_star_dot_h_j);
+    const jg_real t304 = t298 * cosine_0 - t297 * sine_0;
+    const jg_real t305 = t293 * g_star_dot_g_j + h_j_in_joint_i_2 * t304 - (g_j_in_joint_i_2 * (t300 * cosine_0 -
+        t299 * sine_0) + t302 * g_star_dot_h_j);
+    jac_phi_q_v_A_j[34] = omega_i_in_star_0 * t284 + omega_i_in_star_1 * t286 - (t274 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t283);
+    jac_phi_q_v_A_j[35] = omega_i_in_joint_i_2 * t285 - t283 * omega_i_in_star_1 + alphadot * t285 +
+        (omega_j_in_joint_j_0 * t282 - omega_j_in_joint_j_2 * t286);
+    jac_phi_q_v_A_j[36] = omega_i[2] * t287 - omega_i[1] * t288 + A_i[0] * v_2_in_j_2;
+    jac_phi_q_v_A_j[37] = v_2_in_j_0 * t167 + v_2_in_j_1 * t229 + (omega_i[0] * t288 - omega_i[2] * t289);
+    jac_phi_q_v_A_j[38] = omega_i[1] * t289 - omega_i[0] * t287 + v_2_in_j_2 * A_i[6];
+    jac_phi_q_v_A_j[39] = t293 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t301 - alphadot * t301 -
+        (omega_j_in_joint_j_0 * t304 + omega_j_in_joint_j_1 * t303);
+    jac_phi_q_v_A_j[40] = omega_i_in_star_0 * t303 + omega_i_in_star_1 * t305 - (t293 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t302);
+    jac_phi_q_v_A_j[41] = omega_i_in_joint_i_2 * t304 - t302 * omega_i_in_star_1 + alphadot * t304 +
+        (omega_j_in_joint_j_0 * t301 - omega_j_in_joint_j_2 * t305);
+    const jg_real t306 = s_j[2] * A_i[4];
+    const jg_real t307 = s_j[2] * A_i[7];
+    const jg_real t308 = s_j[2] * A_i[1];
+    const jg_real t309 = C_j[6] * t188 + C_j[7] * t249;
+    const jg_real t310 = A_i[1] * C_j[8];
+    const jg_real t311 = A_i[7] * C_j[8];
+    const jg_real t312 = t310 * C_i[6] + C_i[7] * t309 + C_i[8] * t311;
+    const jg_real t313 = t188 * C_j[3] + t249 * C_j[4];
+    const jg_real t314 = A_i[1] * C_j[5];
+    const jg_real t315 = A_i[7] * C_j[5];
+    const jg_real t316 = C_i[1] * t313 + C_i[0] * t314 + C_i[2] * t315;
+    const jg_real t317 = C_i[4] * t313 + C_i[3] * t314 + C_i[5] * t315;
+    const jg_real t318 = t310 * C_i[0] + C_i[1] * t309 + C_i[2] * t311;
+    const jg_real t319 = t310 * C_i[3] + C_i[4] * t309 + C_i[5] * t311;
+    const jg_real t320 = t318 * cosine_0 + t319 * sine_0;
+    const jg_real t321 = C_i[7] * t313 + C_i[6] * t314 + C_i[8] * t315;
+    const jg_real t322 = t312 * f_star_dot_g_j + h_j_in_joint_i_2 * (t316 * cosine_0 + t317 * sine_0) -
+        (g_j_in_joint_i_2 * t320 + t321 * f_star_dot_h_j);
+    const jg_real t323 = t317 * cosine_0 - t316 * sine_0;
+    const jg_real t324 = t312 * g_star_dot_g_j + h_j_in_joint_i_2 * t323 - (g_j_in_joint_i_2 * (t319 * cosine_0 -
+        t318 * sine_0) + t321 * g_star_dot_h_j);
+    const jg_real t325 = s_j[2] * A_i[5];
+    const jg_real t326 = s_j[2] * A_i[8];
+    const jg_real t327 = s_j[2] * A_i[2];
+    jac_phi_q_v_A_j[42] = omega_i[2] * t306 - omega_i[1] * t307 + A_i[1] * v_2_in_j_2;
+    jac_phi_q_v_A_j[43] = v_2_in_j_0 * t188 + v_2_in_j_1 * t249 + (omega_i[0] * t307 - omega_i[2] * t308);
+    jac_phi_q_v_A_j[44] = omega_i[1] * t308 - omega_i[0] * t306 + v_2_in_j_2 * A_i[7];
+    jac_phi_q_v_A_j[45] = t312 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t320 - alphadot * t320 -
+        (omega_j_in_joint_j_0 * t323 + omega_j_in_joint_j_1 * t322);
+    jac_phi_q_v_A_j[46] = omega_i_in_star_0 * t322 + omega_i_in_star_1 * t324 - (t312 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t321);
+    jac_phi_q_v_A_j[47] = omega_i_in_joint_i_2 * t323 - t321 * omega_i_in_star_1 + alphadot * t323 +
+        (omega_j_in_joint_j_0 * t320 - omega_j_in_joint_j_2 * t324);
+    jac_phi_q_v_A_j[48] = omega_i[2] * t325 - omega_i[1] * t326 + A_i[2] * v_2_in_j_2;
+    jac_phi_q_v_A_j[49] = v_2_in_j_0 * t209 + v_2_in_j_1 * t269 + (omega_i[0] * t326 - omega_i[2] * t327);
+    const jg_real t328 = C_j[6] * t209 + C_j[7] * t269;
+    const jg_real t329 = A_i[2] * C_j[8];
+    const jg_real t330 = A_i[8] * C_j[8];
+    const jg_real t331 = t329 * C_i[6] + C_i[7] * t328 + C_i[8] * t330;
+    const jg_real t332 = t209 * C_j[3] + t269 * C_j[4];
+    const jg_real t333 = A_i[2] * C_j[5];
+    const jg_real t334 = A_i[8] * C_j[5];
+    const jg_real t335 = C_i[1] * t332 + C_i[0] * t333 + C_i[2] * t334;
+    const jg_real t336 = C_i[4] * t332 + C_i[3] * t333 + C_i[5] * t334;
+    const jg_real t337 = t329 * C_i[0] + C_i[1] * t328 + C_i[2] * t330;
+    const jg_real t338 = t329 * C_i[3] + C_i[4] * t328 + C_i[5] * t330;
+    const jg_real t339 = t337 * cosine_0 + t338 * sine_0;
+    const jg_real t340 = C_i[7] * t332 + C_i[6] * t333 + C_i[8] * t334;
+    const jg_real t341 = t331 * f_star_dot_g_j + h_j_in_joint_i_2 * (t335 * cosine_0 + t336 * sine_0) -
+        (g_j_in_joint_i_2 * t339 + t340 * f_star_dot_h_j);
+    const jg_real t342 = t336 * cosine_0 - t335 * sine_0;
+    const jg_real t343 = t331 * g_star_dot_g_j + h_j_in_joint_i_2 * t342 - (g_j_in_joint_i_2 * (t338 * cosine_0 -
+        t337 * sine_0) + t340 * g_star_dot_h_j);
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = h_j_in_joint_i_2 * g_star_dot_g_j - g_j_in_joint_i_2 * g_star_dot_h_j;
-    /* h_star_cross_f_j_in_star = h_star x f_j, axes of body star */
-    const jg_real h_star_cross_f_j_in_star = h_j_in_joint_i_2 * f_star_dot_g_j - g_j_in_joint_i_2 * f_star_dot_h_j;
-    const jg_real t355 = g_j_in_i_0 * cosine_0;
-    const jg_real t356 = h_j_in_i_0 * cosine_0;
-    const jg_real t357 = h_j_in_joint_i_2 * t355 - g_j_in_joint_i_2 * t356;
-    const jg_real t358 = g_j_in_i_0 * sine_0;
-    const jg_real t359 = omega_i[0] * cosine_0;
-    jac_phi_q_v_A_j[50] = omega_i[1] * t336 - omega_i[0] * t334 + A_i[8] * v_0_in_j_2;
-    jac_phi_q_v_A_j[51] = t340 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t348 - alphadot * t348 -
-        (omega_j_in_joint_j_0 * t351 + omega_j_in_joint_j_1 * t350);
-    jac_phi_q_v_A_j[52] = omega_i_in_star_0 * t350 + omega_i_in_star_1 * t352 - (t340 * omega_j_in_joint_j_1 -
-        omega_j_in_joint_j_2 * t349);
-    jac_phi_q_v_A_j[53] = omega_i_in_joint_i_2 * t351 - t349 * omega_i_in_star_1 + alphadot * t351 -
-        (omega_j_in_joint_j_2 * t352 - omega_j_in_joint_j_0 * t348);
+    /* g_star_cross_h_j_in_joint_j = g_star x h_j, axes of joint j */
+    const jg_real g_star_cross_h_j_in_joint_j_1 = h_j_in_joint_i_2 * f_star_dot_g_j - g_j_in_joint_i_2 *
+        f_star_dot_h_j;
+    const jg_real t346 = g_j_in_i_0 * cosine_0;
+    const jg_real t347 = h_j_in_i_0 * cosine_0;
+    const jg_real t348 = h_j_in_joint_i_2 * t346 - g_j_in_joint_i_2 * t347;
+    const jg_real t349 = g_j_in_i_0 * sine_0;
+    const jg_real t350 = omega_i[0] * cosine_0;
+    jac_phi_q_v_A_j[50] = omega_i[1] * t327 - omega_i[0] * t325 + v_2_in_j_2 * A_i[8];
+    jac_phi_q_v_A_j[51] = t331 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t339 - alphadot * t339 -
+        (omega_j_in_joint_j_0 * t342 + omega_j_in_joint_j_1 * t341);
+    jac_phi_q_v_A_j[52] = omega_i_in_star_0 * t341 + omega_i_in_star_1 * t343 - (t331 * omega_j_in_joint_j_1 -
+        omega_j_in_joint_j_2 * t340);
+    jac_phi_q_v_A_j[53] = omega_i_in_joint_i_2 * t342 - t340 * omega_i_in_star_1 + alphadot * t342 +
+        (omega_j_in_joint_j_0 * t339 - omega_j_in_joint_j_2 * t343);
     jac_phi_q_v_alpha[0] = h_j_in_joint_i_2 * omega_i_in_star_1 - omega_i_in_joint_i_2 * g_star_dot_h_j - alphadot *
         g_star_dot_h_j - (omega_j_in_joint_j_1 * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_dot_g_j);
     jac_phi_q_v_alpha[1] = JG_REAL(0.0);
     jac_phi_q_v_alpha[2] = g_j_in_joint_i_2 * omega_i_in_star_0 - omega_i_in_joint_i_2 * f_star_dot_g_j - alphadot *
-        f_star_dot_g_j + (omega_j_in_joint_j_0 * g_star_dot_h_j + omega_j_in_joint_j_2 * h_star_cross_f_j_in_star);
-    jac_phi_q_v_geometry[0] = h_j_in_joint_i_2 * t359 - omega_i_in_joint_i_2 * t356 - alphadot * t356 -
-        (omega_j_in_joint_j_1 * t357 - omega_j_in_joint_j_0 * t358);
-    const jg_real t360 = omega_i[0] * sine_0;
-    const jg_real t361 = h_j_in_i_0 * sine_0;
-    const jg_real t362 = h_j_in_joint_i_2 * t358 - g_j_in_joint_i_2 * t361;
-    const jg_real t363 = g_j_in_i_1 * cosine_0;
-    const jg_real t364 = h_j_in_i_1 * cosine_0;
-    const jg_real t365 = h_j_in_joint_i_2 * t363 - g_j_in_joint_i_2 * t364;
-    const jg_real t366 = g_j_in_i_1 * sine_0;
-    const jg_real t367 = omega_i[1] * cosine_0;
-    const jg_real t368 = omega_i[1] * sine_0;
-    const jg_real t369 = h_j_in_i_1 * sine_0;
-    const jg_real t370 = h_j_in_joint_i_2 * t366 - g_j_in_joint_i_2 * t369;
-    const jg_real t371 = g_j_in_i_2 * cosine_0;
-    const jg_real t372 = h_j_in_i_2 * cosine_0;
-    const jg_real t373 = h_j_in_joint_i_2 * t371 - g_j_in_joint_i_2 * t372;
-    const jg_real t374 = g_j_in_i_2 * sine_0;
-    const jg_real t375 = omega_i[2] * cosine_0;
-    const jg_real t376 = omega_i[2] * sine_0;
-    const jg_real t377 = h_j_in_i_2 * sine_0;
-    const jg_real t378 = h_j_in_joint_i_2 * t374 - g_j_in_joint_i_2 * t377;
-    jac_phi_q_v_geometry[1] = t359 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t357 - (t360 * f_star_dot_f_j +
-        omega_i_in_star_1 * t362);
-    jac_phi_q_v_geometry[2] = g_j_in_joint_i_2 * t360 - omega_i_in_joint_i_2 * t358 - alphadot * t358 +
-        (omega_j_in_joint_j_0 * t356 + omega_j_in_joint_j_2 * t362);
-    jac_phi_q_v_geometry[3] = h_j_in_joint_i_2 * t367 - omega_i_in_joint_i_2 * t364 - alphadot * t364 -
-        (omega_j_in_joint_j_1 * t365 - omega_j_in_joint_j_0 * t366);
-    jac_phi_q_v_geometry[4] = t367 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t365 - (t368 * f_star_dot_f_j +
-        omega_i_in_star_1 * t370);
-    jac_phi_q_v_geometry[5] = g_j_in_joint_i_2 * t368 - omega_i_in_joint_i_2 * t366 - alphadot * t366 +
-        (omega_j_in_joint_j_0 * t364 + omega_j_in_joint_j_2 * t370);
-    jac_phi_q_v_geometry[6] = h_j_in_joint_i_2 * t375 - omega_i_in_joint_i_2 * t372 - alphadot * t372 -
-        (omega_j_in_joint_j_1 * t373 - omega_j_in_joint_j_0 * t374);
-    jac_phi_q_v_geometry[7] = t375 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t373 - (t376 * f_star_dot_f_j +
-        omega_i_in_star_1 * t378);
-    jac_phi_q_v_geometry[8] = g_j_in_joint_i_2 * t376 - omega_i_in_joint_i_2 * t374 - alphadot * t374 +
-        (omega_j_in_joint_j_0 * t372 + omega_j_in_joint_j_2 * t378);
-    jac_phi_q_v_geometry[9] = h_j_in_joint_i_2 * t360 - omega_i_in_joint_i_2 * t361 - alphadot * t361 -
-        (omega_j_in_joint_j_0 * t355 + omega_j_in_joint_j_1 * t362);
-    jac_phi_q_v_geometry[10] = t360 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t362 + (t359 * f_star_dot_f_j +
-        omega_i_in_star_1 * t357);
-    jac_phi_q_v_geometry[11] = omega_i_in_joint_i_2 * t355 - g_j_in_joint_i_2 * t359 + alphadot * t355 -
-        (omega_j_in_joint_j_2 * t357 - omega_j_in_joint_j_0 * t361);
-    jac_phi_q_v_geometry[12] = h_j_in_joint_i_2 * t368 - omega_i_in_joint_i_2 * t369 - alphadot * t369 -
-        (omega_j_in_joint_j_0 * t363 + omega_j_in_joint_j_1 * t370);
-    jac_phi_q_v_geometry[13] = t368 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t370 + (t367 * f_star_dot_f_j +
-        omega_i_in_star_1 * t365);
-    jac_phi_q_v_geometry[14] = omega_i_in_joint_i_2 * t363 - g_j_in_joint_i_2 * t367 + alphadot * t363 -
-        (omega_j_in_joint_j_2 * t365 - omega_j_in_joint_j_0 * t369);
-    jac_phi_q_v_geometry[15] = h_j_in_joint_i_2 * t376 - omega_i_in_joint_i_2 * t377 - alphadot * t377 -
-        (omega_j_in_joint_j_0 * t371 + omega_j_in_joint_j_1 * t378);
-    jac_phi_q_v_geometry[16] = t376 * h_star_cross_f_j_in_star + omega_i_in_star_0 * t378 + (t375 * f_star_dot_f_j +
-        omega_i_in_star_1 * t373);
-    const jg_real t379 = h_j_in_i_0 * f_star_dot_g_j - g_j_in_i_0 * f_star_dot_h_j;
-    const jg_real t380 = h_j_in_i_0 * g_star_dot_g_j - g_j_in_i_0 * g_star_dot_h_j;
-    const jg_real t381 = h_j_in_i_1 * f_star_dot_g_j - g_j_in_i_1 * f_star_dot_h_j;
-    const jg_real t382 = h_j_in_i_1 * g_star_dot_g_j - g_j_in_i_1 * g_star_dot_h_j;
-    const jg_real t383 = h_j_in_i_2 * f_star_dot_g_j - g_j_in_i_2 * f_star_dot_h_j;
-    jac_phi_q_v_geometry[17] = omega_i_in_joint_i_2 * t371 - g_j_in_joint_i_2 * t375 + alphadot * t371 -
-        (omega_j_in_joint_j_2 * t373 - omega_j_in_joint_j_0 * t377);
+        f_star_dot_g_j + (omega_j_in_joint_j_0 * g_star_dot_h_j + omega_j_in_joint_j_2 *
+        g_star_cross_h_j_in_joint_j_1);
+    jac_phi_q_v_geometry[0] = h_j_in_joint_i_2 * t350 - omega_i_in_joint_i_2 * t347 - alphadot * t347 -
+        (omega_j_in_joint_j_1 * t348 - omega_j_in_joint_j_0 * t349);
+    const jg_real t351 = omega_i[0] * sine_0;
+    const jg_real t352 = h_j_in_i_0 * sine_0;
+    const jg_real t353 = h_j_in_joint_i_2 * t349 - g_j_in_joint_i_2 * t352;
+    const jg_real t354 = g_j_in_i_1 * cosine_0;
+    const jg_real t355 = h_j_in_i_1 * cosine_0;
+    const jg_real t356 = h_j_in_joint_i_2 * t354 - g_j_in_joint_i_2 * t355;
+    const jg_real t357 = g_j_in_i_1 * sine_0;
+    const jg_real t358 = omega_i[1] * cosine_0;
+    const jg_real t359 = omega_i[1] * sine_0;
+    const jg_real t360 = h_j_in_i_1 * sine_0;
+    const jg_real t361 = h_j_in_joint_i_2 * t357 - g_j_in_joint_i_2 * t360;
+    const jg_real t362 = g_j_in_i_2 * cosine_0;
+    const jg_real t363 = h_j_in_i_2 * cosine_0;
+    const jg_real t364 = h_j_in_joint_i_2 * t362 - g_j_in_joint_i_2 * t363;
+    const jg_real t365 = g_j_in_i_2 * sine_0;
+    const jg_real t366 = omega_i[2] * cosine_0;
+    const jg_real t367 = omega_i[2] * sine_0;
+    const jg_real t368 = h_j_in_i_2 * sine_0;
+    const jg_real t369 = h_j_in_joint_i_2 * t365 - g_j_in_joint_i_2 * t368;
+    jac_phi_q_v_geometry[1] = t350 * g_star_cross_h_j_in_joint_j_1 + omega_i_in_star_0 * t348 - (t351 *
+        f_star_dot_f_j + omega_i_in_star_1 * t353);
+    jac_phi_q_v_geometry[2] = g_j_in_joint_i_2 * t351 - omega_i_in_joint_i_2 * t349 - alphadot * t349 +
+        (omega_j_in_joint_j_0 * t347 + omega_j_in_joint_j_2 * t353);
+    jac_phi_q_v_geometry[3] = h_j_in_joint_i_2 * t358 - omega_i_in_joint_i_2 * t355 - alphadot * t355 -
+        (omega_j_in_joint_j_1 * t356 - omega_j_in_joint_j_0 * t357);
+    jac_phi_q_v_geometry[4] = t358 * g_star_cross_h_j_in_joint_j_1 + omega_i_in_star_0 * t356 - (t359 *
+        f_star_dot_f_j + omega_i_in_star_1 * t361);
+    jac_phi_q_v_geometry[5] = g_j_in_joint_i_2 * t359 - omega_i_in_joint_i_2 * t357 - alphadot * t357 +
+        (omega_j_in_joint_j_0 * t355 + omega_j_in_joint_j_2 * t361);
+    jac_phi_q_v_geometry[6] = h_j_in_joint_i_2 * t366 - omega_i_in_joint_i_2 * t363 - alphadot * t363 -
+        (omega_j_in_joint_j_1 * t364 - omega_j_in_joint_j_0 * t365);
+    jac_phi_q_v_geometry[7] = t366 * g_star_cross_h_j_in_joint_j_1 + omega_i_in_star_0 * t364 - (t367 *
+        f_star_dot_f_j + omega_i_in_star_1 * t369);
+    jac_phi_q_v_geometry[8] = g_j_in_joint_i_2 * t367 - omega_i_in_joint_i_2 * t365 - alphadot * t365 +
+        (omega_j_in_joint_j_0 * t363 + omega_j_in_joint_j_2 * t369);
+    jac_phi_q_v_geometry[9] = h_j_in_joint_i_2 * t351 - omega_i_in_joint_i_2 * t352 - alphadot * t352 -
+        (omega_j_in_joint_j_0 * t346 + omega_j_in_joint_j_1 * t353);
+    jac_phi_q_v_geometry[10] = t351 * g_star_cross_h_j_in_joint_j_1 + omega_i_in_star_0 * t353 + (t350 *
+        f_star_dot_f_j + omega_i_in_star_1 * t348);
+    jac_phi_q_v_geometry[11] = omega_i_in_joint_i_2 * t346 - g_j_in_joint_i_2 * t350 + alphadot * t346 +
+        (omega_j_in_joint_j_0 * t352 - omega_j_in_joint_j_2 * t348);
+    jac_phi_q_v_geometry[12] = h_j_in_joint_i_2 * t359 - omega_i_in_joint_i_2 * t360 - alphadot * t360 -
+        (omega_j_in_joint_j_0 * t354 + omega_j_in_joint_j_1 * t361);
+    jac_phi_q_v_geometry[13] = t359 * g_star_cross_h_j_in_joint_j_1 + omega_i_in_star_0 * t361 + (t358 *
+        f_star_dot_f_j + omega_i_in_star_1 * t356);
+    jac_phi_q_v_geometry[14] = omega_i_in_joint_i_2 * t354 - g_j_in_joint_i_2 * t358 + alphadot * t354 +
+        (omega_j_in_joint_j_0 * t360 - omega_j_in_joint_j_2 * t356);
+    jac_phi_q_v_geometry[15] = h_j_in_joint_i_2 * t367 - omega_i_in_joint_i_2 * t368 - alphadot * t368 -
+        (omega_j_in_joint_j_0 * t362 + omega_j_in_joint_j_1 * t369);
+    jac_phi_q_v_geometry[16] = t367 * g_star_cross_h_j_in_joint_j_1 + omega_i_in_star_0 * t369 + (t366 *
+        f_star_dot_f_j + omega_i_in_star_1 * t364);
+    const jg_real t370 = h_j_in_i_0 * f_star_dot_g_j - g_j_in_i_0 * f_star_dot_h_j;
+    const jg_real t371 = h_j_in_i_0 * g_star_dot_g_j - g_j_in_i_0 * g_star_dot_h_j;
+    const jg_real t372 = h_j_in_i_1 * f_star_dot_g_j - g_j_in_i_1 * f_star_dot_h_j;
+    const jg_real t373 = h_j_in_i_1 * g_star_dot_g_j - g_j_in_i_1 * g_star_dot_h_j;
+    const jg_real t374 = h_j_in_i_2 * f_star_dot_g_j - g_j_in_i_2 * f_star_dot_h_j;
+    jac_phi_q_v_geometry[17] = omega_i_in_joint_i_2 * t362 - g_j_in_joint_i_2 * t366 + alphadot * t362 +
+        (omega_j_in_joint_j_0 * t368 - omega_j_in_joint_j_2 * t364);
     jac_phi_q_v_geometry[18] = h_j_in_i_0 * omega_i_in_star_0 - omega_i[0] * f_star_dot_h_j - omega_j_in_joint_j_1 *
-        t379;
-    jac_phi_q_v_geometry[19] = omega_i_in_star_0 * t379 + omega_i_in_star_1 * t380 - (h_j_in_i_0 *
+        t370;
+    jac_phi_q_v_geometry[19] = omega_i_in_star_0 * t370 + omega_i_in_star_1 * t371 - (h_j_in_i_0 *
         omega_j_in_joint_j_1 - g_j_in_i_0 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[20] = omega_i[0] * g_star_dot_g_j - g_j_in_i_0 * omega_i_in_star_1 - omega_j_in_joint_j_2 *
-        t380;
+        t371;
     jac_phi_q_v_geometry[21] = h_j_in_i_1 * omega_i_in_star_0 - omega_i[1] * f_star_dot_h_j - omega_j_in_joint_j_1 *
-        t381;
-    jac_phi_q_v_geometry[22] = omega_i_in_star_0 * t381 + omega_i_in_star_1 * t382 - (h_j_in_i_1 *
+        t372;
+    jac_phi_q_v_geometry[22] = omega_i_in_star_0 * t372 + omega_i_in_star_1 * t373 - (h_j_in_i_1 *
         omega_j_in_joint_j_1 - g_j_in_i_1 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[23] = omega_i[1] * g_star_dot_g_j - g_j_in_i_1 * omega_i_in_star_1 - omega_j_in_joint_j_2 *
-        t382;
+        t373;
     jac_phi_q_v_geometry[24] = h_j_in_i_2 * omega_i_in_star_0 - omega_i[2] * f_star_dot_h_j - omega_j_in_joint_j_1 *
-        t383;
-    const jg_real t384 = h_j_in_i_2 * g_star_dot_g_j - g_j_in_i_2 * g_star_dot_h_j;
-    jac_phi_q_v_geometry[25] = omega_i_in_star_0 * t383 + omega_i_in_star_1 * t384 - (h_j_in_i_2 *
+        t374;
+    const jg_real t375 = h_j_in_i_2 * g_star_dot_g_j - g_j_in_i_2 * g_star_dot_h_j;
+    const jg_real t376 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real t377 = A_j[3] * A_i[3] + A_j[4] * A_i[4] + A_j[5] * A_i[5];
+    jac_phi_q_v_geometry[25] = omega_i_in_star_0 * t374 + omega_i_in_star_1 * t375 - (h_j_in_i_2 *
         omega_j_in_joint_j_1 - g_j_in_i_2 * omega_j_in_joint_j_2);
     jac_phi_q_v_geometry[26] = omega_i[2] * g_star_dot_g_j - g_j_in_i_2 * omega_i_in_star_1 - omega_j_in_joint_j_2 *
-        t384;
-    jac_phi_q_v_geometry[27] = omega_j[2] * A_ji_1 - omega_j[1] * A_ji_2 + (omega_i[2] * A_ji_3 - omega_i[1] *
+        t375;
+    jac_phi_q_v_geometry[27] = omega_j[2] * A_ji_1 - omega_j[1] * A_ji_2 + (omega_i[2] * t376 - omega_i[1] *
         A_ji_6);
-    jac_phi_q_v_geometry[28] = omega_j[2] * A_ji_4 - omega_j[1] * A_ji_5 + (A_ji_6 * omega_i[0] - omega_i[2] *
-        A_ji_0);
-    jac_phi_q_v_geometry[29] = omega_j[2] * A_ji_7 - omega_j[1] * A_ji_8 + (omega_i[1] * A_ji_0 - omega_i[0] *
-        A_ji_3);
-    jac_phi_q_v_geometry[30] = omega_j[0] * A_ji_2 - omega_j[2] * A_ji_0 + (omega_i[2] * A_ji_4 - omega_i[1] *
-        A_ji_7);
-    jac_phi_q_v_geometry[31] = omega_j[0] * A_ji_5 - omega_j[2] * A_ji_3 + (A_ji_7 * omega_i[0] - omega_i[2] *
-        A_ji_1);
-    jac_phi_q_v_geometry[32] = omega_j[0] * A_ji_8 - omega_j[2] * A_ji_6 + (omega_i[1] * A_ji_1 - omega_i[0] *
-        A_ji_4);
-    jac_phi_q_v_geometry[33] = omega_j[1] * A_ji_0 - omega_j[0] * A_ji_1 + (omega_i[2] * A_ji_5 - omega_i[1] *
-        A_ji_8);
-    jac_phi_q_v_geometry[34] = omega_j[1] * A_ji_3 - omega_j[0] * A_ji_4 + (A_ji_8 * omega_i[0] - omega_i[2] *
-        A_ji_2);
-    jac_phi_q_v_geometry[35] = omega_j[1] * A_ji_6 - omega_j[0] * A_ji_7 + (omega_i[1] * A_ji_2 - omega_i[0] *
+    jac_phi_q_v_geometry[28] = omega_i[0] * A_ji_6 - A_ji_0 * omega_i[2] + (omega_j[2] * A_ji_4 - omega_j[1] *
         A_ji_5);
+    jac_phi_q_v_geometry[29] = omega_j[2] * A_ji_7 - omega_j[1] * A_ji_8 + (A_ji_0 * omega_i[1] - omega_i[0] *
+        t376);
+    jac_phi_q_v_geometry[30] = omega_j[0] * A_ji_2 - omega_j[2] * A_ji_0 + (omega_i[2] * t377 - omega_i[1] *
+        A_ji_7);
+    jac_phi_q_v_geometry[31] = omega_i[0] * A_ji_7 - A_ji_1 * omega_i[2] + (omega_j[0] * A_ji_5 - omega_j[2] *
+        A_ji_3);
+    jac_phi_q_v_geometry[32] = omega_j[0] * A_ji_8 - omega_j[2] * A_ji_6 + (A_ji_1 * omega_i[1] - omega_i[0] *
+        t377);
+    const jg_real t378 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    jac_phi_q_v_geometry[33] = omega_j[1] * A_ji_0 - omega_j[0] * A_ji_1 + (omega_i[2] * t378 - omega_i[1] *
+        A_ji_8);
+    jac_phi_q_v_geometry[34] = omega_j[1] * A_ji_3 - omega_j[0] * A_ji_4 + (omega_i[0] * A_ji_8 - A_ji_2 *
+        omega_i[2]);
+    jac_phi_q_v_geometry[35] = omega_j[1] * A_ji_6 - omega_j[0] * A_ji_7 + (A_ji_2 * omega_i[1] - omega_i[0] *
+        t378);
     jac_phi_q_v_geometry[36] = -(omega_j[0] * g_star_dot_g_j);
     jac_phi_q_v_geometry[37] = omega_j[0] * f_star_dot_h_j;
     jac_phi_q_v_geometry[38] = -(omega_j[1] * g_star_dot_g_j);
     jac_phi_q_v_geometry[39] = omega_j[1] * f_star_dot_h_j;
     jac_phi_q_v_geometry[40] = -(omega_j[2] * g_star_dot_g_j);
-    const jg_real t385 = A_ji_3 * C_i[1] + A_ji_0 * C_i[0] + A_ji_6 * C_i[2];
-    const jg_real t386 = A_ji_3 * C_i[4] + A_ji_0 * C_i[3] + A_ji_6 * C_i[5];
-    const jg_real t387 = t385 * cosine_0 + t386 * sine_0;
-    const jg_real t388 = A_ji_3 * C_i[7] + A_ji_0 * C_i[6] + A_ji_6 * C_i[8];
-    const jg_real t389 = h_j_in_joint_i_2 * t387 - t388 * f_star_dot_h_j;
-    const jg_real t390 = t386 * cosine_0 - t385 * sine_0;
-    const jg_real t391 = h_j_in_joint_i_2 * t390 - t388 * g_star_dot_h_j;
-    const jg_real t392 = A_ji_4 * C_i[1] + A_ji_1 * C_i[0] + A_ji_7 * C_i[2];
-    const jg_real t393 = A_ji_4 * C_i[4] + A_ji_1 * C_i[3] + A_ji_7 * C_i[5];
-    const jg_real t394 = t392 * cosine_0 + t393 * sine_0;
-    const jg_real t395 = A_ji_4 * C_i[7] + A_ji_1 * C_i[6] + A_ji_7 * C_i[8];
-    const jg_real t396 = h_j_in_joint_i_2 * t394 - t395 * f_star_dot_h_j;
-    const jg_real t397 = t393 * cosine_0 - t392 * sine_0;
-    const jg_real t398 = h_j_in_joint_i_2 * t397 - t395 * g_star_dot_h_j;
-    const jg_real t399 = A_ji_5 * C_i[1] + A_ji_2 * C_i[0] + A_ji_8 * C_i[2];
-    const jg_real t400 = A_ji_5 * C_i[4] + A_ji_2 * C_i[3] + A_ji_8 * C_i[5];
-    const jg_real t401 = t399 * cosine_0 + t400 * sine_0;
-    const jg_real t402 = A_ji_5 * C_i[7] + A_ji_2 * C_i[6] + A_ji_8 * C_i[8];
-    const jg_real t403 = h_j_in_joint_i_2 * t401 - t402 * f_star_dot_h_j;
-    const jg_real t404 = t400 * cosine_0 - t399 * sine_0;
+    const jg_real t379 = A_ji_0 * C_i[0] + C_i[1] * A_ji_3 + C_i[2] * A_ji_6;
+    const jg_real t380 = A_ji_0 * C_i[3] + C_i[4] * A_ji_3 + C_i[5] * A_ji_6;
+    const jg_real t381 = t379 * cosine_0 + t380 * sine_0;
+    const jg_real t382 = A_ji_0 * C_i[6] + C_i[7] * A_ji_3 + A_ji_6 * C_i[8];
+    const jg_real t383 = h_j_in_joint_i_2 * t381 - t382 * f_star_dot_h_j;
+    const jg_real t384 = t380 * cosine_0 - t379 * sine_0;
+    const jg_real t385 = h_j_in_joint_i_2 * t384 - t382 * g_star_dot_h_j;
+    const jg_real t386 = A_ji_1 * C_i[0] + C_i[1] * A_ji_4 + C_i[2] * A_ji_7;
+    const jg_real t387 = A_ji_1 * C_i[3] + C_i[4] * A_ji_4 + A_ji_7 * C_i[5];
+    const jg_real t388 = t386 * cosine_0 + t387 * sine_0;
+    const jg_real t389 = A_ji_1 * C_i[6] + C_i[7] * A_ji_4 + A_ji_7 * C_i[8];
+    const jg_real t390 = h_j_in_joint_i_2 * t388 - t389 * f_star_dot_h_j;
+    const jg_real t391 = t387 * cosine_0 - t386 * sine_0;
+    const jg_real t392 = h_j_in_joint_i_2 * t391 - t389 * g_star_dot_h_j;
+    const jg_real t393 = A_ji_2 * C_i[0] + C_i[1] * A_ji_5 + C_i[2] * A_ji_8;
+    const jg_real t394 = A_ji_2 * C_i[3] + C_i[4] * A_ji_5 + A_ji_8 * C_i[5];
+    const jg_real t395 = t393 * cosine_0 + t394 * sine_0;
+    const jg_real t396 = A_ji_2 * C_i[6] + C_i[7] * A_ji_5 + A_ji_8 * C_i[8];
+    const jg_real t397 = h_j_in_joint_i_2 * t395 - t396 * f_star_dot_h_j;
+    const jg_real t398 = t394 * cosine_0 - t393 * sine_0;
     jac_phi_q_v_geometry[41] = omega_j[2] * f_star_dot_h_j;
-    jac_phi_q_v_geometry[42] = -(omega_j_in_joint_j_1 * t389 + omega_j[0] * h_star_cross_f_j_in_star +
-        omega_j_in_joint_j_0 * t390);
-    jac_phi_q_v_geometry[43] = omega_i_in_star_0 * t389 + omega_i_in_star_1 * t391 - (omega_j[0] * h_j_in_joint_i_2
-        - t388 * omega_j_in_joint_j_2);
-    jac_phi_q_v_geometry[44] = omega_i_in_joint_i_2 * t390 - t388 * omega_i_in_star_1 + alphadot * t390 -
-        omega_j_in_joint_j_2 * t391;
-    jac_phi_q_v_geometry[45] = -(omega_j_in_joint_j_1 * t396 + omega_j[1] * h_star_cross_f_j_in_star +
-        omega_j_in_joint_j_0 * t397);
-    jac_phi_q_v_geometry[46] = omega_i_in_star_0 * t396 + omega_i_in_star_1 * t398 - (omega_j[1] * h_j_in_joint_i_2
-        - t395 * omega_j_in_joint_j_2);
-    jac_phi_q_v_geometry[47] = omega_i_in_joint_i_2 * t397 - t395 * omega_i_in_star_1 + alphadot * t397 -
-        omega_j_in_joint_j_2 * t398;
-    jac_phi_q_v_geometry[48] = -(omega_j_in_joint_j_1 * t403 + omega_j[2] * h_star_cross_f_j_in_star +
-        omega_j_in_joint_j_0 * t404);
-    const jg_real t405 = h_j_in_joint_i_2 * t404 - t402 * g_star_dot_h_j;
-    const jg_real t406 = t388 * f_star_dot_g_j - g_j_in_joint_i_2 * t387;
-    const jg_real t407 = t388 * g_star_dot_g_j - g_j_in_joint_i_2 * t390;
-    const jg_real t408 = t395 * f_star_dot_g_j - g_j_in_joint_i_2 * t394;
-    const jg_real t409 = t395 * g_star_dot_g_j - g_j_in_joint_i_2 * t397;
-    jac_phi_q_v_geometry[49] = omega_i_in_star_0 * t403 + omega_i_in_star_1 * t405 - (omega_j[2] * h_j_in_joint_i_2
-        - t402 * omega_j_in_joint_j_2);
-    jac_phi_q_v_geometry[50] = omega_i_in_joint_i_2 * t404 - t402 * omega_i_in_star_1 + alphadot * t404 -
-        omega_j_in_joint_j_2 * t405;
-    jac_phi_q_v_geometry[51] = t388 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t387 - alphadot * t387 -
-        omega_j_in_joint_j_1 * t406;
-    jac_phi_q_v_geometry[52] = omega_i_in_star_0 * t406 + omega_i_in_star_1 * t407 - (t388 * omega_j_in_joint_j_1 -
+    jac_phi_q_v_geometry[42] = -(omega_j_in_joint_j_1 * t383 + omega_j[0] * g_star_cross_h_j_in_joint_j_1 +
+        omega_j_in_joint_j_0 * t384);
+    jac_phi_q_v_geometry[43] = omega_i_in_star_0 * t383 + omega_i_in_star_1 * t385 - (omega_j[0] * h_j_in_joint_i_2
+        - t382 * omega_j_in_joint_j_2);
+    jac_phi_q_v_geometry[44] = omega_i_in_joint_i_2 * t384 - t382 * omega_i_in_star_1 + alphadot * t384 -
+        omega_j_in_joint_j_2 * t385;
+    jac_phi_q_v_geometry[45] = -(omega_j_in_joint_j_1 * t390 + omega_j[1] * g_star_cross_h_j_in_joint_j_1 +
+        omega_j_in_joint_j_0 * t391);
+    jac_phi_q_v_geometry[46] = omega_i_in_star_0 * t390 + omega_i_in_star_1 * t392 - (omega_j[1] * h_j_in_joint_i_2
+        - t389 * omega_j_in_joint_j_2);
+    jac_phi_q_v_geometry[47] = omega_i_in_joint_i_2 * t391 - t389 * omega_i_in_star_1 + alphadot * t391 -
+        omega_j_in_joint_j_2 * t392;
+    jac_phi_q_v_geometry[48] = -(omega_j_in_joint_j_1 * t397 + omega_j[2] * g_star_cross_h_j_in_joint_j_1 +
+        omega_j_in_joint_j_0 * t398);
+    const jg_real t399 = h_j_in_joint_i_2 * t398 - t396 * g_star_dot_h_j;
+    const jg_real t400 = t382 * f_star_dot_g_j - g_j_in_joint_i_2 * t381;
+    const jg_real t401 = t382 * g_star_dot_g_j - g_j_in_joint_i_2 * t384;
+    const jg_real t402 = t389 * f_star_dot_g_j - g_j_in_joint_i_2 * t388;
+    const jg_real t403 = t389 * g_star_dot_g_j - g_j_in_joint_i_2 * t391;
+    jac_phi_q_v_geometry[49] = omega_i_in_star_0 * t397 + omega_i_in_star_1 * t399 - (omega_j[2] * h_j_in_joint_i_2
+        - t396 * omega_j_in_joint_j_2);
+    jac_phi_q_v_geometry[50] = omega_i_in_joint_i_2 * t398 - t396 * omega_i_in_star_1 + alphadot * t398 -
+        omega_j_in_joint_j_2 * t399;
+    jac_phi_q_v_geometry[51] = t382 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t381 - alphadot * t381 -
+        omega_j_in_joint_j_1 * t400;
+    jac_phi_q_v_geometry[52] = omega_i_in_star_0 * t400 + omega_i_in_star_1 * t401 - (t382 * omega_j_in_joint_j_1 -
         omega_j[0] * g_j_in_joint_i_2);
-    jac_phi_q_v_geometry[53] = omega_j_in_joint_j_0 * t387 - (omega_j_in_joint_j_2 * t407 + omega_j[0] *
-        f_star_dot_f_j);
-    jac_phi_q_v_geometry[54] = t395 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t394 - alphadot * t394 -
-        omega_j_in_joint_j_1 * t408;
-    jac_phi_q_v_geometry[55] = omega_i_in_star_0 * t408 + omega_i_in_star_1 * t409 - (t395 * omega_j_in_joint_j_1 -
+    jac_phi_q_v_geometry[53] = omega_j_in_joint_j_0 * t381 - (omega_j[0] * f_star_dot_f_j + omega_j_in_joint_j_2 *
+        t401);
+    jac_phi_q_v_geometry[54] = t389 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t388 - alphadot * t388 -
+        omega_j_in_joint_j_1 * t402;
+    jac_phi_q_v_geometry[55] = omega_i_in_star_0 * t402 + omega_i_in_star_1 * t403 - (t389 * omega_j_in_joint_j_1 -
         omega_j[1] * g_j_in_joint_i_2);
-    jac_phi_q_v_geometry[56] = omega_j_in_joint_j_0 * t394 - (omega_j_in_joint_j_2 * t409 + omega_j[1] *
-        f_star_dot_f_j);
-    const jg_real t410 = t402 * f_star_dot_g_j - g_j_in_joint_i_2 * t401;
-    const jg_real t411 = t402 * g_star_dot_g_j - g_j_in_joint_i_2 * t404;
-    /* s_j_in_i = s_j, axes of body i */
-    const jg_real s_j_in_i_2 = s_j[1] * A_ji_7 + s_j[0] * A_ji_6 + s_j[2] * A_ji_8;
-    /* v_1_in_i = r_j - r_i, axes of body i */
-    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
-    const jg_real t414 = s_j_in_i_2 + v_1_in_i_2;
-    const jg_real s_j_in_i_1 = s_j[0] * A_ji_3 + s_j[1] * A_ji_4 + s_j[2] * A_ji_5;
-    const jg_real v_1_in_i_1 = v_1_world_0 * A_i[3] + v_1_world_1 * A_i[4] + v_1_world_2 * A_i[5];
-    const jg_real t417 = v_1_in_i_1 + s_j_in_i_1;
-    jac_phi_q_v_geometry[57] = t402 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t401 - alphadot * t401 -
-        omega_j_in_joint_j_1 * t410;
-    jac_phi_q_v_geometry[58] = omega_i_in_star_0 * t410 + omega_i_in_star_1 * t411 - (t402 * omega_j_in_joint_j_1 -
+    jac_phi_q_v_geometry[56] = omega_j_in_joint_j_0 * t388 - (omega_j[1] * f_star_dot_f_j + omega_j_in_joint_j_2 *
+        t403);
+    const jg_real t404 = t396 * f_star_dot_g_j - g_j_in_joint_i_2 * t395;
+    const jg_real t405 = t396 * g_star_dot_g_j - g_j_in_joint_i_2 * t398;
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
+    const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
+    jac_phi_q_v_geometry[57] = t396 * omega_i_in_star_0 - omega_i_in_joint_i_2 * t395 - alphadot * t395 -
+        omega_j_in_joint_j_1 * t404;
+    jac_phi_q_v_geometry[58] = omega_i_in_star_0 * t404 + omega_i_in_star_1 * t405 - (t396 * omega_j_in_joint_j_1 -
         omega_j[2] * g_j_in_joint_i_2);
-    jac_phi_q_v_geometry[59] = omega_j_in_joint_j_0 * t401 - (omega_j_in_joint_j_2 * t411 + omega_j[2] *
-        f_star_dot_f_j);
+    jac_phi_q_v_geometry[59] = omega_j_in_joint_j_0 * t395 - (omega_j[2] * f_star_dot_f_j + omega_j_in_joint_j_2 *
+        t405);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    jac_phi_q_v_velocity[3] = t414;
-    jac_phi_q_v_velocity[13] = t417;
-    const jg_real t418 = C_i[0] * cosine_0 + C_i[3] * sine_0;
-    const jg_real t419 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real s_j_in_i_0 = s_j[1] * A_ji_1 + s_j[0] * A_ji_0 + s_j[2] * A_ji_2;
-    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
-    const jg_real t422 = v_1_in_i_0 + s_j_in_i_0;
-    const jg_real t423 = C_i[1] * cosine_0 + C_i[4] * sine_0;
-    const jg_real t424 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    jac_phi_q_v_velocity[4] = -t417;
-    jac_phi_q_v_velocity[5] = h_j_in_joint_i_2 * t418 - C_i[6] * f_star_dot_h_j;
-    jac_phi_q_v_velocity[6] = t418 * h_star_cross_f_j_in_star + t419 * f_star_dot_f_j;
-    jac_phi_q_v_velocity[7] = C_i[6] * g_star_dot_g_j - g_j_in_joint_i_2 * t419;
-    jac_phi_q_v_velocity[8] = -t414;
-    jac_phi_q_v_velocity[9] = t422;
-    jac_phi_q_v_velocity[10] = h_j_in_joint_i_2 * t423 - C_i[7] * f_star_dot_h_j;
-    jac_phi_q_v_velocity[11] = t423 * h_star_cross_f_j_in_star + t424 * f_star_dot_f_j;
-    const jg_real t425 = C_i[2] * cosine_0 + C_i[5] * sine_0;
-    const jg_real t426 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    jac_phi_q_v_velocity[12] = C_i[7] * g_star_dot_g_j - g_j_in_joint_i_2 * t424;
-    jac_phi_q_v_velocity[14] = -t422;
-    jac_phi_q_v_velocity[15] = h_j_in_joint_i_2 * t425 - C_i[8] * f_star_dot_h_j;
-    jac_phi_q_v_velocity[16] = t425 * h_star_cross_f_j_in_star + t426 * f_star_dot_f_j;
-    jac_phi_q_v_velocity[17] = C_i[8] * g_star_dot_g_j - g_j_in_joint_i_2 * t426;
+    jac_phi_q_v_velocity[3] = e_ij_in_i_2;
+    jac_phi_q_v_velocity[13] = e_ij_in_i_1;
+    const jg_real t408 = C_i[0] * cosine_0 + C_i[3] * sine_0;
+    const jg_real t409 = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
+    const jg_real t411 = C_i[1] * cosine_0 + C_i[4] * sine_0;
+    const jg_real t412 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    jac_phi_q_v_velocity[4] = -e_ij_in_i_1;
+    jac_phi_q_v_velocity[5] = h_j_in_joint_i_2 * t408 - C_i[6] * f_star_dot_h_j;
+    jac_phi_q_v_velocity[6] = t408 * g_star_cross_h_j_in_joint_j_1 + t409 * f_star_dot_f_j;
+    jac_phi_q_v_velocity[7] = C_i[6] * g_star_dot_g_j - g_j_in_joint_i_2 * t409;
+    jac_phi_q_v_velocity[8] = -e_ij_in_i_2;
+    jac_phi_q_v_velocity[9] = e_ij_in_i_0;
+    jac_phi_q_v_velocity[10] = h_j_in_joint_i_2 * t411 - C_i[7] * f_star_dot_h_j;
+    jac_phi_q_v_velocity[11] = t411 * g_star_cross_h_j_in_joint_j_1 + t412 * f_star_dot_f_j;
+    const jg_real t413 = C_i[2] * cosine_0 + C_i[5] * sine_0;
+    const jg_real t414 = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    jac_phi_q_v_velocity[12] = C_i[7] * g_star_dot_g_j - g_j_in_joint_i_2 * t412;
+    jac_phi_q_v_velocity[14] = -e_ij_in_i_0;
+    jac_phi_q_v_velocity[15] = h_j_in_joint_i_2 * t413 - C_i[8] * f_star_dot_h_j;
+    jac_phi_q_v_velocity[16] = t413 * g_star_cross_h_j_in_joint_j_1 + t414 * f_star_dot_f_j;
+    jac_phi_q_v_velocity[17] = C_i[8] * g_star_dot_g_j - g_j_in_joint_i_2 * t414;
     jac_phi_q_v_velocity[27] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
     jac_phi_q_v_velocity[28] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
     jac_phi_q_v_velocity[29] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[30] = -(C_j[0] * g_star_dot_g_j + C_j[3] * h_star_cross_f_j_in_star);
+    jac_phi_q_v_velocity[30] = -(C_j[0] * g_star_dot_g_j + C_j[3] * g_star_cross_h_j_in_joint_j_1);
     jac_phi_q_v_velocity[31] = C_j[6] * g_j_in_joint_i_2 - C_j[3] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[32] = C_j[0] * f_star_dot_h_j - C_j[6] * f_star_dot_f_j;
     jac_phi_q_v_velocity[33] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
     jac_phi_q_v_velocity[34] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
     jac_phi_q_v_velocity[35] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[36] = -(C_j[1] * g_star_dot_g_j + C_j[4] * h_star_cross_f_j_in_star);
+    jac_phi_q_v_velocity[36] = -(C_j[1] * g_star_dot_g_j + C_j[4] * g_star_cross_h_j_in_joint_j_1);
     jac_phi_q_v_velocity[37] = C_j[7] * g_j_in_joint_i_2 - C_j[4] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[38] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
     jac_phi_q_v_velocity[39] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
     jac_phi_q_v_velocity[40] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
     jac_phi_q_v_velocity[41] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[42] = -(C_j[2] * g_star_dot_g_j + C_j[5] * h_star_cross_f_j_in_star);
+    jac_phi_q_v_velocity[42] = -(C_j[2] * g_star_dot_g_j + C_j[5] * g_star_cross_h_j_in_joint_j_1);
     jac_phi_q_v_velocity[43] = C_j[8] * g_j_in_joint_i_2 - C_j[5] * h_j_in_joint_i_2;
     jac_phi_q_v_velocity[44] = C_j[2] * f_star_dot_h_j - C_j[8] * f_star_dot_f_j;
     jac_phi_q_v_velocity[45] = -f_star_dot_h_j;

@@ -336,74 +336,73 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     jac_phi_q_v_r_j[7] = t7;
     jac_phi_q_v_r_i[7] = -t7;
     const jg_real t8 = A_i[2] * omega_i[1] - A_i[5] * omega_i[0];
+    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
+    const jg_real s_j_cross_omega_j_in_j_0 = omega_j[2] * s_j[1] - s_j[2] * omega_j[1];
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
+    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - omega_j[0] * s_j[1];
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
+    const jg_real t13 = A_j[0] * v_2_in_j_0 + A_j[6] * v_2_in_j_2;
     /* A_ij = turns j axes to i axes */
     const jg_real A_ij_2 = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
-    const jg_real A_ij_7 = A_i[3] * A_j[6] + A_i[4] * A_j[7] + A_i[5] * A_j[8];
-    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     const jg_real A_ij_8 = A_i[6] * A_j[6] + A_i[7] * A_j[7] + A_i[8] * A_j[8];
-    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
-    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
+    const jg_real t16 = A_j[6] * A_ij_2 - A_j[0] * A_ij_8;
+    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    /* s_j_world = s_j, world axes */
+    const jg_real s_j_world_0 = A_j[0] * s_j[0] + s_j[1] * A_j[3] + A_j[6] * s_j[2];
+    /* e_ij_world = r_j + s_j - r_i, world axes */
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
+    const jg_real t21 = v_2_in_j_1 * t16 + omega_i[2] * e_ij_world_0;
     jac_phi_q_v_r_j[8] = t8;
     jac_phi_q_v_r_i[8] = -t8;
-    jac_phi_q_v_velocity[23] = A_ij_2;
-    jac_phi_q_v_velocity[28] = A_ij_7;
-    jac_phi_q_v_velocity[22] = A_ij_1;
-    jac_phi_q_v_velocity[29] = A_ij_8;
-    jac_phi_q_v_velocity[24] = A_ij_3;
-    jac_phi_q_v_velocity[21] = A_ij_0;
+    jac_phi_q_v_A_i[0] = t13;
+    jac_phi_q_v_A_i[19] = t13;
+    jac_phi_q_v_A_i[38] = t13;
+    jac_phi_q_v_velocity[20] = A_ij_2;
+    jac_phi_q_v_velocity[26] = A_ij_8;
+    jac_phi_q_v_A_i[18] = t21;
+    const jg_real A_ij_7 = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
+    const jg_real A_ij_1 = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
+    const jg_real t24 = A_j[0] * A_ij_7 - A_j[6] * A_ij_1;
+    const jg_real t25 = v_2_in_j_1 * t24 - omega_i[1] * e_ij_world_0;
+    const jg_real A_ij_3 = A_ij_2 * A_ij_7 - A_ij_1 * A_ij_8;
+    const jg_real A_ij_0 = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     const jg_real A_ij_6 = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
+    jac_phi_q_v_A_i[1] = -t21;
+    jac_phi_q_v_velocity[25] = A_ij_7;
+    jac_phi_q_v_velocity[19] = A_ij_1;
+    jac_phi_q_v_A_i[36] = t25;
+    jac_phi_q_v_A_i[2] = -t25;
+    jac_phi_q_v_velocity[21] = A_ij_3;
+    jac_phi_q_v_velocity[18] = A_ij_0;
+    jac_phi_q_v_velocity[24] = A_ij_6;
     const jg_real A_ij_4 = A_ij_8 * A_ij_0 - A_ij_2 * A_ij_6;
     const jg_real A_ij_5 = A_ij_1 * A_ij_6 - A_ij_7 * A_ij_0;
     /* omega_i_in_j = omega_i, axes of body j */
-    const jg_real omega_i_in_j_1 = omega_i[0] * A_ij_3 + omega_i[1] * A_ij_4 + omega_i[2] * A_ij_5;
-    const jg_real omega_i_in_j_0 = omega_i[1] * A_ij_1 + omega_i[0] * A_ij_0 + omega_i[2] * A_ij_2;
-    /* s_j_cross_omega_i_in_j = s_j x omega_i, axes of body j */
-    const jg_real s_j_cross_omega_i_in_j_2 = s_j[0] * omega_i_in_j_1 - s_j[1] * omega_i_in_j_0;
-    const jg_real t21 = A_j[6] * s_j_cross_omega_i_in_j_2;
-    const jg_real t22 = A_j[6] * A_ij_2 - A_j[0] * A_ij_8;
-    const jg_real t23 = A_j[0] * A_ij_7 - A_j[6] * A_ij_1;
-    const jg_real t24 = omega_i[1] * t22 + omega_i[2] * t23;
-    const jg_real t25 = A_j[0] * omega_i[0];
-    const jg_real t26 = s_j[1] * t25 + s_j[0] * t24;
-    const jg_real omega_i_in_j_2 = omega_i[1] * A_ij_7 + omega_i[0] * A_ij_6 + omega_i[2] * A_ij_8;
-    const jg_real s_j_cross_omega_i_in_j_0 = s_j[1] * omega_i_in_j_2 - s_j[2] * omega_i_in_j_1;
-    const jg_real t29 = A_j[0] * s_j_cross_omega_i_in_j_0;
-    const jg_real t30 = A_j[6] * omega_i[0];
-    const jg_real t31 = s_j[1] * t30 + s_j[2] * t24;
-    const jg_real t32 = s_j[2] * t25 - s_j[0] * t30;
-    /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
-    const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_0_in_j = v_j - s_j x omega_j, axes of body j */
-    const jg_real v_0_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
-    const jg_real s_j_cross_omega_j_in_j_2 = s_j[0] * omega_j[1] - s_j[1] * omega_j[0];
-    const jg_real v_0_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
-    const jg_real t37 = A_j[0] * v_0_in_j_0 + A_j[6] * v_0_in_j_2;
-    const jg_real s_j_cross_omega_i_in_j_1 = s_j[2] * omega_i_in_j_0 - s_j[0] * omega_i_in_j_2;
-    const jg_real t39 = t22 * s_j_cross_omega_i_in_j_1;
-    const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - s_j[0] * omega_j[2];
-    const jg_real v_0_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
-    /* v_1_world = r_j - r_i, world axes */
-    const jg_real v_1_world_0 = r_j[0] - r_i[0];
-    const jg_real t43 = v_0_in_j_1 * t22 + omega_i[2] * v_1_world_0;
-    const jg_real t44 = t23 * s_j_cross_omega_i_in_j_1;
-    const jg_real t45 = v_0_in_j_1 * t23 - omega_i[1] * v_1_world_0;
-    const jg_real t46 = A_j[6] * C_i[3];
-    const jg_real t47 = A_j[0] * C_i[3];
-    const jg_real t48 = t46 * C_j[6] - C_j[8] * t47;
+    const jg_real omega_i_in_j_1 = A_ij_3 * omega_i[0] + omega_i[1] * A_ij_4 + omega_i[2] * A_ij_5;
+    const jg_real t32 = A_j[6] * C_i[3];
+    const jg_real t33 = A_j[0] * C_i[3];
+    const jg_real t34 = t32 * C_j[6] - C_j[8] * t33;
+    const jg_real t35 = t16 * omega_i[1] + t24 * omega_i[2];
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_2 = A_ij_6 * C_i[3] + A_ij_7 * C_i[4] + A_ij_8 * C_i[5];
     const jg_real g_i_in_j_0 = A_ij_0 * C_i[3] + A_ij_1 * C_i[4] + A_ij_2 * C_i[5];
     /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
-    const jg_real g_i_cross_h_j_in_j_1 = C_j[6] * g_i_in_j_2 - C_j[8] * g_i_in_j_0;
-    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + A_ij_4 * C_i[4] + A_ij_5 * C_i[5];
+    const jg_real g_i_cross_h_j_in_j_1 = g_i_in_j_2 * C_j[6] - C_j[8] * g_i_in_j_0;
+    const jg_real g_i_in_j_1 = A_ij_3 * C_i[3] + C_i[4] * A_ij_4 + C_i[5] * A_ij_5;
     const jg_real g_i_cross_h_j_in_j_0 = C_j[8] * g_i_in_j_1 - C_j[7] * g_i_in_j_2;
-    const jg_real t54 = t22 * C_i[4] + t23 * C_i[5];
-    const jg_real t55 = C_j[8] * t54 + t46 * C_j[7];
+    const jg_real t41 = A_j[0] * omega_i[0];
+    const jg_real t42 = t16 * C_i[4] + t24 * C_i[5];
+    const jg_real t43 = t32 * C_j[7] + C_j[8] * t42;
+    const jg_real omega_i_in_j_0 = A_ij_0 * omega_i[0] + A_ij_1 * omega_i[1] + A_ij_2 * omega_i[2];
     const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
-    const jg_real t57 = C_j[6] * t54 + C_j[7] * t47;
-    const jg_real t58 = A_j[6] * C_i[6];
-    const jg_real t59 = A_j[0] * C_i[6];
-    const jg_real t60 = t58 * C_j[0] - C_j[2] * t59;
+    const jg_real t46 = A_j[6] * omega_i[0];
+    const jg_real t47 = C_j[6] * t42 + C_j[7] * t33;
+    const jg_real omega_i_in_j_2 = A_ij_6 * omega_i[0] + A_ij_7 * omega_i[1] + A_ij_8 * omega_i[2];
+    const jg_real t49 = A_j[6] * C_i[6];
+    const jg_real t50 = A_j[0] * C_i[6];
+    const jg_real t51 = t49 * C_j[0] - C_j[2] * t50;
     /* h_i_in_j = h_i, axes of body j */
     const jg_real h_i_in_j_2 = A_ij_6 * C_i[6] + A_ij_7 * C_i[7] + A_ij_8 * C_i[8];
     const jg_real h_i_in_j_0 = A_ij_0 * C_i[6] + A_ij_1 * C_i[7] + A_ij_2 * C_i[8];
@@ -411,25 +410,13 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real h_i_cross_f_j_in_j_1 = C_j[0] * h_i_in_j_2 - C_j[2] * h_i_in_j_0;
     const jg_real h_i_in_j_1 = A_ij_3 * C_i[6] + A_ij_4 * C_i[7] + A_ij_5 * C_i[8];
     const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - C_j[1] * h_i_in_j_2;
-    const jg_real t66 = t22 * C_i[7] + t23 * C_i[8];
-    const jg_real t67 = C_j[2] * t66 + t58 * C_j[1];
+    const jg_real t57 = t16 * C_i[7] + t24 * C_i[8];
+    const jg_real t58 = C_j[2] * t57 + t49 * C_j[1];
     const jg_real h_i_cross_f_j_in_j_2 = C_j[1] * h_i_in_j_0 - C_j[0] * h_i_in_j_1;
-    const jg_real t69 = C_j[0] * t66 + C_j[1] * t59;
-    jac_phi_q_v_velocity[27] = A_ij_6;
-    jac_phi_q_v_velocity[25] = A_ij_4;
-    jac_phi_q_v_velocity[26] = A_ij_5;
-    jac_phi_q_v_A_i[0] = t21 - A_ij_6 * t26 + (t29 + A_ij_0 * t31 + A_ij_3 * t32) + t37;
-    jac_phi_q_v_A_i[1] = A_ij_4 * t32 - t39 + A_ij_1 * t31 - A_ij_7 * t26 - t43;
-    jac_phi_q_v_A_i[2] = A_ij_5 * t32 - t44 + A_ij_2 * t31 - A_ij_8 * t26 - t45;
-    jac_phi_q_v_A_i[3] = t30 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t57 + (t25 * g_i_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t55 + (omega_i_in_j_1 * t48 - t24 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t48 - omega_j[0]
-        * t55 + omega_j[2] * t57);
-    jac_phi_q_v_A_i[4] = t30 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t69 + (t25 * h_i_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t67 + (omega_i_in_j_1 * t60 - t24 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t60 - omega_j[0]
-        * t67 + omega_j[2] * t69);
-    const jg_real t70 = t47 * h_i_in_j_1 - g_i_in_j_0 * t66 - (g_i_in_j_1 * t59 - t54 * h_i_in_j_0);
-    const jg_real t71 = g_i_in_j_1 * t58 - t54 * h_i_in_j_2 - (t46 * h_i_in_j_1 - g_i_in_j_2 * t66);
-    const jg_real t72 = C_j[3] * t70 - C_j[5] * t71;
+    const jg_real t60 = C_j[0] * t57 + C_j[1] * t50;
+    const jg_real t61 = t33 * h_i_in_j_1 - g_i_in_j_0 * t57 - (g_i_in_j_1 * t50 - t42 * h_i_in_j_0);
+    const jg_real t62 = g_i_in_j_1 * t49 - t42 * h_i_in_j_2 - (t32 * h_i_in_j_1 - g_i_in_j_2 * t57);
+    const jg_real t63 = C_j[3] * t61 - C_j[5] * t62;
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_2 = g_i_in_j_0 * h_i_in_j_1 - g_i_in_j_1 * h_i_in_j_0;
     const jg_real f_i_in_j_0 = g_i_in_j_1 * h_i_in_j_2 - g_i_in_j_2 * h_i_in_j_1;
@@ -437,666 +424,631 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
     const jg_real f_i_cross_g_j_in_j_1 = C_j[3] * f_i_in_j_2 - C_j[5] * f_i_in_j_0;
     const jg_real f_i_in_j_1 = g_i_in_j_2 * h_i_in_j_0 - g_i_in_j_0 * h_i_in_j_2;
     const jg_real f_i_cross_g_j_in_j_0 = C_j[5] * f_i_in_j_1 - C_j[4] * f_i_in_j_2;
-    const jg_real t78 = t46 * h_i_in_j_0 + g_i_in_j_2 * t59 - (t47 * h_i_in_j_2 + t58 * g_i_in_j_0);
-    const jg_real t79 = C_j[5] * t78 - C_j[4] * t70;
+    const jg_real t69 = t32 * h_i_in_j_0 + g_i_in_j_2 * t50 - (t33 * h_i_in_j_2 + t49 * g_i_in_j_0);
+    const jg_real t70 = C_j[5] * t69 - C_j[4] * t61;
     const jg_real f_i_cross_g_j_in_j_2 = C_j[4] * f_i_in_j_0 - C_j[3] * f_i_in_j_1;
-    const jg_real t81 = C_j[4] * t71 - C_j[3] * t78;
-    const jg_real t82 = A_j[7] * s_j_cross_omega_i_in_j_2;
-    const jg_real t83 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
-    const jg_real t84 = A_j[1] * A_ij_7 - A_j[7] * A_ij_1;
-    const jg_real t85 = omega_i[1] * t83 + omega_i[2] * t84;
-    const jg_real t86 = A_j[1] * omega_i[0];
-    const jg_real t87 = s_j[1] * t86 + s_j[0] * t85;
-    const jg_real t88 = A_j[1] * s_j_cross_omega_i_in_j_0;
-    const jg_real t89 = A_j[7] * omega_i[0];
-    const jg_real t90 = s_j[1] * t89 + s_j[2] * t85;
-    const jg_real t91 = s_j[2] * t86 - s_j[0] * t89;
-    const jg_real t92 = A_j[1] * v_0_in_j_0 + A_j[7] * v_0_in_j_2;
-    const jg_real t93 = t83 * s_j_cross_omega_i_in_j_1;
-    const jg_real v_1_world_1 = r_j[1] - r_i[1];
-    const jg_real t95 = v_0_in_j_1 * t83 + omega_i[2] * v_1_world_1;
-    const jg_real t96 = t84 * s_j_cross_omega_i_in_j_1;
-    const jg_real t97 = v_0_in_j_1 * t84 - omega_i[1] * v_1_world_1;
-    const jg_real t98 = A_j[7] * C_i[3];
-    const jg_real t99 = A_j[1] * C_i[3];
-    const jg_real t100 = t98 * C_j[6] - C_j[8] * t99;
-    const jg_real t101 = t83 * C_i[4] + t84 * C_i[5];
-    const jg_real t102 = C_j[8] * t101 + t98 * C_j[7];
-    const jg_real t103 = C_j[6] * t101 + C_j[7] * t99;
-    const jg_real t104 = A_j[7] * C_i[6];
-    const jg_real t105 = A_j[1] * C_i[6];
-    const jg_real t106 = t104 * C_j[0] - C_j[2] * t105;
-    const jg_real t107 = t83 * C_i[7] + t84 * C_i[8];
-    const jg_real t108 = C_j[2] * t107 + t104 * C_j[1];
-    const jg_real t109 = C_j[0] * t107 + C_j[1] * t105;
-    const jg_real t110 = t99 * h_i_in_j_1 - g_i_in_j_0 * t107 - (g_i_in_j_1 * t105 - t101 * h_i_in_j_0);
-    const jg_real t111 = g_i_in_j_1 * t104 - t101 * h_i_in_j_2 - (t98 * h_i_in_j_1 - g_i_in_j_2 * t107);
-    const jg_real t112 = C_j[3] * t110 - C_j[5] * t111;
-    const jg_real t113 = t98 * h_i_in_j_0 + g_i_in_j_2 * t105 - (t99 * h_i_in_j_2 + t104 * g_i_in_j_0);
-    const jg_real t114 = C_j[5] * t113 - C_j[4] * t110;
-    const jg_real t115 = C_j[4] * t111 - C_j[3] * t113;
-    const jg_real t116 = A_j[8] * s_j_cross_omega_i_in_j_2;
-    const jg_real t117 = A_j[8] * A_ij_2 - A_j[2] * A_ij_8;
-    const jg_real t118 = A_j[2] * A_ij_7 - A_j[8] * A_ij_1;
-    const jg_real t119 = omega_i[1] * t117 + omega_i[2] * t118;
-    const jg_real t120 = A_j[2] * omega_i[0];
-    const jg_real t121 = s_j[1] * t120 + s_j[0] * t119;
-    const jg_real t122 = A_j[2] * s_j_cross_omega_i_in_j_0;
-    const jg_real t123 = A_j[8] * omega_i[0];
-    const jg_real t124 = s_j[1] * t123 + s_j[2] * t119;
-    const jg_real t125 = s_j[2] * t120 - s_j[0] * t123;
-    const jg_real t126 = A_j[2] * v_0_in_j_0 + A_j[8] * v_0_in_j_2;
-    jac_phi_q_v_A_i[5] = t30 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t81 + (omega_i_in_j_1 * t72 - t24 *
-        f_i_cross_g_j_in_j_1 + (t25 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t79)) - (omega_j[1] * t72 + omega_j[0]
-        * t79 + omega_j[2] * t81);
-    jac_phi_q_v_A_i[6] = t82 - A_ij_6 * t87 + (t88 + A_ij_0 * t90 + A_ij_3 * t91) + t92;
-    jac_phi_q_v_A_i[7] = A_ij_4 * t91 - t93 + A_ij_1 * t90 - A_ij_7 * t87 - t95;
-    jac_phi_q_v_A_i[8] = A_ij_5 * t91 - t96 + A_ij_2 * t90 - A_ij_8 * t87 - t97;
-    jac_phi_q_v_A_i[9] = t89 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t103 + (t86 * g_i_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t102 + (omega_i_in_j_1 * t100 - t85 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t100 -
-        omega_j[0] * t102 + omega_j[2] * t103);
-    jac_phi_q_v_A_i[10] = t89 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t109 + (t86 * h_i_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t108 + (omega_i_in_j_1 * t106 - t85 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t106 -
-        omega_j[0] * t108 + omega_j[2] * t109);
-    jac_phi_q_v_A_i[11] = t89 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t115 + (omega_i_in_j_1 * t112 - t85 *
-        f_i_cross_g_j_in_j_1 + (t86 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t114)) - (omega_j[1] * t112 +
-        omega_j[0] * t114 + omega_j[2] * t115);
-    jac_phi_q_v_A_i[12] = t116 - A_ij_6 * t121 + (t122 + A_ij_0 * t124 + A_ij_3 * t125) + t126;
-    const jg_real t127 = t117 * s_j_cross_omega_i_in_j_1;
-    const jg_real v_1_world_2 = r_j[2] - r_i[2];
-    const jg_real t129 = v_0_in_j_1 * t117 + omega_i[2] * v_1_world_2;
-    const jg_real t130 = t118 * s_j_cross_omega_i_in_j_1;
-    const jg_real t131 = v_0_in_j_1 * t118 - omega_i[1] * v_1_world_2;
-    const jg_real t132 = A_j[8] * C_i[3];
-    const jg_real t133 = A_j[2] * C_i[3];
-    const jg_real t134 = t132 * C_j[6] - C_j[8] * t133;
-    const jg_real t135 = t117 * C_i[4] + t118 * C_i[5];
-    const jg_real t136 = C_j[8] * t135 + t132 * C_j[7];
-    const jg_real t137 = C_j[6] * t135 + C_j[7] * t133;
-    const jg_real t138 = A_j[8] * C_i[6];
-    const jg_real t139 = A_j[2] * C_i[6];
-    const jg_real t140 = t138 * C_j[0] - C_j[2] * t139;
-    const jg_real t141 = t117 * C_i[7] + t118 * C_i[8];
-    const jg_real t142 = C_j[2] * t141 + t138 * C_j[1];
-    const jg_real t143 = C_j[0] * t141 + C_j[1] * t139;
-    const jg_real t144 = t133 * h_i_in_j_1 - g_i_in_j_0 * t141 - (g_i_in_j_1 * t139 - t135 * h_i_in_j_0);
-    const jg_real t145 = g_i_in_j_1 * t138 - t135 * h_i_in_j_2 - (t132 * h_i_in_j_1 - g_i_in_j_2 * t141);
-    const jg_real t146 = C_j[3] * t144 - C_j[5] * t145;
-    const jg_real t147 = t132 * h_i_in_j_0 + g_i_in_j_2 * t139 - (t133 * h_i_in_j_2 + t138 * g_i_in_j_0);
-    const jg_real t148 = C_j[5] * t147 - C_j[4] * t144;
-    const jg_real t149 = C_j[4] * t145 - C_j[3] * t147;
-    const jg_real t150 = A_j[0] * omega_i[1];
-    const jg_real t151 = A_j[6] * omega_i[1];
-    const jg_real t152 = s_j[2] * t150 - s_j[0] * t151;
-    const jg_real t153 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
-    const jg_real t154 = omega_i[0] * t22 - omega_i[2] * t153;
-    const jg_real t155 = s_j[1] * t151 - s_j[2] * t154;
-    const jg_real t156 = s_j[0] * t154 - s_j[1] * t150;
-    const jg_real t157 = t153 * s_j_cross_omega_i_in_j_1;
-    const jg_real t158 = v_0_in_j_1 * t153 + omega_i[0] * v_1_world_0;
-    jac_phi_q_v_A_i[13] = A_ij_4 * t125 - t127 + A_ij_1 * t124 - A_ij_7 * t121 - t129;
-    jac_phi_q_v_A_i[14] = A_ij_5 * t125 - t130 + A_ij_2 * t124 - A_ij_8 * t121 - t131;
-    jac_phi_q_v_A_i[15] = t123 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t137 + (t120 * g_i_cross_h_j_in_j_0 -
-        omega_i_in_j_0 * t136 + (omega_i_in_j_1 * t134 - t119 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t134 -
-        omega_j[0] * t136 + omega_j[2] * t137);
-    jac_phi_q_v_A_i[16] = t123 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t143 + (t120 * h_i_cross_f_j_in_j_0 -
-        omega_i_in_j_0 * t142 + (omega_i_in_j_1 * t140 - t119 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t140 -
-        omega_j[0] * t142 + omega_j[2] * t143);
-    jac_phi_q_v_A_i[17] = t123 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t149 + (omega_i_in_j_1 * t146 - t119 *
-        f_i_cross_g_j_in_j_1 + (t120 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t148)) - (omega_j[1] * t146 +
-        omega_j[0] * t148 + omega_j[2] * t149);
-    jac_phi_q_v_A_i[18] = t39 + A_ij_3 * t152 + A_ij_0 * t155 + A_ij_6 * t156 + t43;
-    jac_phi_q_v_A_i[19] = t21 + A_ij_7 * t156 + (t29 + A_ij_1 * t155 + A_ij_4 * t152) + t37;
-    jac_phi_q_v_A_i[20] = A_ij_5 * t152 - t157 + A_ij_2 * t155 + A_ij_8 * t156 - t158;
-    const jg_real t159 = A_j[6] * C_i[4];
-    const jg_real t160 = A_j[0] * C_i[4];
-    const jg_real t161 = t159 * C_j[6] - C_j[8] * t160;
-    const jg_real t162 = t22 * C_i[3] - t153 * C_i[5];
-    const jg_real t163 = C_j[8] * t162 - t159 * C_j[7];
-    const jg_real t164 = C_j[7] * t160 - C_j[6] * t162;
-    const jg_real t165 = A_j[6] * C_i[7];
-    const jg_real t166 = A_j[0] * C_i[7];
-    const jg_real t167 = t165 * C_j[0] - C_j[2] * t166;
-    const jg_real t168 = t22 * C_i[6] - t153 * C_i[8];
-    const jg_real t169 = C_j[2] * t168 - t165 * C_j[1];
-    const jg_real t170 = C_j[1] * t166 - C_j[0] * t168;
-    const jg_real t171 = t160 * h_i_in_j_1 + g_i_in_j_0 * t168 - (t162 * h_i_in_j_0 + g_i_in_j_1 * t166);
-    const jg_real t172 = t162 * h_i_in_j_2 + g_i_in_j_1 * t165 - (t159 * h_i_in_j_1 + g_i_in_j_2 * t168);
-    const jg_real t173 = C_j[3] * t171 - C_j[5] * t172;
-    const jg_real t174 = t159 * h_i_in_j_0 + g_i_in_j_2 * t166 - (t160 * h_i_in_j_2 + g_i_in_j_0 * t165);
-    const jg_real t175 = C_j[5] * t174 - C_j[4] * t171;
-    const jg_real t176 = C_j[4] * t172 - C_j[3] * t174;
-    const jg_real t177 = A_j[1] * omega_i[1];
-    const jg_real t178 = A_j[7] * omega_i[1];
-    const jg_real t179 = s_j[2] * t177 - s_j[0] * t178;
-    const jg_real t180 = A_j[7] * A_ij_0 - A_j[1] * A_ij_6;
-    const jg_real t181 = omega_i[0] * t83 - omega_i[2] * t180;
-    const jg_real t182 = s_j[1] * t178 - s_j[2] * t181;
-    const jg_real t183 = s_j[0] * t181 - s_j[1] * t177;
-    const jg_real t184 = t180 * s_j_cross_omega_i_in_j_1;
-    const jg_real t185 = v_0_in_j_1 * t180 + omega_i[0] * v_1_world_1;
-    const jg_real t186 = A_j[7] * C_i[4];
-    const jg_real t187 = A_j[1] * C_i[4];
-    const jg_real t188 = t186 * C_j[6] - C_j[8] * t187;
-    const jg_real t189 = t83 * C_i[3] - t180 * C_i[5];
-    const jg_real t190 = C_j[8] * t189 - t186 * C_j[7];
-    const jg_real t191 = C_j[7] * t187 - C_j[6] * t189;
-    const jg_real t192 = A_j[7] * C_i[7];
-    const jg_real t193 = A_j[1] * C_i[7];
-    const jg_real t194 = t192 * C_j[0] - C_j[2] * t193;
-    const jg_real t195 = t83 * C_i[6] - t180 * C_i[8];
-    const jg_real t196 = C_j[2] * t195 - t192 * C_j[1];
-    const jg_real t197 = C_j[1] * t193 - C_j[0] * t195;
-    jac_phi_q_v_A_i[21] = t151 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t164 + (t150 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t163 + (t154 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t161)) - (omega_j[0] * t163 +
-        omega_j[1] * t161 + omega_j[2] * t164);
-    jac_phi_q_v_A_i[22] = t151 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t170 + (t150 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t169 + (t154 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t167)) - (omega_j[0] * t169 +
-        omega_j[1] * t167 + omega_j[2] * t170);
-    jac_phi_q_v_A_i[23] = t151 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t176 + (t154 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t173 + (t150 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t175)) - (omega_j[1] * t173 +
-        omega_j[0] * t175 + omega_j[2] * t176);
-    jac_phi_q_v_A_i[24] = t93 + A_ij_3 * t179 + A_ij_0 * t182 + A_ij_6 * t183 + t95;
-    jac_phi_q_v_A_i[25] = t82 + A_ij_7 * t183 + (t88 + A_ij_1 * t182 + A_ij_4 * t179) + t92;
-    jac_phi_q_v_A_i[26] = A_ij_5 * t179 - t184 + A_ij_2 * t182 + A_ij_8 * t183 - t185;
-    jac_phi_q_v_A_i[27] = t178 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t191 + (t177 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t190 + (t181 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t188)) - (omega_j[0] * t190 +
+    const jg_real t72 = C_j[4] * t62 - C_j[3] * t69;
+    const jg_real t73 = A_j[1] * v_2_in_j_0 + A_j[7] * v_2_in_j_2;
+    jac_phi_q_v_velocity[22] = A_ij_4;
+    jac_phi_q_v_velocity[23] = A_ij_5;
+    jac_phi_q_v_A_i[3] = omega_i_in_j_2 * t47 + t46 * g_i_cross_h_j_in_j_2 + (t41 * g_i_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t43 + (omega_i_in_j_1 * t34 - t35 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t34 - omega_j[0]
+        * t43 + omega_j[2] * t47);
+    jac_phi_q_v_A_i[4] = t46 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t60 + (t41 * h_i_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t58 + (omega_i_in_j_1 * t51 - t35 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t51 - omega_j[0]
+        * t58 + omega_j[2] * t60);
+    jac_phi_q_v_A_i[5] = t46 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t72 + (omega_i_in_j_1 * t63 - t35 *
+        f_i_cross_g_j_in_j_1 + (t41 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t70)) - (omega_j[1] * t63 + omega_j[0]
+        * t70 + omega_j[2] * t72);
+    jac_phi_q_v_A_i[6] = t73;
+    jac_phi_q_v_A_i[25] = t73;
+    jac_phi_q_v_A_i[44] = t73;
+    const jg_real t74 = A_j[7] * A_ij_2 - A_j[1] * A_ij_8;
+    const jg_real s_j_world_1 = A_j[1] * s_j[0] + s_j[1] * A_j[4] + A_j[7] * s_j[2];
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
+    const jg_real t77 = v_2_in_j_1 * t74 + omega_i[2] * e_ij_world_1;
+    const jg_real t78 = A_j[1] * A_ij_7 - A_j[7] * A_ij_1;
+    const jg_real t79 = v_2_in_j_1 * t78 - omega_i[1] * e_ij_world_1;
+    const jg_real t80 = A_j[7] * C_i[3];
+    const jg_real t81 = A_j[1] * C_i[3];
+    const jg_real t82 = t80 * C_j[6] - C_j[8] * t81;
+    const jg_real t83 = t74 * omega_i[1] + t78 * omega_i[2];
+    const jg_real t84 = A_j[1] * omega_i[0];
+    const jg_real t85 = t74 * C_i[4] + t78 * C_i[5];
+    const jg_real t86 = t80 * C_j[7] + C_j[8] * t85;
+    const jg_real t87 = A_j[7] * omega_i[0];
+    const jg_real t88 = C_j[6] * t85 + C_j[7] * t81;
+    const jg_real t89 = A_j[7] * C_i[6];
+    const jg_real t90 = A_j[1] * C_i[6];
+    const jg_real t91 = t89 * C_j[0] - C_j[2] * t90;
+    const jg_real t92 = t74 * C_i[7] + t78 * C_i[8];
+    const jg_real t93 = C_j[2] * t92 + t89 * C_j[1];
+    const jg_real t94 = C_j[0] * t92 + C_j[1] * t90;
+    const jg_real t95 = t81 * h_i_in_j_1 - g_i_in_j_0 * t92 - (g_i_in_j_1 * t90 - t85 * h_i_in_j_0);
+    const jg_real t96 = g_i_in_j_1 * t89 - t85 * h_i_in_j_2 - (t80 * h_i_in_j_1 - g_i_in_j_2 * t92);
+    const jg_real t97 = C_j[3] * t95 - C_j[5] * t96;
+    const jg_real t98 = t80 * h_i_in_j_0 + g_i_in_j_2 * t90 - (t81 * h_i_in_j_2 + t89 * g_i_in_j_0);
+    const jg_real t99 = C_j[5] * t98 - C_j[4] * t95;
+    const jg_real t100 = C_j[4] * t96 - C_j[3] * t98;
+    const jg_real t101 = A_j[2] * v_2_in_j_0 + A_j[8] * v_2_in_j_2;
+    jac_phi_q_v_A_i[24] = t77;
+    jac_phi_q_v_A_i[7] = -t77;
+    jac_phi_q_v_A_i[42] = t79;
+    jac_phi_q_v_A_i[8] = -t79;
+    jac_phi_q_v_A_i[9] = omega_i_in_j_2 * t88 + t87 * g_i_cross_h_j_in_j_2 + (t84 * g_i_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t86 + (omega_i_in_j_1 * t82 - t83 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t82 - omega_j[0]
+        * t86 + omega_j[2] * t88);
+    jac_phi_q_v_A_i[10] = t87 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t94 + (t84 * h_i_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t93 + (omega_i_in_j_1 * t91 - t83 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t91 - omega_j[0]
+        * t93 + omega_j[2] * t94);
+    jac_phi_q_v_A_i[11] = t87 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t100 + (omega_i_in_j_1 * t97 - t83 *
+        f_i_cross_g_j_in_j_1 + (t84 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t99)) - (omega_j[1] * t97 + omega_j[0]
+        * t99 + omega_j[2] * t100);
+    jac_phi_q_v_A_i[12] = t101;
+    jac_phi_q_v_A_i[31] = t101;
+    jac_phi_q_v_A_i[50] = t101;
+    const jg_real t102 = A_j[8] * A_ij_2 - A_j[2] * A_ij_8;
+    const jg_real s_j_world_2 = A_j[2] * s_j[0] + s_j[1] * A_j[5] + A_j[8] * s_j[2];
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
+    const jg_real t105 = v_2_in_j_1 * t102 + omega_i[2] * e_ij_world_2;
+    const jg_real t106 = A_j[2] * A_ij_7 - A_j[8] * A_ij_1;
+    const jg_real t107 = v_2_in_j_1 * t106 - omega_i[1] * e_ij_world_2;
+    const jg_real t108 = A_j[8] * C_i[3];
+    const jg_real t109 = A_j[2] * C_i[3];
+    const jg_real t110 = t108 * C_j[6] - C_j[8] * t109;
+    const jg_real t111 = t102 * omega_i[1] + t106 * omega_i[2];
+    const jg_real t112 = A_j[2] * omega_i[0];
+    const jg_real t113 = t102 * C_i[4] + t106 * C_i[5];
+    const jg_real t114 = t108 * C_j[7] + C_j[8] * t113;
+    const jg_real t115 = A_j[8] * omega_i[0];
+    const jg_real t116 = C_j[6] * t113 + C_j[7] * t109;
+    const jg_real t117 = A_j[8] * C_i[6];
+    const jg_real t118 = A_j[2] * C_i[6];
+    const jg_real t119 = t117 * C_j[0] - C_j[2] * t118;
+    const jg_real t120 = t102 * C_i[7] + t106 * C_i[8];
+    const jg_real t121 = C_j[2] * t120 + t117 * C_j[1];
+    const jg_real t122 = C_j[0] * t120 + C_j[1] * t118;
+    const jg_real t123 = t109 * h_i_in_j_1 - g_i_in_j_0 * t120 - (g_i_in_j_1 * t118 - t113 * h_i_in_j_0);
+    const jg_real t124 = g_i_in_j_1 * t117 - t113 * h_i_in_j_2 - (t108 * h_i_in_j_1 - g_i_in_j_2 * t120);
+    const jg_real t125 = C_j[3] * t123 - C_j[5] * t124;
+    const jg_real t126 = t108 * h_i_in_j_0 + g_i_in_j_2 * t118 - (t109 * h_i_in_j_2 + t117 * g_i_in_j_0);
+    const jg_real t127 = C_j[5] * t126 - C_j[4] * t123;
+    const jg_real t128 = C_j[4] * t124 - C_j[3] * t126;
+    const jg_real t129 = A_j[6] * A_ij_0 - A_j[0] * A_ij_6;
+    const jg_real t130 = v_2_in_j_1 * t129 + omega_i[0] * e_ij_world_0;
+    jac_phi_q_v_A_i[30] = t105;
+    jac_phi_q_v_A_i[13] = -t105;
+    jac_phi_q_v_A_i[48] = t107;
+    jac_phi_q_v_A_i[14] = -t107;
+    jac_phi_q_v_A_i[15] = omega_i_in_j_2 * t116 + t115 * g_i_cross_h_j_in_j_2 + (t112 * g_i_cross_h_j_in_j_0 -
+        omega_i_in_j_0 * t114 + (omega_i_in_j_1 * t110 - t111 * g_i_cross_h_j_in_j_1)) - (omega_j[1] * t110 -
+        omega_j[0] * t114 + omega_j[2] * t116);
+    jac_phi_q_v_A_i[16] = t115 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t122 + (t112 * h_i_cross_f_j_in_j_0 -
+        omega_i_in_j_0 * t121 + (omega_i_in_j_1 * t119 - t111 * h_i_cross_f_j_in_j_1)) - (omega_j[1] * t119 -
+        omega_j[0] * t121 + omega_j[2] * t122);
+    jac_phi_q_v_A_i[17] = t115 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t128 + (omega_i_in_j_1 * t125 - t111 *
+        f_i_cross_g_j_in_j_1 + (t112 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t127)) - (omega_j[1] * t125 +
+        omega_j[0] * t127 + omega_j[2] * t128);
+    jac_phi_q_v_A_i[37] = t130;
+    const jg_real t131 = A_j[6] * C_i[4];
+    const jg_real t132 = A_j[0] * C_i[4];
+    const jg_real t133 = t131 * C_j[6] - C_j[8] * t132;
+    const jg_real t134 = t16 * omega_i[0] - omega_i[2] * t129;
+    const jg_real t135 = A_j[0] * omega_i[1];
+    const jg_real t136 = t16 * C_i[3] - C_i[5] * t129;
+    const jg_real t137 = C_j[8] * t136 - t131 * C_j[7];
+    const jg_real t138 = A_j[6] * omega_i[1];
+    const jg_real t139 = C_j[7] * t132 - C_j[6] * t136;
+    const jg_real t140 = A_j[6] * C_i[7];
+    const jg_real t141 = A_j[0] * C_i[7];
+    const jg_real t142 = t140 * C_j[0] - C_j[2] * t141;
+    const jg_real t143 = t16 * C_i[6] - t129 * C_i[8];
+    const jg_real t144 = C_j[2] * t143 - t140 * C_j[1];
+    const jg_real t145 = C_j[1] * t141 - C_j[0] * t143;
+    const jg_real t146 = t132 * h_i_in_j_1 + g_i_in_j_0 * t143 - (t136 * h_i_in_j_0 + g_i_in_j_1 * t141);
+    const jg_real t147 = t136 * h_i_in_j_2 + g_i_in_j_1 * t140 - (t131 * h_i_in_j_1 + g_i_in_j_2 * t143);
+    const jg_real t148 = C_j[3] * t146 - C_j[5] * t147;
+    const jg_real t149 = t131 * h_i_in_j_0 + g_i_in_j_2 * t141 - (t132 * h_i_in_j_2 + t140 * g_i_in_j_0);
+    const jg_real t150 = C_j[5] * t149 - C_j[4] * t146;
+    const jg_real t151 = C_j[4] * t147 - C_j[3] * t149;
+    const jg_real t152 = A_j[7] * A_ij_0 - A_j[1] * A_ij_6;
+    const jg_real t153 = v_2_in_j_1 * t152 + omega_i[0] * e_ij_world_1;
+    const jg_real t154 = A_j[7] * C_i[4];
+    const jg_real t155 = A_j[1] * C_i[4];
+    const jg_real t156 = t154 * C_j[6] - C_j[8] * t155;
+    const jg_real t157 = t74 * omega_i[0] - omega_i[2] * t152;
+    const jg_real t158 = A_j[1] * omega_i[1];
+    const jg_real t159 = t74 * C_i[3] - C_i[5] * t152;
+    const jg_real t160 = C_j[8] * t159 - t154 * C_j[7];
+    const jg_real t161 = A_j[7] * omega_i[1];
+    const jg_real t162 = C_j[7] * t155 - C_j[6] * t159;
+    const jg_real t163 = A_j[7] * C_i[7];
+    const jg_real t164 = A_j[1] * C_i[7];
+    const jg_real t165 = t163 * C_j[0] - C_j[2] * t164;
+    const jg_real t166 = t74 * C_i[6] - t152 * C_i[8];
+    const jg_real t167 = C_j[2] * t166 - t163 * C_j[1];
+    const jg_real t168 = C_j[1] * t164 - C_j[0] * t166;
+    jac_phi_q_v_A_i[20] = -t130;
+    jac_phi_q_v_A_i[21] = omega_i_in_j_2 * t139 + t138 * g_i_cross_h_j_in_j_2 + (omega_i_in_j_0 * t137 + t135 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t133 + t134 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t137 +
+        omega_j[1] * t133 + omega_j[2] * t139);
+    jac_phi_q_v_A_i[22] = t138 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t145 + (t135 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t144 + (t134 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t142)) - (omega_j[0] * t144 +
+        omega_j[1] * t142 + omega_j[2] * t145);
+    jac_phi_q_v_A_i[23] = t138 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t151 + (t134 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t148 + (t135 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t150)) - (omega_j[1] * t148 +
+        omega_j[0] * t150 + omega_j[2] * t151);
+    jac_phi_q_v_A_i[43] = t153;
+    jac_phi_q_v_A_i[26] = -t153;
+    jac_phi_q_v_A_i[27] = omega_i_in_j_2 * t162 + t161 * g_i_cross_h_j_in_j_2 + (omega_i_in_j_0 * t160 + t158 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t156 + t157 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t160 +
+        omega_j[1] * t156 + omega_j[2] * t162);
+    jac_phi_q_v_A_i[28] = t161 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t168 + (t158 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t167 + (t157 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t165)) - (omega_j[0] * t167 +
+        omega_j[1] * t165 + omega_j[2] * t168);
+    const jg_real t169 = t155 * h_i_in_j_1 + g_i_in_j_0 * t166 - (t159 * h_i_in_j_0 + g_i_in_j_1 * t164);
+    const jg_real t170 = t159 * h_i_in_j_2 + g_i_in_j_1 * t163 - (t154 * h_i_in_j_1 + g_i_in_j_2 * t166);
+    const jg_real t171 = C_j[3] * t169 - C_j[5] * t170;
+    const jg_real t172 = t154 * h_i_in_j_0 + g_i_in_j_2 * t164 - (t155 * h_i_in_j_2 + t163 * g_i_in_j_0);
+    const jg_real t173 = C_j[5] * t172 - C_j[4] * t169;
+    const jg_real t174 = C_j[4] * t170 - C_j[3] * t172;
+    const jg_real t175 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
+    const jg_real t176 = v_2_in_j_1 * t175 + omega_i[0] * e_ij_world_2;
+    const jg_real t177 = A_j[8] * C_i[4];
+    const jg_real t178 = A_j[2] * C_i[4];
+    const jg_real t179 = t177 * C_j[6] - C_j[8] * t178;
+    const jg_real t180 = t102 * omega_i[0] - omega_i[2] * t175;
+    const jg_real t181 = A_j[2] * omega_i[1];
+    const jg_real t182 = t102 * C_i[3] - C_i[5] * t175;
+    const jg_real t183 = C_j[8] * t182 - t177 * C_j[7];
+    const jg_real t184 = A_j[8] * omega_i[1];
+    const jg_real t185 = C_j[7] * t178 - C_j[6] * t182;
+    const jg_real t186 = A_j[8] * C_i[7];
+    const jg_real t187 = A_j[2] * C_i[7];
+    const jg_real t188 = t186 * C_j[0] - C_j[2] * t187;
+    const jg_real t189 = t102 * C_i[6] - t175 * C_i[8];
+    const jg_real t190 = C_j[2] * t189 - t186 * C_j[1];
+    const jg_real t191 = C_j[1] * t187 - C_j[0] * t189;
+    const jg_real t192 = t178 * h_i_in_j_1 + g_i_in_j_0 * t189 - (t182 * h_i_in_j_0 + g_i_in_j_1 * t187);
+    const jg_real t193 = t182 * h_i_in_j_2 + g_i_in_j_1 * t186 - (t177 * h_i_in_j_1 + g_i_in_j_2 * t189);
+    const jg_real t194 = C_j[3] * t192 - C_j[5] * t193;
+    const jg_real t195 = t177 * h_i_in_j_0 + g_i_in_j_2 * t187 - (t178 * h_i_in_j_2 + t186 * g_i_in_j_0);
+    const jg_real t196 = C_j[5] * t195 - C_j[4] * t192;
+    const jg_real t197 = C_j[4] * t193 - C_j[3] * t195;
+    const jg_real t198 = A_j[6] * C_i[5];
+    const jg_real t199 = A_j[0] * C_i[5];
+    const jg_real t200 = t198 * C_j[6] - C_j[8] * t199;
+    const jg_real t201 = t24 * omega_i[0] + omega_i[1] * t129;
+    const jg_real t202 = A_j[0] * omega_i[2];
+    const jg_real t203 = t24 * C_i[3] + C_i[4] * t129;
+    const jg_real t204 = C_j[8] * t203 - t198 * C_j[7];
+    const jg_real t205 = A_j[6] * omega_i[2];
+    const jg_real t206 = C_j[7] * t199 - t203 * C_j[6];
+    const jg_real t207 = A_j[6] * C_i[8];
+    const jg_real t208 = A_j[0] * C_i[8];
+    const jg_real t209 = t207 * C_j[0] - C_j[2] * t208;
+    const jg_real t210 = t24 * C_i[6] + t129 * C_i[7];
+    const jg_real t211 = C_j[2] * t210 - t207 * C_j[1];
+    const jg_real t212 = C_j[1] * t208 - C_j[0] * t210;
+    jac_phi_q_v_A_i[29] = t161 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t174 + (t157 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t171 + (t158 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t173)) - (omega_j[1] * t171 +
+        omega_j[0] * t173 + omega_j[2] * t174);
+    jac_phi_q_v_A_i[49] = t176;
+    jac_phi_q_v_A_i[32] = -t176;
+    jac_phi_q_v_A_i[33] = omega_i_in_j_2 * t185 + t184 * g_i_cross_h_j_in_j_2 + (omega_i_in_j_0 * t183 + t181 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t179 + t180 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t183 +
+        omega_j[1] * t179 + omega_j[2] * t185);
+    jac_phi_q_v_A_i[34] = t184 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t191 + (t181 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t190 + (t180 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t188)) - (omega_j[0] * t190 +
         omega_j[1] * t188 + omega_j[2] * t191);
-    jac_phi_q_v_A_i[28] = t178 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t197 + (t177 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t196 + (t181 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t194)) - (omega_j[0] * t196 +
-        omega_j[1] * t194 + omega_j[2] * t197);
-    const jg_real t198 = t187 * h_i_in_j_1 + g_i_in_j_0 * t195 - (t189 * h_i_in_j_0 + g_i_in_j_1 * t193);
-    const jg_real t199 = t189 * h_i_in_j_2 + g_i_in_j_1 * t192 - (t186 * h_i_in_j_1 + g_i_in_j_2 * t195);
-    const jg_real t200 = C_j[3] * t198 - C_j[5] * t199;
-    const jg_real t201 = t186 * h_i_in_j_0 + g_i_in_j_2 * t193 - (t187 * h_i_in_j_2 + g_i_in_j_0 * t192);
-    const jg_real t202 = C_j[5] * t201 - C_j[4] * t198;
-    const jg_real t203 = C_j[4] * t199 - C_j[3] * t201;
-    const jg_real t204 = A_j[2] * omega_i[1];
-    const jg_real t205 = A_j[8] * omega_i[1];
-    const jg_real t206 = s_j[2] * t204 - s_j[0] * t205;
-    const jg_real t207 = A_j[8] * A_ij_0 - A_j[2] * A_ij_6;
-    const jg_real t208 = omega_i[0] * t117 - omega_i[2] * t207;
-    const jg_real t209 = s_j[1] * t205 - s_j[2] * t208;
-    const jg_real t210 = s_j[0] * t208 - s_j[1] * t204;
-    const jg_real t211 = t207 * s_j_cross_omega_i_in_j_1;
-    const jg_real t212 = v_0_in_j_1 * t207 + omega_i[0] * v_1_world_2;
-    const jg_real t213 = A_j[8] * C_i[4];
-    const jg_real t214 = A_j[2] * C_i[4];
-    const jg_real t215 = t213 * C_j[6] - C_j[8] * t214;
-    const jg_real t216 = t117 * C_i[3] - t207 * C_i[5];
-    const jg_real t217 = C_j[8] * t216 - t213 * C_j[7];
-    const jg_real t218 = C_j[7] * t214 - C_j[6] * t216;
-    const jg_real t219 = A_j[8] * C_i[7];
-    const jg_real t220 = A_j[2] * C_i[7];
-    const jg_real t221 = t219 * C_j[0] - C_j[2] * t220;
-    const jg_real t222 = t117 * C_i[6] - t207 * C_i[8];
-    const jg_real t223 = C_j[2] * t222 - t219 * C_j[1];
-    const jg_real t224 = C_j[1] * t220 - C_j[0] * t222;
-    const jg_real t225 = t214 * h_i_in_j_1 + g_i_in_j_0 * t222 - (t216 * h_i_in_j_0 + g_i_in_j_1 * t220);
-    const jg_real t226 = t216 * h_i_in_j_2 + g_i_in_j_1 * t219 - (t213 * h_i_in_j_1 + g_i_in_j_2 * t222);
-    const jg_real t227 = C_j[3] * t225 - C_j[5] * t226;
-    const jg_real t228 = t213 * h_i_in_j_0 + g_i_in_j_2 * t220 - (t214 * h_i_in_j_2 + g_i_in_j_0 * t219);
-    const jg_real t229 = C_j[5] * t228 - C_j[4] * t225;
-    const jg_real t230 = C_j[4] * t226 - C_j[3] * t228;
-    const jg_real t231 = A_j[0] * omega_i[2];
-    const jg_real t232 = A_j[6] * omega_i[2];
-    const jg_real t233 = s_j[2] * t231 - s_j[0] * t232;
-    const jg_real t234 = omega_i[0] * t23 + omega_i[1] * t153;
-    const jg_real t235 = s_j[1] * t232 - s_j[2] * t234;
-    const jg_real t236 = s_j[0] * t234 - s_j[1] * t231;
-    jac_phi_q_v_A_i[29] = t178 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t203 + (t181 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t200 + (t177 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t202)) - (omega_j[1] * t200 +
-        omega_j[0] * t202 + omega_j[2] * t203);
-    jac_phi_q_v_A_i[30] = t127 + A_ij_3 * t206 + A_ij_0 * t209 + A_ij_6 * t210 + t129;
-    jac_phi_q_v_A_i[31] = t116 + A_ij_7 * t210 + (t122 + A_ij_1 * t209 + A_ij_4 * t206) + t126;
-    jac_phi_q_v_A_i[32] = A_ij_5 * t206 - t211 + A_ij_2 * t209 + A_ij_8 * t210 - t212;
-    jac_phi_q_v_A_i[33] = t205 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t218 + (t204 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t217 + (t208 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t215)) - (omega_j[0] * t217 +
-        omega_j[1] * t215 + omega_j[2] * t218);
-    jac_phi_q_v_A_i[34] = t205 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t224 + (t204 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t223 + (t208 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t221)) - (omega_j[0] * t223 +
-        omega_j[1] * t221 + omega_j[2] * t224);
-    jac_phi_q_v_A_i[35] = t205 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t230 + (t208 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t227 + (t204 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t229)) - (omega_j[1] * t227 +
-        omega_j[0] * t229 + omega_j[2] * t230);
-    jac_phi_q_v_A_i[36] = t44 + A_ij_3 * t233 + A_ij_0 * t235 + A_ij_6 * t236 + t45;
-    const jg_real t237 = A_j[6] * C_i[5];
-    const jg_real t238 = A_j[0] * C_i[5];
-    const jg_real t239 = t237 * C_j[6] - C_j[8] * t238;
-    const jg_real t240 = t23 * C_i[3] + t153 * C_i[4];
-    const jg_real t241 = C_j[8] * t240 - t237 * C_j[7];
-    const jg_real t242 = C_j[7] * t238 - t240 * C_j[6];
-    const jg_real t243 = A_j[6] * C_i[8];
-    const jg_real t244 = A_j[0] * C_i[8];
-    const jg_real t245 = t243 * C_j[0] - C_j[2] * t244;
-    const jg_real t246 = t23 * C_i[6] + t153 * C_i[7];
-    const jg_real t247 = t246 * C_j[2] - t243 * C_j[1];
-    const jg_real t248 = C_j[1] * t244 - t246 * C_j[0];
-    const jg_real t249 = t238 * h_i_in_j_1 + t246 * g_i_in_j_0 - (t240 * h_i_in_j_0 + g_i_in_j_1 * t244);
-    const jg_real t250 = t240 * h_i_in_j_2 + g_i_in_j_1 * t243 - (t237 * h_i_in_j_1 + g_i_in_j_2 * t246);
-    const jg_real t251 = C_j[3] * t249 - C_j[5] * t250;
-    const jg_real t252 = t237 * h_i_in_j_0 + g_i_in_j_2 * t244 - (t238 * h_i_in_j_2 + g_i_in_j_0 * t243);
-    const jg_real t253 = C_j[5] * t252 - C_j[4] * t249;
-    const jg_real t254 = C_j[4] * t250 - C_j[3] * t252;
-    const jg_real t255 = A_j[1] * omega_i[2];
-    const jg_real t256 = A_j[7] * omega_i[2];
-    const jg_real t257 = s_j[2] * t255 - s_j[0] * t256;
-    const jg_real t258 = omega_i[0] * t84 + omega_i[1] * t180;
-    const jg_real t259 = s_j[1] * t256 - s_j[2] * t258;
-    const jg_real t260 = s_j[0] * t258 - s_j[1] * t255;
-    jac_phi_q_v_A_i[37] = t157 + A_ij_4 * t233 + A_ij_1 * t235 + A_ij_7 * t236 + t158;
-    jac_phi_q_v_A_i[38] = t21 + A_ij_8 * t236 + (t29 + A_ij_2 * t235 + A_ij_5 * t233) + t37;
-    jac_phi_q_v_A_i[39] = t232 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t242 + (t231 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t241 + (t234 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t239)) - (omega_j[0] * t241 +
-        omega_j[1] * t239 + omega_j[2] * t242);
-    jac_phi_q_v_A_i[40] = t232 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t248 + (t231 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t247 + (t234 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t245)) - (omega_j[0] * t247 +
-        omega_j[1] * t245 + omega_j[2] * t248);
-    jac_phi_q_v_A_i[41] = t232 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t254 + (t234 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t251 + (t231 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t253)) - (omega_j[1] * t251 +
-        omega_j[0] * t253 + omega_j[2] * t254);
-    jac_phi_q_v_A_i[42] = t96 + A_ij_3 * t257 + A_ij_0 * t259 + A_ij_6 * t260 + t97;
-    jac_phi_q_v_A_i[43] = t184 + A_ij_4 * t257 + A_ij_1 * t259 + A_ij_7 * t260 + t185;
-    jac_phi_q_v_A_i[44] = t82 + A_ij_8 * t260 + (t88 + A_ij_2 * t259 + A_ij_5 * t257) + t92;
-    const jg_real t261 = A_j[7] * C_i[5];
-    const jg_real t262 = A_j[1] * C_i[5];
-    const jg_real t263 = t261 * C_j[6] - C_j[8] * t262;
-    const jg_real t264 = t84 * C_i[3] + t180 * C_i[4];
-    const jg_real t265 = C_j[8] * t264 - t261 * C_j[7];
-    const jg_real t266 = C_j[7] * t262 - t264 * C_j[6];
-    const jg_real t267 = A_j[7] * C_i[8];
-    const jg_real t268 = A_j[1] * C_i[8];
-    const jg_real t269 = t267 * C_j[0] - C_j[2] * t268;
-    const jg_real t270 = t84 * C_i[6] + t180 * C_i[7];
-    const jg_real t271 = t270 * C_j[2] - t267 * C_j[1];
-    const jg_real t272 = C_j[1] * t268 - t270 * C_j[0];
-    const jg_real t273 = t262 * h_i_in_j_1 + t270 * g_i_in_j_0 - (t264 * h_i_in_j_0 + g_i_in_j_1 * t268);
-    const jg_real t274 = t264 * h_i_in_j_2 + g_i_in_j_1 * t267 - (t261 * h_i_in_j_1 + g_i_in_j_2 * t270);
-    const jg_real t275 = C_j[3] * t273 - C_j[5] * t274;
-    const jg_real t276 = t261 * h_i_in_j_0 + g_i_in_j_2 * t268 - (t262 * h_i_in_j_2 + g_i_in_j_0 * t267);
-    const jg_real t277 = C_j[5] * t276 - C_j[4] * t273;
-    const jg_real t278 = C_j[4] * t274 - C_j[3] * t276;
-    const jg_real t279 = A_j[2] * omega_i[2];
-    const jg_real t280 = A_j[8] * omega_i[2];
-    const jg_real t281 = s_j[2] * t279 - s_j[0] * t280;
-    const jg_real t282 = omega_i[0] * t118 + omega_i[1] * t207;
-    const jg_real t283 = s_j[1] * t280 - s_j[2] * t282;
-    const jg_real t284 = s_j[0] * t282 - s_j[1] * t279;
-    const jg_real t285 = A_j[8] * C_i[5];
-    const jg_real t286 = A_j[2] * C_i[5];
-    const jg_real t287 = t285 * C_j[6] - C_j[8] * t286;
-    const jg_real t288 = t118 * C_i[3] + t207 * C_i[4];
-    const jg_real t289 = C_j[8] * t288 - t285 * C_j[7];
-    const jg_real t290 = C_j[7] * t286 - t288 * C_j[6];
-    const jg_real t291 = A_j[8] * C_i[8];
-    const jg_real t292 = A_j[2] * C_i[8];
-    const jg_real t293 = t291 * C_j[0] - C_j[2] * t292;
-    const jg_real t294 = t118 * C_i[6] + t207 * C_i[7];
-    const jg_real t295 = t294 * C_j[2] - t291 * C_j[1];
-    const jg_real t296 = C_j[1] * t292 - t294 * C_j[0];
-    jac_phi_q_v_A_i[45] = t256 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t266 + (t255 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t265 + (t258 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t263)) - (omega_j[0] * t265 +
-        omega_j[1] * t263 + omega_j[2] * t266);
-    jac_phi_q_v_A_i[46] = t256 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t272 + (t255 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t271 + (t258 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t269)) - (omega_j[0] * t271 +
-        omega_j[1] * t269 + omega_j[2] * t272);
-    jac_phi_q_v_A_i[47] = t256 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t278 + (t258 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t275 + (t255 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t277)) - (omega_j[1] * t275 +
-        omega_j[0] * t277 + omega_j[2] * t278);
-    jac_phi_q_v_A_i[48] = t130 + A_ij_3 * t281 + A_ij_0 * t283 + A_ij_6 * t284 + t131;
-    jac_phi_q_v_A_i[49] = t211 + A_ij_4 * t281 + A_ij_1 * t283 + A_ij_7 * t284 + t212;
-    jac_phi_q_v_A_i[50] = t116 + A_ij_8 * t284 + (t122 + A_ij_2 * t283 + A_ij_5 * t281) + t126;
-    jac_phi_q_v_A_i[51] = t280 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t290 + (t279 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t289 + (t282 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t287)) - (omega_j[0] * t289 +
-        omega_j[1] * t287 + omega_j[2] * t290);
-    jac_phi_q_v_A_i[52] = t280 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t296 + (t279 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t295 + (t282 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t295 +
-        omega_j[1] * t293 + omega_j[2] * t296);
-    const jg_real t297 = t286 * h_i_in_j_1 + t294 * g_i_in_j_0 - (t288 * h_i_in_j_0 + g_i_in_j_1 * t292);
-    const jg_real t298 = t288 * h_i_in_j_2 + g_i_in_j_1 * t291 - (t285 * h_i_in_j_1 + g_i_in_j_2 * t294);
-    const jg_real t299 = C_j[3] * t297 - C_j[5] * t298;
-    const jg_real t300 = t285 * h_i_in_j_0 + g_i_in_j_2 * t292 - (t286 * h_i_in_j_2 + g_i_in_j_0 * t291);
-    const jg_real t301 = C_j[5] * t300 - C_j[4] * t297;
-    const jg_real t302 = C_j[4] * t298 - C_j[3] * t300;
-    const jg_real t303 = A_i[6] * A_ij_7 - A_i[3] * A_ij_8;
-    const jg_real t304 = A_i[3] * omega_i[1] + omega_i[0] * A_i[0] + A_i[6] * omega_i[2];
-    const jg_real t305 = s_j[2] * t304;
-    const jg_real t306 = A_i[0] * A_ij_8 - A_i[6] * A_ij_6;
-    const jg_real t307 = A_i[3] * A_ij_6 - A_i[0] * A_ij_7;
-    const jg_real t308 = omega_i[0] * t303 + omega_i[1] * t306 + omega_i[2] * t307;
-    const jg_real t309 = s_j[2] * t308;
-    const jg_real t310 = s_j[1] * t304;
-    const jg_real t311 = s_j[0] * t308 - t310;
-    const jg_real t312 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
-    const jg_real t313 = C_j[8] * t312;
-    const jg_real t314 = t303 * C_i[3] + t306 * C_i[4] + t307 * C_i[5];
-    const jg_real t315 = C_j[8] * t314;
-    const jg_real t316 = C_j[7] * t312;
-    const jg_real t317 = t316 - C_j[6] * t314;
-    const jg_real t318 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t319 = C_j[2] * t318;
-    const jg_real t320 = t303 * C_i[6] + t306 * C_i[7] + t307 * C_i[8];
-    const jg_real t321 = C_j[2] * t320;
-    const jg_real t322 = C_j[1] * t318;
-    const jg_real t323 = t322 - C_j[0] * t320;
-    const jg_real t324 = t312 * h_i_in_j_1;
-    const jg_real t325 = g_i_in_j_1 * t318;
-    const jg_real t326 = t324 + g_i_in_j_0 * t320 - (t314 * h_i_in_j_0 + t325);
-    const jg_real t327 = t314 * h_i_in_j_2 - g_i_in_j_2 * t320;
-    const jg_real t328 = C_j[3] * t326 - C_j[5] * t327;
-    const jg_real t329 = g_i_in_j_2 * t318 - t312 * h_i_in_j_2;
-    const jg_real t330 = C_j[5] * t329 - C_j[4] * t326;
-    const jg_real t331 = C_j[4] * t327 - C_j[3] * t329;
-    const jg_real t332 = A_i[7] * A_ij_7 - A_i[4] * A_ij_8;
-    const jg_real t333 = A_i[4] * omega_i[1] + omega_i[0] * A_i[1] + A_i[7] * omega_i[2];
-    const jg_real t334 = s_j[2] * t333;
-    const jg_real t335 = A_i[1] * A_ij_8 - A_i[7] * A_ij_6;
-    const jg_real t336 = A_i[4] * A_ij_6 - A_i[1] * A_ij_7;
-    const jg_real t337 = omega_i[0] * t332 + omega_i[1] * t335 + omega_i[2] * t336;
-    const jg_real t338 = s_j[2] * t337;
-    const jg_real t339 = s_j[1] * t333;
-    const jg_real t340 = s_j[0] * t337 - t339;
-    jac_phi_q_v_A_i[53] = t280 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t302 + (t282 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t299 + (t279 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t301)) - (omega_j[1] * t299 +
-        omega_j[0] * t301 + omega_j[2] * t302);
-    jac_phi_q_v_A_j[0] = A_i[0] * v_0_in_j_0 + v_0_in_j_1 * t303 + (t303 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t305
-        + (A_i[0] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t309) + A_ij_6 * t311);
-    jac_phi_q_v_A_j[1] = A_i[3] * v_0_in_j_0 + v_0_in_j_1 * t306 + (t306 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t305
-        + (A_i[3] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t309) + A_ij_7 * t311);
-    jac_phi_q_v_A_j[2] = v_0_in_j_1 * t307 + A_i[6] * v_0_in_j_0 + (t307 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t305
-        + (A_i[6] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t309) + A_ij_8 * t311);
-    jac_phi_q_v_A_j[3] = t304 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t315 + (t308 * g_i_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t313) + omega_i_in_j_2 * t317 - (omega_j[0] * t315 - omega_j[1] * t313 + omega_j[2] *
-        t317);
-    jac_phi_q_v_A_j[4] = t304 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t321 + (t308 * h_i_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t319) + omega_i_in_j_2 * t323 - (omega_j[0] * t321 - omega_j[1] * t319 + omega_j[2] *
-        t323);
-    jac_phi_q_v_A_j[5] = t308 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t328 + (t304 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t330) + omega_i_in_j_2 * t331 - (omega_j[1] * t328 + omega_j[0] * t330 + omega_j[2] *
-        t331);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_0_in_j_0 + v_0_in_j_1 * t332 + (t332 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t334
-        + (A_i[1] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t338) + A_ij_6 * t340);
-    const jg_real t341 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
-    const jg_real t342 = C_j[8] * t341;
-    const jg_real t343 = t332 * C_i[3] + t335 * C_i[4] + t336 * C_i[5];
-    const jg_real t344 = C_j[8] * t343;
-    const jg_real t345 = C_j[7] * t341;
-    const jg_real t346 = t345 - C_j[6] * t343;
-    const jg_real t347 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t348 = C_j[2] * t347;
-    const jg_real t349 = t332 * C_i[6] + t335 * C_i[7] + t336 * C_i[8];
-    const jg_real t350 = C_j[2] * t349;
-    const jg_real t351 = C_j[1] * t347;
-    const jg_real t352 = t351 - C_j[0] * t349;
-    const jg_real t353 = t341 * h_i_in_j_1;
-    const jg_real t354 = g_i_in_j_1 * t347;
-    const jg_real t355 = t353 + g_i_in_j_0 * t349 - (t343 * h_i_in_j_0 + t354);
-    const jg_real t356 = t343 * h_i_in_j_2 - g_i_in_j_2 * t349;
-    const jg_real t357 = C_j[3] * t355 - C_j[5] * t356;
-    const jg_real t358 = g_i_in_j_2 * t347 - t341 * h_i_in_j_2;
-    const jg_real t359 = C_j[5] * t358 - C_j[4] * t355;
-    const jg_real t360 = C_j[4] * t356 - C_j[3] * t358;
-    const jg_real t361 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
-    const jg_real t362 = A_i[5] * omega_i[1] + omega_i[0] * A_i[2] + A_i[8] * omega_i[2];
-    const jg_real t363 = s_j[2] * t362;
-    const jg_real t364 = A_i[2] * A_ij_8 - A_i[8] * A_ij_6;
-    const jg_real t365 = A_i[5] * A_ij_6 - A_i[2] * A_ij_7;
-    const jg_real t366 = omega_i[0] * t361 + omega_i[1] * t364 + omega_i[2] * t365;
-    const jg_real t367 = s_j[2] * t366;
-    const jg_real t368 = s_j[1] * t362;
-    const jg_real t369 = s_j[0] * t366 - t368;
-    jac_phi_q_v_A_j[7] = A_i[4] * v_0_in_j_0 + v_0_in_j_1 * t335 + (t335 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t334
-        + (A_i[4] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t338) + A_ij_7 * t340);
-    jac_phi_q_v_A_j[8] = v_0_in_j_1 * t336 + A_i[7] * v_0_in_j_0 + (t336 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t334
-        + (A_i[7] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t338) + A_ij_8 * t340);
-    jac_phi_q_v_A_j[9] = t333 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t344 + (t337 * g_i_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t342) + omega_i_in_j_2 * t346 - (omega_j[0] * t344 - omega_j[1] * t342 + omega_j[2] *
-        t346);
-    jac_phi_q_v_A_j[10] = t333 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t350 + (t337 * h_i_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t348) + omega_i_in_j_2 * t352 - (omega_j[0] * t350 - omega_j[1] * t348 + omega_j[2] *
-        t352);
-    jac_phi_q_v_A_j[11] = t337 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t357 + (t333 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t359) + omega_i_in_j_2 * t360 - (omega_j[1] * t357 + omega_j[0] * t359 + omega_j[2] *
-        t360);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_0_in_j_0 + v_0_in_j_1 * t361 + (t361 * s_j_cross_omega_i_in_j_1 + A_ij_3 * t363
-        + (A_i[2] * s_j_cross_omega_i_in_j_0 - A_ij_0 * t367) + A_ij_6 * t369);
-    jac_phi_q_v_A_j[13] = A_i[5] * v_0_in_j_0 + v_0_in_j_1 * t364 + (t364 * s_j_cross_omega_i_in_j_1 + A_ij_4 * t363
-        + (A_i[5] * s_j_cross_omega_i_in_j_0 - A_ij_1 * t367) + A_ij_7 * t369);
-    jac_phi_q_v_A_j[14] = v_0_in_j_1 * t365 + A_i[8] * v_0_in_j_0 + (t365 * s_j_cross_omega_i_in_j_1 + A_ij_5 * t363
-        + (A_i[8] * s_j_cross_omega_i_in_j_0 - A_ij_2 * t367) + A_ij_8 * t369);
-    const jg_real t370 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
-    const jg_real t371 = C_j[8] * t370;
-    const jg_real t372 = t361 * C_i[3] + t364 * C_i[4] + t365 * C_i[5];
-    const jg_real t373 = C_j[8] * t372;
-    const jg_real t374 = C_j[7] * t370;
-    const jg_real t375 = t374 - C_j[6] * t372;
-    const jg_real t376 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t377 = C_j[2] * t376;
-    const jg_real t378 = t361 * C_i[6] + t364 * C_i[7] + t365 * C_i[8];
-    const jg_real t379 = C_j[2] * t378;
-    const jg_real t380 = C_j[1] * t376;
-    const jg_real t381 = t380 - C_j[0] * t378;
-    const jg_real t382 = t370 * h_i_in_j_1;
-    const jg_real t383 = g_i_in_j_1 * t376;
-    const jg_real t384 = t382 + g_i_in_j_0 * t378 - (t372 * h_i_in_j_0 + t383);
-    const jg_real t385 = t372 * h_i_in_j_2 - g_i_in_j_2 * t378;
-    const jg_real t386 = C_j[3] * t384 - C_j[5] * t385;
-    const jg_real t387 = g_i_in_j_2 * t376 - t370 * h_i_in_j_2;
-    const jg_real t388 = C_j[5] * t387 - C_j[4] * t384;
-    const jg_real t389 = C_j[4] * t385 - C_j[3] * t387;
-    const jg_real t390 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
-    const jg_real t391 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
-    const jg_real t392 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
-    const jg_real t393 = omega_i[0] * t390 + omega_i[1] * t391 + omega_i[2] * t392;
-    const jg_real t394 = s_j[0] * t393;
-    const jg_real t395 = s_j[0] * t304;
-    const jg_real t396 = t310 - s_j[2] * t393;
-    const jg_real t397 = C_j[6] * t312;
-    const jg_real t398 = t390 * C_i[3] + t391 * C_i[4] + t392 * C_i[5];
-    const jg_real t399 = C_j[8] * t398 - t316;
-    const jg_real t400 = C_j[6] * t398;
-    const jg_real t401 = C_j[0] * t318;
-    const jg_real t402 = t390 * C_i[6] + t391 * C_i[7] + t392 * C_i[8];
-    const jg_real t403 = C_j[2] * t402 - t322;
-    const jg_real t404 = C_j[0] * t402;
-    jac_phi_q_v_A_j[15] = t362 * g_i_cross_h_j_in_j_0 + omega_i_in_j_0 * t373 + (t366 * g_i_cross_h_j_in_j_1 -
-        omega_i_in_j_1 * t371) + omega_i_in_j_2 * t375 - (omega_j[0] * t373 - omega_j[1] * t371 + omega_j[2] *
-        t375);
-    jac_phi_q_v_A_j[16] = t362 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t379 + (t366 * h_i_cross_f_j_in_j_1 -
-        omega_i_in_j_1 * t377) + omega_i_in_j_2 * t381 - (omega_j[0] * t379 - omega_j[1] * t377 + omega_j[2] *
-        t381);
-    jac_phi_q_v_A_j[17] = t366 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t386 + (t362 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t388) + omega_i_in_j_2 * t389 - (omega_j[1] * t386 + omega_j[0] * t388 + omega_j[2] *
+    jac_phi_q_v_A_i[35] = t184 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t197 + (t180 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t194 + (t181 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t196)) - (omega_j[1] * t194 +
+        omega_j[0] * t196 + omega_j[2] * t197);
+    jac_phi_q_v_A_i[39] = omega_i_in_j_2 * t206 + t205 * g_i_cross_h_j_in_j_2 + (omega_i_in_j_0 * t204 + t202 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t200 + t201 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t204 +
+        omega_j[1] * t200 + omega_j[2] * t206);
+    jac_phi_q_v_A_i[40] = t205 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t212 + (t202 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t211 + (t201 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t209)) - (omega_j[0] * t211 +
+        omega_j[1] * t209 + omega_j[2] * t212);
+    const jg_real t213 = t199 * h_i_in_j_1 + g_i_in_j_0 * t210 - (t203 * h_i_in_j_0 + g_i_in_j_1 * t208);
+    const jg_real t214 = t203 * h_i_in_j_2 + g_i_in_j_1 * t207 - (t198 * h_i_in_j_1 + g_i_in_j_2 * t210);
+    const jg_real t215 = C_j[3] * t213 - C_j[5] * t214;
+    const jg_real t216 = t198 * h_i_in_j_0 + g_i_in_j_2 * t208 - (t199 * h_i_in_j_2 + t207 * g_i_in_j_0);
+    const jg_real t217 = C_j[5] * t216 - C_j[4] * t213;
+    const jg_real t218 = C_j[4] * t214 - C_j[3] * t216;
+    const jg_real t219 = A_j[7] * C_i[5];
+    const jg_real t220 = A_j[1] * C_i[5];
+    const jg_real t221 = t219 * C_j[6] - C_j[8] * t220;
+    const jg_real t222 = t78 * omega_i[0] + omega_i[1] * t152;
+    const jg_real t223 = A_j[1] * omega_i[2];
+    const jg_real t224 = t78 * C_i[3] + C_i[4] * t152;
+    const jg_real t225 = C_j[8] * t224 - t219 * C_j[7];
+    const jg_real t226 = A_j[7] * omega_i[2];
+    const jg_real t227 = C_j[7] * t220 - t224 * C_j[6];
+    const jg_real t228 = A_j[7] * C_i[8];
+    const jg_real t229 = A_j[1] * C_i[8];
+    const jg_real t230 = t228 * C_j[0] - C_j[2] * t229;
+    const jg_real t231 = t78 * C_i[6] + t152 * C_i[7];
+    const jg_real t232 = C_j[2] * t231 - t228 * C_j[1];
+    const jg_real t233 = C_j[1] * t229 - C_j[0] * t231;
+    const jg_real t234 = t220 * h_i_in_j_1 + g_i_in_j_0 * t231 - (t224 * h_i_in_j_0 + g_i_in_j_1 * t229);
+    const jg_real t235 = t224 * h_i_in_j_2 + g_i_in_j_1 * t228 - (t219 * h_i_in_j_1 + g_i_in_j_2 * t231);
+    const jg_real t236 = C_j[3] * t234 - C_j[5] * t235;
+    const jg_real t237 = t219 * h_i_in_j_0 + g_i_in_j_2 * t229 - (t220 * h_i_in_j_2 + t228 * g_i_in_j_0);
+    const jg_real t238 = C_j[5] * t237 - C_j[4] * t234;
+    const jg_real t239 = C_j[4] * t235 - C_j[3] * t237;
+    const jg_real t240 = A_j[8] * C_i[5];
+    const jg_real t241 = A_j[2] * C_i[5];
+    const jg_real t242 = t240 * C_j[6] - C_j[8] * t241;
+    const jg_real t243 = t106 * omega_i[0] + omega_i[1] * t175;
+    const jg_real t244 = A_j[2] * omega_i[2];
+    const jg_real t245 = t106 * C_i[3] + C_i[4] * t175;
+    const jg_real t246 = C_j[8] * t245 - t240 * C_j[7];
+    const jg_real t247 = A_j[8] * omega_i[2];
+    const jg_real t248 = C_j[7] * t241 - t245 * C_j[6];
+    const jg_real t249 = A_j[8] * C_i[8];
+    const jg_real t250 = A_j[2] * C_i[8];
+    const jg_real t251 = t249 * C_j[0] - C_j[2] * t250;
+    const jg_real t252 = t106 * C_i[6] + t175 * C_i[7];
+    const jg_real t253 = C_j[2] * t252 - t249 * C_j[1];
+    const jg_real t254 = C_j[1] * t250 - C_j[0] * t252;
+    const jg_real t255 = t241 * h_i_in_j_1 + g_i_in_j_0 * t252 - (t245 * h_i_in_j_0 + g_i_in_j_1 * t250);
+    const jg_real t256 = t245 * h_i_in_j_2 + g_i_in_j_1 * t249 - (t240 * h_i_in_j_1 + g_i_in_j_2 * t252);
+    const jg_real t257 = C_j[3] * t255 - C_j[5] * t256;
+    const jg_real t258 = t240 * h_i_in_j_0 + g_i_in_j_2 * t250 - (t241 * h_i_in_j_2 + t249 * g_i_in_j_0);
+    const jg_real t259 = C_j[5] * t258 - C_j[4] * t255;
+    const jg_real t260 = C_j[4] * t256 - C_j[3] * t258;
+    const jg_real t261 = A_i[6] * A_ij_7 - A_i[3] * A_ij_8;
+    const jg_real t262 = A_i[3] * s_j[0];
+    const jg_real t263 = A_i[6] * s_j[0];
+    jac_phi_q_v_A_i[41] = t205 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t218 + (t201 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t215 + (t202 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t217)) - (omega_j[1] * t215 +
+        omega_j[0] * t217 + omega_j[2] * t218);
+    jac_phi_q_v_A_i[45] = omega_i_in_j_2 * t227 + t226 * g_i_cross_h_j_in_j_2 + (omega_i_in_j_0 * t225 + t223 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t221 + t222 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t225 +
+        omega_j[1] * t221 + omega_j[2] * t227);
+    jac_phi_q_v_A_i[46] = t226 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t233 + (t223 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t232 + (t222 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t230)) - (omega_j[0] * t232 +
+        omega_j[1] * t230 + omega_j[2] * t233);
+    jac_phi_q_v_A_i[47] = t226 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t239 + (t222 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t236 + (t223 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t238)) - (omega_j[1] * t236 +
+        omega_j[0] * t238 + omega_j[2] * t239);
+    jac_phi_q_v_A_i[51] = omega_i_in_j_2 * t248 + t247 * g_i_cross_h_j_in_j_2 + (omega_i_in_j_0 * t246 + t244 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t242 + t243 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t246 +
+        omega_j[1] * t242 + omega_j[2] * t248);
+    jac_phi_q_v_A_i[52] = t247 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t254 + (t244 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t253 + (t243 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t251)) - (omega_j[0] * t253 +
+        omega_j[1] * t251 + omega_j[2] * t254);
+    jac_phi_q_v_A_i[53] = t247 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t260 + (t243 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t257 + (t244 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t259)) - (omega_j[1] * t257 +
+        omega_j[0] * t259 + omega_j[2] * t260);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_2_in_j_0 + v_2_in_j_1 * t261 + (omega_i[2] * t262 - omega_i[1] * t263);
+    const jg_real t264 = A_i[0] * A_ij_8 - A_i[6] * A_ij_6;
+    const jg_real t265 = s_j[0] * A_i[0];
+    const jg_real t266 = A_i[3] * A_ij_6 - A_i[0] * A_ij_7;
+    const jg_real t267 = t261 * omega_i[0] + omega_i[1] * t264 + omega_i[2] * t266;
+    const jg_real t268 = A_i[0] * C_i[3] + A_i[3] * C_i[4] + A_i[6] * C_i[5];
+    const jg_real t269 = C_j[8] * t268;
+    const jg_real t270 = A_i[0] * omega_i[0] + A_i[3] * omega_i[1] + A_i[6] * omega_i[2];
+    const jg_real t271 = t261 * C_i[3] + C_i[4] * t264 + C_i[5] * t266;
+    const jg_real t272 = C_j[8] * t271;
+    const jg_real t273 = C_j[7] * t268;
+    const jg_real t274 = t273 - C_j[6] * t271;
+    const jg_real t275 = A_i[0] * C_i[6] + A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t276 = C_j[2] * t275;
+    const jg_real t277 = t261 * C_i[6] + t264 * C_i[7] + t266 * C_i[8];
+    const jg_real t278 = C_j[2] * t277;
+    const jg_real t279 = C_j[1] * t275;
+    const jg_real t280 = t279 - C_j[0] * t277;
+    const jg_real t281 = t268 * h_i_in_j_1;
+    const jg_real t282 = g_i_in_j_1 * t275;
+    const jg_real t283 = t281 + g_i_in_j_0 * t277 - (t282 + t271 * h_i_in_j_0);
+    const jg_real t284 = t271 * h_i_in_j_2 - g_i_in_j_2 * t277;
+    const jg_real t285 = C_j[3] * t283 - C_j[5] * t284;
+    const jg_real t286 = g_i_in_j_2 * t275 - t268 * h_i_in_j_2;
+    const jg_real t287 = C_j[5] * t286 - C_j[4] * t283;
+    const jg_real t288 = C_j[4] * t284 - C_j[3] * t286;
+    const jg_real t289 = A_i[7] * A_ij_7 - A_i[4] * A_ij_8;
+    const jg_real t290 = A_i[4] * s_j[0];
+    const jg_real t291 = A_i[7] * s_j[0];
+    const jg_real t292 = A_i[1] * A_ij_8 - A_i[7] * A_ij_6;
+    const jg_real t293 = s_j[0] * A_i[1];
+    const jg_real t294 = A_i[4] * A_ij_6 - A_i[1] * A_ij_7;
+    jac_phi_q_v_A_j[1] = A_i[3] * v_2_in_j_0 + v_2_in_j_1 * t264 + (omega_i[0] * t263 - omega_i[2] * t265);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_2_in_j_0 + v_2_in_j_1 * t266 + (omega_i[1] * t265 - omega_i[0] * t262);
+    jac_phi_q_v_A_j[3] = omega_i_in_j_0 * t272 + t270 * g_i_cross_h_j_in_j_0 + (t267 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t269) + omega_i_in_j_2 * t274 - (omega_j[0] * t272 - omega_j[1] * t269 + omega_j[2] *
+        t274);
+    jac_phi_q_v_A_j[4] = t270 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t278 + (t267 * h_i_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t276) + omega_i_in_j_2 * t280 - (omega_j[0] * t278 - omega_j[1] * t276 + omega_j[2] *
+        t280);
+    jac_phi_q_v_A_j[5] = t267 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t285 + (t270 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t287) + omega_i_in_j_2 * t288 - (omega_j[1] * t285 + omega_j[0] * t287 + omega_j[2] *
+        t288);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_2_in_j_0 + v_2_in_j_1 * t289 + (omega_i[2] * t290 - omega_i[1] * t291);
+    jac_phi_q_v_A_j[7] = A_i[4] * v_2_in_j_0 + v_2_in_j_1 * t292 + (omega_i[0] * t291 - omega_i[2] * t293);
+    jac_phi_q_v_A_j[8] = A_i[7] * v_2_in_j_0 + v_2_in_j_1 * t294 + (omega_i[1] * t293 - omega_i[0] * t290);
+    const jg_real t295 = t289 * omega_i[0] + omega_i[1] * t292 + omega_i[2] * t294;
+    const jg_real t296 = A_i[1] * C_i[3] + A_i[4] * C_i[4] + A_i[7] * C_i[5];
+    const jg_real t297 = C_j[8] * t296;
+    const jg_real t298 = A_i[1] * omega_i[0] + A_i[4] * omega_i[1] + A_i[7] * omega_i[2];
+    const jg_real t299 = t289 * C_i[3] + C_i[4] * t292 + C_i[5] * t294;
+    const jg_real t300 = C_j[8] * t299;
+    const jg_real t301 = C_j[7] * t296;
+    const jg_real t302 = t301 - C_j[6] * t299;
+    const jg_real t303 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real t304 = C_j[2] * t303;
+    const jg_real t305 = t289 * C_i[6] + t292 * C_i[7] + t294 * C_i[8];
+    const jg_real t306 = C_j[2] * t305;
+    const jg_real t307 = C_j[1] * t303;
+    const jg_real t308 = t307 - C_j[0] * t305;
+    const jg_real t309 = t296 * h_i_in_j_1;
+    const jg_real t310 = g_i_in_j_1 * t303;
+    const jg_real t311 = t309 + g_i_in_j_0 * t305 - (t310 + t299 * h_i_in_j_0);
+    const jg_real t312 = t299 * h_i_in_j_2 - g_i_in_j_2 * t305;
+    const jg_real t313 = C_j[3] * t311 - C_j[5] * t312;
+    const jg_real t314 = g_i_in_j_2 * t303 - t296 * h_i_in_j_2;
+    const jg_real t315 = C_j[5] * t314 - C_j[4] * t311;
+    const jg_real t316 = C_j[4] * t312 - C_j[3] * t314;
+    const jg_real t317 = A_i[8] * A_ij_7 - A_i[5] * A_ij_8;
+    const jg_real t318 = A_i[5] * s_j[0];
+    const jg_real t319 = A_i[8] * s_j[0];
+    const jg_real t320 = A_i[2] * A_ij_8 - A_i[8] * A_ij_6;
+    const jg_real t321 = s_j[0] * A_i[2];
+    const jg_real t322 = A_i[5] * A_ij_6 - A_i[2] * A_ij_7;
+    const jg_real t323 = t317 * omega_i[0] + omega_i[1] * t320 + omega_i[2] * t322;
+    const jg_real t324 = A_i[2] * C_i[3] + A_i[5] * C_i[4] + A_i[8] * C_i[5];
+    const jg_real t325 = C_j[8] * t324;
+    const jg_real t326 = A_i[2] * omega_i[0] + A_i[5] * omega_i[1] + A_i[8] * omega_i[2];
+    const jg_real t327 = t317 * C_i[3] + C_i[4] * t320 + C_i[5] * t322;
+    const jg_real t328 = C_j[8] * t327;
+    const jg_real t329 = C_j[7] * t324;
+    const jg_real t330 = t329 - C_j[6] * t327;
+    const jg_real t331 = A_i[2] * C_i[6] + A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real t332 = C_j[2] * t331;
+    const jg_real t333 = t317 * C_i[6] + t320 * C_i[7] + t322 * C_i[8];
+    const jg_real t334 = C_j[2] * t333;
+    const jg_real t335 = C_j[1] * t331;
+    const jg_real t336 = t335 - C_j[0] * t333;
+    jac_phi_q_v_A_j[9] = omega_i_in_j_0 * t300 + t298 * g_i_cross_h_j_in_j_0 + (t295 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t297) + omega_i_in_j_2 * t302 - (omega_j[0] * t300 - omega_j[1] * t297 + omega_j[2] *
+        t302);
+    jac_phi_q_v_A_j[10] = t298 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t306 + (t295 * h_i_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t304) + omega_i_in_j_2 * t308 - (omega_j[0] * t306 - omega_j[1] * t304 + omega_j[2] *
+        t308);
+    jac_phi_q_v_A_j[11] = t295 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t313 + (t298 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t315) + omega_i_in_j_2 * t316 - (omega_j[1] * t313 + omega_j[0] * t315 + omega_j[2] *
+        t316);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_2_in_j_0 + v_2_in_j_1 * t317 + (omega_i[2] * t318 - omega_i[1] * t319);
+    jac_phi_q_v_A_j[13] = A_i[5] * v_2_in_j_0 + v_2_in_j_1 * t320 + (omega_i[0] * t319 - omega_i[2] * t321);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_2_in_j_0 + v_2_in_j_1 * t322 + (omega_i[1] * t321 - omega_i[0] * t318);
+    jac_phi_q_v_A_j[15] = omega_i_in_j_0 * t328 + t326 * g_i_cross_h_j_in_j_0 + (t323 * g_i_cross_h_j_in_j_1 -
+        omega_i_in_j_1 * t325) + omega_i_in_j_2 * t330 - (omega_j[0] * t328 - omega_j[1] * t325 + omega_j[2] *
+        t330);
+    jac_phi_q_v_A_j[16] = t326 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t334 + (t323 * h_i_cross_f_j_in_j_1 -
+        omega_i_in_j_1 * t332) + omega_i_in_j_2 * t336 - (omega_j[0] * t334 - omega_j[1] * t332 + omega_j[2] *
+        t336);
+    const jg_real t337 = t324 * h_i_in_j_1;
+    const jg_real t338 = g_i_in_j_1 * t331;
+    const jg_real t339 = t337 + g_i_in_j_0 * t333 - (t338 + t327 * h_i_in_j_0);
+    const jg_real t340 = t327 * h_i_in_j_2 - g_i_in_j_2 * t333;
+    const jg_real t341 = C_j[3] * t339 - C_j[5] * t340;
+    const jg_real t342 = g_i_in_j_2 * t331 - t324 * h_i_in_j_2;
+    const jg_real t343 = C_j[5] * t342 - C_j[4] * t339;
+    const jg_real t344 = C_j[4] * t340 - C_j[3] * t342;
+    const jg_real t345 = A_i[3] * s_j[1];
+    const jg_real t346 = A_i[6] * s_j[1];
+    const jg_real t347 = s_j[1] * A_i[0];
+    const jg_real t348 = A_i[4] * s_j[1];
+    const jg_real t349 = A_i[7] * s_j[1];
+    const jg_real t350 = s_j[1] * A_i[1];
+    const jg_real t351 = A_i[5] * s_j[1];
+    const jg_real t352 = A_i[8] * s_j[1];
+    jac_phi_q_v_A_j[17] = t323 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t341 + (t326 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t343) + omega_i_in_j_2 * t344 - (omega_j[1] * t341 + omega_j[0] * t343 + omega_j[2] *
+        t344);
+    jac_phi_q_v_A_j[18] = omega_i[2] * t345 - omega_i[1] * t346;
+    jac_phi_q_v_A_j[19] = omega_i[0] * t346 - omega_i[2] * t347;
+    jac_phi_q_v_A_j[20] = omega_i[1] * t347 - omega_i[0] * t345;
+    jac_phi_q_v_A_j[21] = omega_i[2] * t348 - omega_i[1] * t349;
+    jac_phi_q_v_A_j[22] = omega_i[0] * t349 - omega_i[2] * t350;
+    jac_phi_q_v_A_j[23] = omega_i[1] * t350 - omega_i[0] * t348;
+    jac_phi_q_v_A_j[24] = omega_i[2] * t351 - omega_i[1] * t352;
+    const jg_real t353 = s_j[1] * A_i[2];
+    const jg_real t354 = A_i[3] * A_ij_2 - A_i[6] * A_ij_1;
+    const jg_real t355 = A_i[3] * s_j[2];
+    const jg_real t356 = A_i[6] * s_j[2];
+    const jg_real t357 = A_i[6] * A_ij_0 - A_i[0] * A_ij_2;
+    const jg_real t358 = s_j[2] * A_i[0];
+    const jg_real t359 = A_i[0] * A_ij_1 - A_i[3] * A_ij_0;
+    const jg_real t360 = t268 * C_j[6];
+    const jg_real t361 = t354 * omega_i[0] + omega_i[1] * t357 + omega_i[2] * t359;
+    const jg_real t362 = t354 * C_i[3] + C_i[4] * t357 + C_i[5] * t359;
+    const jg_real t363 = C_j[8] * t362 - t273;
+    const jg_real t364 = C_j[6] * t362;
+    const jg_real t365 = C_j[0] * t275;
+    const jg_real t366 = t354 * C_i[6] + t357 * C_i[7] + t359 * C_i[8];
+    const jg_real t367 = C_j[2] * t366 - t279;
+    const jg_real t368 = C_j[0] * t366;
+    const jg_real t369 = t362 * h_i_in_j_2 + t282 - (t281 + g_i_in_j_2 * t366);
+    const jg_real t370 = t268 * h_i_in_j_0 - g_i_in_j_0 * t275;
+    const jg_real t371 = C_j[4] * t369 - C_j[3] * t370;
+    const jg_real t372 = g_i_in_j_0 * t366 - t362 * h_i_in_j_0;
+    const jg_real t373 = C_j[3] * t372 - C_j[5] * t369;
+    const jg_real t374 = C_j[5] * t370 - C_j[4] * t372;
+    jac_phi_q_v_A_j[25] = omega_i[0] * t352 - omega_i[2] * t353;
+    jac_phi_q_v_A_j[26] = omega_i[1] * t353 - omega_i[0] * t351;
+    jac_phi_q_v_A_j[27] = A_i[0] * v_2_in_j_2 + v_2_in_j_1 * t354 + (omega_i[2] * t355 - omega_i[1] * t356);
+    jac_phi_q_v_A_j[28] = A_i[3] * v_2_in_j_2 + v_2_in_j_1 * t357 + (omega_i[0] * t356 - omega_i[2] * t358);
+    jac_phi_q_v_A_j[29] = A_i[6] * v_2_in_j_2 + v_2_in_j_1 * t359 + (omega_i[1] * t358 - omega_i[0] * t355);
+    jac_phi_q_v_A_j[30] = t270 * g_i_cross_h_j_in_j_2 - t364 * omega_i_in_j_2 + (t360 * omega_i_in_j_1 + t361 *
+        g_i_cross_h_j_in_j_1 + omega_i_in_j_0 * t363) - (omega_j[0] * t363 + omega_j[1] * t360 - omega_j[2] * t364);
+    jac_phi_q_v_A_j[31] = t270 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t368 + (t361 * h_i_cross_f_j_in_j_1 +
+        omega_i_in_j_1 * t365 + omega_i_in_j_0 * t367) - (omega_j[0] * t367 + omega_j[1] * t365 - omega_j[2] *
+        t368);
+    jac_phi_q_v_A_j[32] = t270 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t371 + (t361 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t373 + omega_i_in_j_0 * t374) - (omega_j[1] * t373 + omega_j[0] * t374 + omega_j[2] *
+        t371);
+    const jg_real t375 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
+    const jg_real t376 = A_i[4] * s_j[2];
+    const jg_real t377 = A_i[7] * s_j[2];
+    const jg_real t378 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
+    const jg_real t379 = s_j[2] * A_i[1];
+    const jg_real t380 = A_i[1] * A_ij_1 - A_i[4] * A_ij_0;
+    const jg_real t381 = t296 * C_j[6];
+    const jg_real t382 = t375 * omega_i[0] + omega_i[1] * t378 + omega_i[2] * t380;
+    const jg_real t383 = t375 * C_i[3] + C_i[4] * t378 + C_i[5] * t380;
+    const jg_real t384 = C_j[8] * t383 - t301;
+    const jg_real t385 = C_j[6] * t383;
+    const jg_real t386 = C_j[0] * t303;
+    const jg_real t387 = t375 * C_i[6] + t378 * C_i[7] + t380 * C_i[8];
+    const jg_real t388 = C_j[2] * t387 - t307;
+    const jg_real t389 = C_j[0] * t387;
+    const jg_real t390 = t383 * h_i_in_j_2 + t310 - (t309 + g_i_in_j_2 * t387);
+    const jg_real t391 = t296 * h_i_in_j_0 - g_i_in_j_0 * t303;
+    const jg_real t392 = C_j[4] * t390 - C_j[3] * t391;
+    const jg_real t393 = g_i_in_j_0 * t387 - t383 * h_i_in_j_0;
+    const jg_real t394 = C_j[3] * t393 - C_j[5] * t390;
+    const jg_real t395 = C_j[5] * t391 - C_j[4] * t393;
+    const jg_real t396 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
+    const jg_real t397 = A_i[5] * s_j[2];
+    const jg_real t398 = A_i[8] * s_j[2];
+    const jg_real t399 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
+    const jg_real t400 = s_j[2] * A_i[2];
+    jac_phi_q_v_A_j[33] = A_i[1] * v_2_in_j_2 + v_2_in_j_1 * t375 + (omega_i[2] * t376 - omega_i[1] * t377);
+    jac_phi_q_v_A_j[34] = A_i[4] * v_2_in_j_2 + v_2_in_j_1 * t378 + (omega_i[0] * t377 - omega_i[2] * t379);
+    jac_phi_q_v_A_j[35] = A_i[7] * v_2_in_j_2 + v_2_in_j_1 * t380 + (omega_i[1] * t379 - omega_i[0] * t376);
+    jac_phi_q_v_A_j[36] = t298 * g_i_cross_h_j_in_j_2 - t385 * omega_i_in_j_2 + (t381 * omega_i_in_j_1 + t382 *
+        g_i_cross_h_j_in_j_1 + omega_i_in_j_0 * t384) - (omega_j[0] * t384 + omega_j[1] * t381 - omega_j[2] * t385);
+    jac_phi_q_v_A_j[37] = t298 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t389 + (t382 * h_i_cross_f_j_in_j_1 +
+        omega_i_in_j_1 * t386 + omega_i_in_j_0 * t388) - (omega_j[0] * t388 + omega_j[1] * t386 - omega_j[2] *
         t389);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_0_in_j_2 + v_0_in_j_1 * t390 + (A_i[0] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
-        t394 + (t390 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t395 + A_ij_0 * t396));
-    jac_phi_q_v_A_j[19] = A_i[3] * v_0_in_j_2 + v_0_in_j_1 * t391 + (A_i[3] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
-        t394 + (t391 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t395 + A_ij_1 * t396));
-    jac_phi_q_v_A_j[20] = v_0_in_j_1 * t392 + A_i[6] * v_0_in_j_2 + (A_i[6] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
-        t394 + (t392 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t395 + A_ij_2 * t396));
-    jac_phi_q_v_A_j[21] = t304 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t400 + (t393 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t397 + omega_i_in_j_0 * t399) - (omega_j[0] * t399 + omega_j[1] * t397 - omega_j[2] *
-        t400);
-    jac_phi_q_v_A_j[22] = t304 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t404 + (t393 * h_i_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t401 + omega_i_in_j_0 * t403) - (omega_j[0] * t403 + omega_j[1] * t401 - omega_j[2] *
-        t404);
-    const jg_real t405 = t325 + t398 * h_i_in_j_2 - (t324 + g_i_in_j_2 * t402);
-    const jg_real t406 = t312 * h_i_in_j_0 - g_i_in_j_0 * t318;
-    const jg_real t407 = C_j[4] * t405 - C_j[3] * t406;
-    const jg_real t408 = g_i_in_j_0 * t402 - t398 * h_i_in_j_0;
-    const jg_real t409 = C_j[3] * t408 - C_j[5] * t405;
-    const jg_real t410 = C_j[5] * t406 - C_j[4] * t408;
-    const jg_real t411 = A_i[4] * A_ij_2 - A_i[7] * A_ij_1;
-    const jg_real t412 = A_i[7] * A_ij_0 - A_i[1] * A_ij_2;
-    const jg_real t413 = A_i[1] * A_ij_1 - A_i[4] * A_ij_0;
-    const jg_real t414 = omega_i[0] * t411 + omega_i[1] * t412 + omega_i[2] * t413;
-    const jg_real t415 = s_j[0] * t414;
-    const jg_real t416 = s_j[0] * t333;
-    const jg_real t417 = t339 - s_j[2] * t414;
-    const jg_real t418 = C_j[6] * t341;
-    const jg_real t419 = t411 * C_i[3] + t412 * C_i[4] + t413 * C_i[5];
-    const jg_real t420 = C_j[8] * t419 - t345;
-    const jg_real t421 = C_j[6] * t419;
-    const jg_real t422 = C_j[0] * t347;
-    const jg_real t423 = t411 * C_i[6] + t412 * C_i[7] + t413 * C_i[8];
-    const jg_real t424 = C_j[2] * t423 - t351;
-    const jg_real t425 = C_j[0] * t423;
-    const jg_real t426 = t354 + t419 * h_i_in_j_2 - (t353 + g_i_in_j_2 * t423);
-    const jg_real t427 = t341 * h_i_in_j_0 - g_i_in_j_0 * t347;
-    const jg_real t428 = C_j[4] * t426 - C_j[3] * t427;
-    const jg_real t429 = g_i_in_j_0 * t423 - t419 * h_i_in_j_0;
-    const jg_real t430 = C_j[3] * t429 - C_j[5] * t426;
-    const jg_real t431 = C_j[5] * t427 - C_j[4] * t429;
-    const jg_real t432 = A_i[5] * A_ij_2 - A_i[8] * A_ij_1;
-    const jg_real t433 = A_i[8] * A_ij_0 - A_i[2] * A_ij_2;
-    const jg_real t434 = A_i[2] * A_ij_1 - A_i[5] * A_ij_0;
-    const jg_real t435 = omega_i[0] * t432 + omega_i[1] * t433 + omega_i[2] * t434;
-    const jg_real t436 = s_j[0] * t435;
-    const jg_real t437 = s_j[0] * t362;
-    const jg_real t438 = t368 - s_j[2] * t435;
-    jac_phi_q_v_A_j[23] = t304 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t407 + (t393 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t409 + omega_i_in_j_0 * t410) - (omega_j[1] * t409 + omega_j[0] * t410 + omega_j[2] *
-        t407);
-    jac_phi_q_v_A_j[24] = A_i[1] * v_0_in_j_2 + v_0_in_j_1 * t411 + (A_i[1] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
-        t415 + (t411 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t416 + A_ij_0 * t417));
-    jac_phi_q_v_A_j[25] = A_i[4] * v_0_in_j_2 + v_0_in_j_1 * t412 + (A_i[4] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
-        t415 + (t412 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t416 + A_ij_1 * t417));
-    jac_phi_q_v_A_j[26] = v_0_in_j_1 * t413 + A_i[7] * v_0_in_j_2 + (A_i[7] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
-        t415 + (t413 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t416 + A_ij_2 * t417));
-    jac_phi_q_v_A_j[27] = t333 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t421 + (t414 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t418 + omega_i_in_j_0 * t420) - (omega_j[0] * t420 + omega_j[1] * t418 - omega_j[2] *
-        t421);
-    jac_phi_q_v_A_j[28] = t333 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t425 + (t414 * h_i_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t422 + omega_i_in_j_0 * t424) - (omega_j[0] * t424 + omega_j[1] * t422 - omega_j[2] *
-        t425);
-    jac_phi_q_v_A_j[29] = t333 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t428 + (t414 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t430 + omega_i_in_j_0 * t431) - (omega_j[1] * t430 + omega_j[0] * t431 + omega_j[2] *
-        t428);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_0_in_j_2 + v_0_in_j_1 * t432 + (A_i[2] * s_j_cross_omega_i_in_j_2 + A_ij_6 *
-        t436 + (t432 * s_j_cross_omega_i_in_j_1 - A_ij_3 * t437 + A_ij_0 * t438));
-    const jg_real t439 = C_j[6] * t370;
-    const jg_real t440 = t432 * C_i[3] + t433 * C_i[4] + t434 * C_i[5];
-    const jg_real t441 = C_j[8] * t440 - t374;
-    const jg_real t442 = C_j[6] * t440;
-    const jg_real t443 = C_j[0] * t376;
-    const jg_real t444 = t432 * C_i[6] + t433 * C_i[7] + t434 * C_i[8];
-    const jg_real t445 = C_j[2] * t444 - t380;
-    const jg_real t446 = C_j[0] * t444;
-    const jg_real t447 = t383 + t440 * h_i_in_j_2 - (t382 + g_i_in_j_2 * t444);
-    const jg_real t448 = t370 * h_i_in_j_0 - g_i_in_j_0 * t376;
-    const jg_real t449 = C_j[4] * t447 - C_j[3] * t448;
-    const jg_real t450 = g_i_in_j_0 * t444 - t440 * h_i_in_j_0;
-    const jg_real t451 = C_j[3] * t450 - C_j[5] * t447;
-    const jg_real t452 = C_j[5] * t448 - C_j[4] * t450;
-    const jg_real t453 = A_ij_6 * C_j[6] - A_ij_0 * C_j[8];
-    const jg_real t454 = A_ij_3 * C_j[8] - A_ij_6 * C_j[7];
-    const jg_real t455 = A_ij_0 * C_j[7] - A_ij_3 * C_j[6];
-    const jg_real t456 = A_ij_0 * h_i_in_j_1 - A_ij_3 * h_i_in_j_0;
-    const jg_real t457 = A_ij_3 * h_i_in_j_2 - A_ij_6 * h_i_in_j_1;
+    jac_phi_q_v_A_j[38] = t298 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t392 + (t382 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t394 + omega_i_in_j_0 * t395) - (omega_j[1] * t394 + omega_j[0] * t395 + omega_j[2] *
+        t392);
+    jac_phi_q_v_A_j[39] = A_i[2] * v_2_in_j_2 + v_2_in_j_1 * t396 + (omega_i[2] * t397 - omega_i[1] * t398);
+    jac_phi_q_v_A_j[40] = A_i[5] * v_2_in_j_2 + v_2_in_j_1 * t399 + (omega_i[0] * t398 - omega_i[2] * t400);
+    const jg_real t401 = A_i[2] * A_ij_1 - A_i[5] * A_ij_0;
+    const jg_real t402 = t324 * C_j[6];
+    const jg_real t403 = t396 * omega_i[0] + omega_i[1] * t399 + omega_i[2] * t401;
+    const jg_real t404 = t396 * C_i[3] + C_i[4] * t399 + C_i[5] * t401;
+    const jg_real t405 = C_j[8] * t404 - t329;
+    const jg_real t406 = C_j[6] * t404;
+    const jg_real t407 = C_j[0] * t331;
+    const jg_real t408 = t396 * C_i[6] + t399 * C_i[7] + t401 * C_i[8];
+    const jg_real t409 = C_j[2] * t408 - t335;
+    const jg_real t410 = C_j[0] * t408;
+    const jg_real t411 = t404 * h_i_in_j_2 + t338 - (t337 + g_i_in_j_2 * t408);
+    const jg_real t412 = t324 * h_i_in_j_0 - g_i_in_j_0 * t331;
+    const jg_real t413 = C_j[4] * t411 - C_j[3] * t412;
+    const jg_real t414 = g_i_in_j_0 * t408 - t404 * h_i_in_j_0;
+    const jg_real t415 = C_j[3] * t414 - C_j[5] * t411;
+    const jg_real t416 = C_j[5] * t412 - C_j[4] * t414;
+    const jg_real t417 = A_ij_6 * C_j[6] - A_ij_0 * C_j[8];
+    const jg_real t418 = A_ij_3 * C_j[8] - A_ij_6 * C_j[7];
+    const jg_real t419 = A_ij_0 * C_j[7] - A_ij_3 * C_j[6];
+    const jg_real t420 = A_ij_0 * h_i_in_j_1 - A_ij_3 * h_i_in_j_0;
+    const jg_real t421 = A_ij_3 * h_i_in_j_2 - A_ij_6 * h_i_in_j_1;
+    const jg_real t422 = C_j[3] * t420 - C_j[5] * t421;
+    const jg_real t423 = A_ij_6 * h_i_in_j_0 - A_ij_0 * h_i_in_j_2;
+    const jg_real t424 = C_j[5] * t423 - C_j[4] * t420;
+    const jg_real t425 = C_j[4] * t421 - C_j[3] * t423;
+    const jg_real t426 = A_ij_7 * C_j[6] - A_ij_1 * C_j[8];
+    const jg_real t427 = C_j[8] * A_ij_4 - A_ij_7 * C_j[7];
+    const jg_real t428 = A_ij_1 * C_j[7] - A_ij_4 * C_j[6];
+    const jg_real t429 = A_ij_1 * h_i_in_j_1 - A_ij_4 * h_i_in_j_0;
+    const jg_real t430 = A_ij_4 * h_i_in_j_2 - A_ij_7 * h_i_in_j_1;
+    const jg_real t431 = C_j[3] * t429 - C_j[5] * t430;
+    const jg_real t432 = A_ij_7 * h_i_in_j_0 - A_ij_1 * h_i_in_j_2;
+    const jg_real t433 = C_j[5] * t432 - C_j[4] * t429;
+    const jg_real t434 = C_j[4] * t430 - C_j[3] * t432;
+    jac_phi_q_v_A_j[41] = A_i[8] * v_2_in_j_2 + v_2_in_j_1 * t401 + (omega_i[1] * t400 - omega_i[0] * t397);
+    jac_phi_q_v_A_j[42] = t326 * g_i_cross_h_j_in_j_2 - t406 * omega_i_in_j_2 + (t402 * omega_i_in_j_1 + t403 *
+        g_i_cross_h_j_in_j_1 + omega_i_in_j_0 * t405) - (omega_j[0] * t405 + omega_j[1] * t402 - omega_j[2] * t406);
+    jac_phi_q_v_A_j[43] = t326 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t410 + (t403 * h_i_cross_f_j_in_j_1 +
+        omega_i_in_j_1 * t407 + omega_i_in_j_0 * t409) - (omega_j[0] * t409 + omega_j[1] * t407 - omega_j[2] *
+        t410);
+    jac_phi_q_v_A_j[44] = t326 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t413 + (t403 * f_i_cross_g_j_in_j_1 +
+        omega_i_in_j_1 * t415 + omega_i_in_j_0 * t416) - (omega_j[1] * t415 + omega_j[0] * t416 + omega_j[2] *
+        t413);
+    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t418 + omega_i_in_j_1 * t417 + omega_i_in_j_2 * t419 - (omega_j[0] *
+        t418 + omega_j[1] * t417 + omega_j[2] * t419);
+    jac_phi_q_v_geometry[1] = omega_i_in_j_1 * t422 + omega_i_in_j_0 * t424 + omega_i_in_j_2 * t425 - (omega_j[1] *
+        t422 + omega_j[0] * t424 + omega_j[2] * t425);
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t427 + omega_i_in_j_1 * t426 + omega_i_in_j_2 * t428 - (omega_j[0] *
+        t427 + omega_j[1] * t426 + omega_j[2] * t428);
+    jac_phi_q_v_geometry[3] = omega_i_in_j_1 * t431 + omega_i_in_j_0 * t433 + omega_i_in_j_2 * t434 - (omega_j[1] *
+        t431 + omega_j[0] * t433 + omega_j[2] * t434);
+    const jg_real t435 = A_ij_8 * C_j[6] - A_ij_2 * C_j[8];
+    const jg_real t436 = C_j[8] * A_ij_5 - A_ij_8 * C_j[7];
+    const jg_real t437 = A_ij_2 * C_j[7] - A_ij_5 * C_j[6];
+    const jg_real t438 = A_ij_2 * h_i_in_j_1 - A_ij_5 * h_i_in_j_0;
+    const jg_real t439 = A_ij_5 * h_i_in_j_2 - A_ij_8 * h_i_in_j_1;
+    const jg_real t440 = C_j[3] * t438 - C_j[5] * t439;
+    const jg_real t441 = A_ij_8 * h_i_in_j_0 - A_ij_2 * h_i_in_j_2;
+    const jg_real t442 = C_j[5] * t441 - C_j[4] * t438;
+    const jg_real t443 = C_j[4] * t439 - C_j[3] * t441;
+    const jg_real t444 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
+    const jg_real t445 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
+    const jg_real t446 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
+    const jg_real t447 = A_ij_3 * g_i_in_j_0 - A_ij_0 * g_i_in_j_1;
+    const jg_real t448 = A_ij_6 * g_i_in_j_1 - A_ij_3 * g_i_in_j_2;
+    const jg_real t449 = C_j[3] * t447 - C_j[5] * t448;
+    const jg_real t450 = A_ij_0 * g_i_in_j_2 - A_ij_6 * g_i_in_j_0;
+    const jg_real t451 = C_j[5] * t450 - C_j[4] * t447;
+    const jg_real t452 = C_j[4] * t448 - C_j[3] * t450;
+    const jg_real t453 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
+    const jg_real t454 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
+    const jg_real t455 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
+    const jg_real t456 = A_ij_4 * g_i_in_j_0 - A_ij_1 * g_i_in_j_1;
+    const jg_real t457 = A_ij_7 * g_i_in_j_1 - A_ij_4 * g_i_in_j_2;
     const jg_real t458 = C_j[3] * t456 - C_j[5] * t457;
-    const jg_real t459 = A_ij_6 * h_i_in_j_0 - A_ij_0 * h_i_in_j_2;
+    const jg_real t459 = A_ij_1 * g_i_in_j_2 - A_ij_7 * g_i_in_j_0;
     const jg_real t460 = C_j[5] * t459 - C_j[4] * t456;
     const jg_real t461 = C_j[4] * t457 - C_j[3] * t459;
-    const jg_real t462 = A_ij_7 * C_j[6] - A_ij_1 * C_j[8];
-    const jg_real t463 = A_ij_4 * C_j[8] - A_ij_7 * C_j[7];
-    const jg_real t464 = A_ij_1 * C_j[7] - A_ij_4 * C_j[6];
-    jac_phi_q_v_A_j[31] = A_i[5] * v_0_in_j_2 + v_0_in_j_1 * t433 + (A_i[5] * s_j_cross_omega_i_in_j_2 + A_ij_7 *
-        t436 + (t433 * s_j_cross_omega_i_in_j_1 - A_ij_4 * t437 + A_ij_1 * t438));
-    jac_phi_q_v_A_j[32] = v_0_in_j_1 * t434 + A_i[8] * v_0_in_j_2 + (A_i[8] * s_j_cross_omega_i_in_j_2 + A_ij_8 *
-        t436 + (t434 * s_j_cross_omega_i_in_j_1 - A_ij_5 * t437 + A_ij_2 * t438));
-    jac_phi_q_v_A_j[33] = t362 * g_i_cross_h_j_in_j_2 - omega_i_in_j_2 * t442 + (t435 * g_i_cross_h_j_in_j_1 +
-        omega_i_in_j_1 * t439 + omega_i_in_j_0 * t441) - (omega_j[0] * t441 + omega_j[1] * t439 - omega_j[2] *
-        t442);
-    jac_phi_q_v_A_j[34] = t362 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t446 + (t435 * h_i_cross_f_j_in_j_1 +
-        omega_i_in_j_1 * t443 + omega_i_in_j_0 * t445) - (omega_j[0] * t445 + omega_j[1] * t443 - omega_j[2] *
-        t446);
-    jac_phi_q_v_A_j[35] = t362 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t449 + (t435 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t451 + omega_i_in_j_0 * t452) - (omega_j[1] * t451 + omega_j[0] * t452 + omega_j[2] *
-        t449);
-    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t454 + omega_i_in_j_1 * t453 + omega_i_in_j_2 * t455 - (omega_j[0] *
-        t454 + omega_j[1] * t453 + omega_j[2] * t455);
-    jac_phi_q_v_geometry[1] = omega_i_in_j_1 * t458 + omega_i_in_j_0 * t460 + omega_i_in_j_2 * t461 - (omega_j[1] *
-        t458 + omega_j[0] * t460 + omega_j[2] * t461);
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t463 + omega_i_in_j_1 * t462 + omega_i_in_j_2 * t464 - (omega_j[0] *
-        t463 + omega_j[1] * t462 + omega_j[2] * t464);
-    const jg_real t465 = A_ij_1 * h_i_in_j_1 - A_ij_4 * h_i_in_j_0;
-    const jg_real t466 = A_ij_4 * h_i_in_j_2 - A_ij_7 * h_i_in_j_1;
+    const jg_real t462 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
+    const jg_real t463 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
+    const jg_real t464 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
+    const jg_real t465 = A_ij_5 * g_i_in_j_0 - A_ij_2 * g_i_in_j_1;
+    const jg_real t466 = A_ij_8 * g_i_in_j_1 - A_ij_5 * g_i_in_j_2;
     const jg_real t467 = C_j[3] * t465 - C_j[5] * t466;
-    const jg_real t468 = A_ij_7 * h_i_in_j_0 - A_ij_1 * h_i_in_j_2;
+    const jg_real t468 = A_ij_2 * g_i_in_j_2 - A_ij_8 * g_i_in_j_0;
     const jg_real t469 = C_j[5] * t468 - C_j[4] * t465;
     const jg_real t470 = C_j[4] * t466 - C_j[3] * t468;
-    const jg_real t471 = A_ij_8 * C_j[6] - A_ij_2 * C_j[8];
-    const jg_real t472 = A_ij_5 * C_j[8] - A_ij_8 * C_j[7];
-    const jg_real t473 = A_ij_2 * C_j[7] - A_ij_5 * C_j[6];
-    const jg_real t474 = A_ij_2 * h_i_in_j_1 - A_ij_5 * h_i_in_j_0;
-    const jg_real t475 = A_ij_5 * h_i_in_j_2 - A_ij_8 * h_i_in_j_1;
-    const jg_real t476 = C_j[3] * t474 - C_j[5] * t475;
-    const jg_real t477 = A_ij_8 * h_i_in_j_0 - A_ij_2 * h_i_in_j_2;
-    const jg_real t478 = C_j[5] * t477 - C_j[4] * t474;
-    const jg_real t479 = C_j[4] * t475 - C_j[3] * t477;
-    const jg_real t480 = A_ij_6 * C_j[0] - A_ij_0 * C_j[2];
-    const jg_real t481 = A_ij_3 * C_j[2] - A_ij_6 * C_j[1];
-    const jg_real t482 = A_ij_0 * C_j[1] - A_ij_3 * C_j[0];
-    const jg_real t483 = A_ij_3 * g_i_in_j_0 - A_ij_0 * g_i_in_j_1;
-    const jg_real t484 = A_ij_6 * g_i_in_j_1 - A_ij_3 * g_i_in_j_2;
-    const jg_real t485 = C_j[3] * t483 - C_j[5] * t484;
-    const jg_real t486 = A_ij_0 * g_i_in_j_2 - A_ij_6 * g_i_in_j_0;
-    const jg_real t487 = C_j[5] * t486 - C_j[4] * t483;
-    const jg_real t488 = C_j[4] * t484 - C_j[3] * t486;
-    const jg_real t489 = A_ij_7 * C_j[0] - A_ij_1 * C_j[2];
-    const jg_real t490 = A_ij_4 * C_j[2] - A_ij_7 * C_j[1];
-    const jg_real t491 = A_ij_1 * C_j[1] - A_ij_4 * C_j[0];
-    const jg_real t492 = A_ij_4 * g_i_in_j_0 - A_ij_1 * g_i_in_j_1;
-    const jg_real t493 = A_ij_7 * g_i_in_j_1 - A_ij_4 * g_i_in_j_2;
-    const jg_real t494 = C_j[3] * t492 - C_j[5] * t493;
-    const jg_real t495 = A_ij_1 * g_i_in_j_2 - A_ij_7 * g_i_in_j_0;
-    const jg_real t496 = C_j[5] * t495 - C_j[4] * t492;
-    const jg_real t497 = C_j[4] * t493 - C_j[3] * t495;
-    const jg_real t498 = A_ij_8 * C_j[0] - A_ij_2 * C_j[2];
-    const jg_real t499 = A_ij_5 * C_j[2] - A_ij_8 * C_j[1];
-    const jg_real t500 = A_ij_2 * C_j[1] - A_ij_5 * C_j[0];
-    jac_phi_q_v_geometry[3] = omega_i_in_j_1 * t467 + omega_i_in_j_0 * t469 + omega_i_in_j_2 * t470 - (omega_j[1] *
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t436 + omega_i_in_j_1 * t435 + omega_i_in_j_2 * t437 - (omega_j[0] *
+        t436 + omega_j[1] * t435 + omega_j[2] * t437);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_1 * t440 + omega_i_in_j_0 * t442 + omega_i_in_j_2 * t443 - (omega_j[1] *
+        t440 + omega_j[0] * t442 + omega_j[2] * t443);
+    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t445 + omega_i_in_j_1 * t444 + omega_i_in_j_2 * t446 - (omega_j[0] *
+        t445 + omega_j[1] * t444 + omega_j[2] * t446);
+    jac_phi_q_v_geometry[7] = omega_i_in_j_1 * t449 + omega_i_in_j_0 * t451 + omega_i_in_j_2 * t452 - (omega_j[1] *
+        t449 + omega_j[0] * t451 + omega_j[2] * t452);
+    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t454 + omega_i_in_j_1 * t453 + omega_i_in_j_2 * t455 - (omega_j[0] *
+        t454 + omega_j[1] * t453 + omega_j[2] * t455);
+    jac_phi_q_v_geometry[9] = omega_i_in_j_1 * t458 + omega_i_in_j_0 * t460 + omega_i_in_j_2 * t461 - (omega_j[1] *
+        t458 + omega_j[0] * t460 + omega_j[2] * t461);
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t463 + omega_i_in_j_1 * t462 + omega_i_in_j_2 * t464 - (omega_j[0] *
+        t463 + omega_j[1] * t462 + omega_j[2] * t464);
+    jac_phi_q_v_geometry[11] = omega_i_in_j_1 * t467 + omega_i_in_j_0 * t469 + omega_i_in_j_2 * t470 - (omega_j[1] *
         t467 + omega_j[0] * t469 + omega_j[2] * t470);
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t472 + omega_i_in_j_1 * t471 + omega_i_in_j_2 * t473 - (omega_j[0] *
-        t472 + omega_j[1] * t471 + omega_j[2] * t473);
-    jac_phi_q_v_geometry[5] = omega_i_in_j_1 * t476 + omega_i_in_j_0 * t478 + omega_i_in_j_2 * t479 - (omega_j[1] *
-        t476 + omega_j[0] * t478 + omega_j[2] * t479);
-    jac_phi_q_v_geometry[6] = omega_i_in_j_0 * t481 + omega_i_in_j_1 * t480 + omega_i_in_j_2 * t482 - (omega_j[0] *
-        t481 + omega_j[1] * t480 + omega_j[2] * t482);
-    jac_phi_q_v_geometry[7] = omega_i_in_j_1 * t485 + omega_i_in_j_0 * t487 + omega_i_in_j_2 * t488 - (omega_j[1] *
-        t485 + omega_j[0] * t487 + omega_j[2] * t488);
-    jac_phi_q_v_geometry[8] = omega_i_in_j_0 * t490 + omega_i_in_j_1 * t489 + omega_i_in_j_2 * t491 - (omega_j[0] *
-        t490 + omega_j[1] * t489 + omega_j[2] * t491);
-    jac_phi_q_v_geometry[9] = omega_i_in_j_1 * t494 + omega_i_in_j_0 * t496 + omega_i_in_j_2 * t497 - (omega_j[1] *
-        t494 + omega_j[0] * t496 + omega_j[2] * t497);
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t499 + omega_i_in_j_1 * t498 + omega_i_in_j_2 * t500 - (omega_j[0] *
-        t499 + omega_j[1] * t498 + omega_j[2] * t500);
-    const jg_real t501 = A_ij_5 * g_i_in_j_0 - A_ij_2 * g_i_in_j_1;
-    const jg_real t502 = A_ij_8 * g_i_in_j_1 - A_ij_5 * g_i_in_j_2;
-    const jg_real t503 = C_j[3] * t501 - C_j[5] * t502;
-    const jg_real t504 = A_ij_2 * g_i_in_j_2 - A_ij_8 * g_i_in_j_0;
-    const jg_real t505 = C_j[5] * t504 - C_j[4] * t501;
-    const jg_real t506 = C_j[4] * t502 - C_j[3] * t504;
-    jac_phi_q_v_geometry[11] = omega_i_in_j_1 * t503 + omega_i_in_j_0 * t505 + omega_i_in_j_2 * t506 - (omega_j[1] *
-        t503 + omega_j[0] * t505 + omega_j[2] * t506);
-    jac_phi_q_v_geometry[12] = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6 + (A_ij_6 * omega_i_in_j_1 - A_ij_3 *
-        omega_i_in_j_2);
-    jac_phi_q_v_geometry[13] = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7 + (A_ij_7 * omega_i_in_j_1 - A_ij_4 *
-        omega_i_in_j_2);
-    jac_phi_q_v_geometry[14] = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8 + (A_ij_8 * omega_i_in_j_1 - A_ij_5 *
-        omega_i_in_j_2);
-    jac_phi_q_v_geometry[15] = omega_j[0] * A_ij_6 - omega_j[2] * A_ij_0 + (A_ij_0 * omega_i_in_j_2 - A_ij_6 *
-        omega_i_in_j_0);
-    jac_phi_q_v_geometry[16] = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1 + (A_ij_1 * omega_i_in_j_2 - A_ij_7 *
-        omega_i_in_j_0);
-    jac_phi_q_v_geometry[17] = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2 + (A_ij_2 * omega_i_in_j_2 - A_ij_8 *
-        omega_i_in_j_0);
-    jac_phi_q_v_geometry[18] = omega_j[1] * A_ij_0 - omega_j[0] * A_ij_3 + (A_ij_3 * omega_i_in_j_0 - A_ij_0 *
-        omega_i_in_j_1);
-    jac_phi_q_v_geometry[19] = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4 + (A_ij_4 * omega_i_in_j_0 - A_ij_1 *
-        omega_i_in_j_1);
-    jac_phi_q_v_geometry[20] = A_ij_2 * omega_j[1] - omega_j[0] * A_ij_5 + (A_ij_5 * omega_i_in_j_0 - A_ij_2 *
-        omega_i_in_j_1);
+    const jg_real t471 = A_i[3] * A_j[3] + A_i[4] * A_j[4] + A_i[5] * A_j[5];
+    const jg_real t472 = A_i[6] * A_j[3] + A_i[7] * A_j[4] + A_i[8] * A_j[5];
+    const jg_real t473 = A_i[0] * A_j[3] + A_i[1] * A_j[4] + A_i[2] * A_j[5];
+    jac_phi_q_v_geometry[12] = omega_j[2] * A_ij_3 - omega_j[1] * A_ij_6 + (A_ij_1 * omega_i[2] - A_ij_2 *
+        omega_i[1]);
+    jac_phi_q_v_geometry[13] = omega_j[2] * A_ij_4 - omega_j[1] * A_ij_7 + (A_ij_2 * omega_i[0] - A_ij_0 *
+        omega_i[2]);
+    jac_phi_q_v_geometry[14] = omega_j[2] * A_ij_5 - omega_j[1] * A_ij_8 + (A_ij_0 * omega_i[1] - A_ij_1 *
+        omega_i[0]);
+    jac_phi_q_v_geometry[15] = omega_j[0] * A_ij_6 - omega_j[2] * A_ij_0 + (omega_i[2] * t471 - omega_i[1] * t472);
+    jac_phi_q_v_geometry[16] = omega_j[0] * A_ij_7 - omega_j[2] * A_ij_1 + (omega_i[0] * t472 - omega_i[2] * t473);
+    jac_phi_q_v_geometry[17] = omega_j[0] * A_ij_8 - omega_j[2] * A_ij_2 + (omega_i[1] * t473 - omega_i[0] * t471);
+    jac_phi_q_v_geometry[18] = omega_j[1] * A_ij_0 - omega_j[0] * A_ij_3 + (A_ij_7 * omega_i[2] - A_ij_8 *
+        omega_i[1]);
+    jac_phi_q_v_geometry[19] = omega_j[1] * A_ij_1 - omega_j[0] * A_ij_4 + (A_ij_8 * omega_i[0] - A_ij_6 *
+        omega_i[2]);
+    jac_phi_q_v_geometry[20] = omega_j[1] * A_ij_2 - omega_j[0] * A_ij_5 + (A_ij_6 * omega_i[1] - A_ij_7 *
+        omega_i[0]);
     jac_phi_q_v_geometry[21] = omega_i_in_j_1 * h_i_in_j_2 - omega_i_in_j_2 * h_i_in_j_1 - (omega_j[1] * h_i_in_j_2
         - omega_j[2] * h_i_in_j_1);
     jac_phi_q_v_geometry[22] = omega_i_in_j_2 * h_i_in_j_0 - omega_i_in_j_0 * h_i_in_j_2 - (omega_j[2] * h_i_in_j_0
@@ -1109,73 +1061,61 @@ static void jg_rigid_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT r_i,
         - omega_j[0] * f_i_in_j_2);
     jac_phi_q_v_geometry[26] = omega_i_in_j_0 * f_i_in_j_1 - omega_i_in_j_1 * f_i_in_j_0 - (omega_j[0] * f_i_in_j_1
         - omega_j[1] * f_i_in_j_0);
-    const jg_real t507 = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
-    const jg_real t508 = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
-    jac_phi_q_v_geometry[27] = omega_i_in_j_1 * g_i_in_j_2 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
+    jac_phi_q_v_geometry[27] = g_i_in_j_2 * omega_i_in_j_1 - g_i_in_j_1 * omega_i_in_j_2 - (omega_j[1] * g_i_in_j_2
         - omega_j[2] * g_i_in_j_1);
-    jac_phi_q_v_geometry[28] = omega_i_in_j_2 * g_i_in_j_0 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
+    /* e_ij_in_i = r_j + s_j - r_i, axes of body i */
+    const jg_real e_ij_in_i_2 = A_i[6] * e_ij_world_0 + A_i[7] * e_ij_world_1 + A_i[8] * e_ij_world_2;
+    const jg_real e_ij_in_i_1 = A_i[3] * e_ij_world_0 + A_i[4] * e_ij_world_1 + A_i[5] * e_ij_world_2;
+    jac_phi_q_v_geometry[28] = g_i_in_j_0 * omega_i_in_j_2 - g_i_in_j_2 * omega_i_in_j_0 - (omega_j[2] * g_i_in_j_0
         - omega_j[0] * g_i_in_j_2);
     jac_phi_q_v_geometry[29] = omega_i_in_j_0 * g_i_in_j_1 - omega_i_in_j_1 * g_i_in_j_0 - (omega_j[0] * g_i_in_j_1
         - omega_j[1] * g_i_in_j_0);
     jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
     jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
-    jac_phi_q_v_velocity[36] = t507;
-    jac_phi_q_v_velocity[30] = t508;
-    const jg_real t509 = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
-    /* v_1_in_i = r_j - r_i, axes of body i */
-    const jg_real v_1_in_i_2 = A_i[6] * v_1_world_0 + A_i[7] * v_1_world_1 + A_i[8] * v_1_world_2;
-    const jg_real v_1_in_i_1 = A_i[3] * v_1_world_0 + A_i[4] * v_1_world_1 + A_i[5] * v_1_world_2;
-    const jg_real t512 = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
-    jac_phi_q_v_velocity[42] = t509;
-    jac_phi_q_v_velocity[3] = A_ij_3 * t507 + A_ij_0 * t508 + A_ij_6 * t509;
-    jac_phi_q_v_velocity[4] = A_ij_4 * t507 + A_ij_1 * t508 + A_ij_7 * t509 + v_1_in_i_2;
-    jac_phi_q_v_velocity[5] = A_ij_5 * t507 + A_ij_2 * t508 + A_ij_8 * t509 - v_1_in_i_1;
-    jac_phi_q_v_velocity[6] = A_ij_0 * g_i_cross_h_j_in_j_0 + A_ij_3 * g_i_cross_h_j_in_j_1 + A_ij_6 *
+    jac_phi_q_v_velocity[3] = e_ij_in_i_2;
+    jac_phi_q_v_velocity[13] = e_ij_in_i_1;
+    jac_phi_q_v_velocity[4] = -e_ij_in_i_1;
+    const jg_real e_ij_in_i_0 = A_i[0] * e_ij_world_0 + A_i[1] * e_ij_world_1 + A_i[2] * e_ij_world_2;
+    jac_phi_q_v_velocity[5] = A_ij_0 * g_i_cross_h_j_in_j_0 + A_ij_3 * g_i_cross_h_j_in_j_1 + A_ij_6 *
         g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[7] = A_ij_0 * h_i_cross_f_j_in_j_0 + A_ij_3 * h_i_cross_f_j_in_j_1 + A_ij_6 *
+    jac_phi_q_v_velocity[6] = A_ij_0 * h_i_cross_f_j_in_j_0 + A_ij_3 * h_i_cross_f_j_in_j_1 + A_ij_6 *
         h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[8] = A_ij_3 * f_i_cross_g_j_in_j_1 + A_ij_0 * f_i_cross_g_j_in_j_0 + A_ij_6 *
+    jac_phi_q_v_velocity[7] = A_ij_3 * f_i_cross_g_j_in_j_1 + A_ij_0 * f_i_cross_g_j_in_j_0 + A_ij_6 *
         f_i_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[37] = t512;
-    const jg_real t513 = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
-    const jg_real t514 = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
-    const jg_real v_1_in_i_0 = A_i[0] * v_1_world_0 + A_i[1] * v_1_world_1 + A_i[2] * v_1_world_2;
-    jac_phi_q_v_velocity[31] = t513;
-    jac_phi_q_v_velocity[43] = t514;
-    jac_phi_q_v_velocity[9] = A_ij_3 * t512 + A_ij_0 * t513 + A_ij_6 * t514 - v_1_in_i_2;
-    jac_phi_q_v_velocity[10] = A_ij_4 * t512 + A_ij_1 * t513 + A_ij_7 * t514;
-    jac_phi_q_v_velocity[11] = A_ij_5 * t512 + A_ij_2 * t513 + A_ij_8 * t514 + v_1_in_i_0;
-    jac_phi_q_v_velocity[12] = A_ij_1 * g_i_cross_h_j_in_j_0 + A_ij_4 * g_i_cross_h_j_in_j_1 + A_ij_7 *
+    jac_phi_q_v_velocity[8] = -e_ij_in_i_2;
+    jac_phi_q_v_velocity[9] = e_ij_in_i_0;
+    jac_phi_q_v_velocity[10] = A_ij_1 * g_i_cross_h_j_in_j_0 + A_ij_4 * g_i_cross_h_j_in_j_1 + A_ij_7 *
         g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[13] = A_ij_1 * h_i_cross_f_j_in_j_0 + A_ij_4 * h_i_cross_f_j_in_j_1 + A_ij_7 *
+    jac_phi_q_v_velocity[11] = A_ij_1 * h_i_cross_f_j_in_j_0 + A_ij_4 * h_i_cross_f_j_in_j_1 + A_ij_7 *
         h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[14] = A_ij_4 * f_i_cross_g_j_in_j_1 + A_ij_1 * f_i_cross_g_j_in_j_0 + A_ij_7 *
+    jac_phi_q_v_velocity[12] = A_ij_4 * f_i_cross_g_j_in_j_1 + A_ij_1 * f_i_cross_g_j_in_j_0 + A_ij_7 *
         f_i_cross_g_j_in_j_2;
-    const jg_real t516 = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
-    const jg_real t517 = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
-    const jg_real t518 = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
-    jac_phi_q_v_velocity[38] = t516;
-    jac_phi_q_v_velocity[32] = t517;
-    jac_phi_q_v_velocity[44] = t518;
-    jac_phi_q_v_velocity[15] = A_ij_3 * t516 + A_ij_0 * t517 + A_ij_6 * t518 + v_1_in_i_1;
-    jac_phi_q_v_velocity[16] = A_ij_4 * t516 + A_ij_1 * t517 + A_ij_7 * t518 - v_1_in_i_0;
-    jac_phi_q_v_velocity[17] = A_ij_5 * t516 + A_ij_2 * t517 + A_ij_8 * t518;
-    jac_phi_q_v_velocity[18] = A_ij_2 * g_i_cross_h_j_in_j_0 + A_ij_5 * g_i_cross_h_j_in_j_1 + A_ij_8 *
+    jac_phi_q_v_velocity[14] = -e_ij_in_i_0;
+    jac_phi_q_v_velocity[15] = A_ij_2 * g_i_cross_h_j_in_j_0 + A_ij_5 * g_i_cross_h_j_in_j_1 + A_ij_8 *
         g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[19] = A_ij_2 * h_i_cross_f_j_in_j_0 + A_ij_5 * h_i_cross_f_j_in_j_1 + A_ij_8 *
+    jac_phi_q_v_velocity[16] = A_ij_2 * h_i_cross_f_j_in_j_0 + A_ij_5 * h_i_cross_f_j_in_j_1 + A_ij_8 *
         h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[20] = A_ij_5 * f_i_cross_g_j_in_j_1 + A_ij_2 * f_i_cross_g_j_in_j_0 + A_ij_8 *
+    jac_phi_q_v_velocity[17] = A_ij_5 * f_i_cross_g_j_in_j_1 + A_ij_2 * f_i_cross_g_j_in_j_0 + A_ij_8 *
         f_i_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[33] = -g_i_cross_h_j_in_j_0;
-    jac_phi_q_v_velocity[34] = -h_i_cross_f_j_in_j_0;
-    jac_phi_q_v_velocity[35] = -f_i_cross_g_j_in_j_0;
-    jac_phi_q_v_velocity[39] = -g_i_cross_h_j_in_j_1;
-    jac_phi_q_v_velocity[40] = -h_i_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[41] = -f_i_cross_g_j_in_j_1;
-    jac_phi_q_v_velocity[45] = -g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[46] = -h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[47] = -f_i_cross_g_j_in_j_2;
+    jac_phi_q_v_velocity[27] = s_j[1] * A_ij_6 - s_j[2] * A_ij_3;
+    jac_phi_q_v_velocity[28] = s_j[1] * A_ij_7 - s_j[2] * A_ij_4;
+    jac_phi_q_v_velocity[29] = s_j[1] * A_ij_8 - s_j[2] * A_ij_5;
+    jac_phi_q_v_velocity[30] = -g_i_cross_h_j_in_j_0;
+    jac_phi_q_v_velocity[31] = -h_i_cross_f_j_in_j_0;
+    jac_phi_q_v_velocity[32] = -f_i_cross_g_j_in_j_0;
+    jac_phi_q_v_velocity[33] = s_j[2] * A_ij_0 - s_j[0] * A_ij_6;
+    jac_phi_q_v_velocity[34] = s_j[2] * A_ij_1 - s_j[0] * A_ij_7;
+    jac_phi_q_v_velocity[35] = s_j[2] * A_ij_2 - s_j[0] * A_ij_8;
+    jac_phi_q_v_velocity[36] = -g_i_cross_h_j_in_j_1;
+    jac_phi_q_v_velocity[37] = -h_i_cross_f_j_in_j_1;
+    jac_phi_q_v_velocity[38] = -f_i_cross_g_j_in_j_1;
+    jac_phi_q_v_velocity[39] = s_j[0] * A_ij_3 - s_j[1] * A_ij_0;
+    jac_phi_q_v_velocity[40] = s_j[0] * A_ij_4 - s_j[1] * A_ij_1;
+    jac_phi_q_v_velocity[41] = s_j[0] * A_ij_5 - s_j[1] * A_ij_2;
+    jac_phi_q_v_velocity[42] = -g_i_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[43] = -h_i_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[44] = -f_i_cross_g_j_in_j_2;
 }
 
 static void jg_rigid_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -2269,9 +2209,9 @@ int jac_jg_rigid_parametric_phi_q_v_external(const double **arg, double **res, c
     double unwanted_0[9];
     double unwanted_1[54];
     double unwanted_2[9];
-    double unwanted_3[36];
+    double unwanted_3[45];
     double unwanted_4[30];
-    double unwanted_5[48];
+    double unwanted_5[45];
     (void)iw;
     (void)w;
     (void)mem;
@@ -2361,16 +2301,16 @@ const casadi_int *jac_jg_rigid_parametric_phi_q_v_external_sparsity_out(casadi_i
         6, 3, 0, 3, 6, 9, 0, 1, 2, 0, 1, 2, 0, 1, 2
     };
     static const casadi_int pattern_3[] = {
-        6, 9, 0, 6, 12, 18, 18, 18, 18, 24, 30, 36, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2,
-        3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5
+        6, 9, 0, 6, 12, 18, 21, 24, 27, 33, 39, 45, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2,
+        0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5
     };
     static const casadi_int pattern_4[] = {
         6, 24, 0, 0, 0, 0, 0, 0, 0, 2, 4, 6, 8, 10, 12, 15, 18, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 3, 5, 3, 5,
         3, 5, 4, 5, 4, 5, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
     };
     static const casadi_int pattern_5[] = {
-        6, 12, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2,
-        3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5
+        6, 12, 0, 1, 2, 3, 8, 13, 18, 21, 24, 27, 33, 39, 45, 0, 1, 2, 1, 2, 3, 4, 5, 0, 2, 3, 4, 5, 0, 1, 3, 4, 5,
+        0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

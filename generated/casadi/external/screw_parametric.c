@@ -351,7 +351,6 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_re
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -367,14 +366,14 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_re
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_v_velocity[30] = A_ji_1;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[27] = A_ji_0;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[24] = A_ji_1;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[21] = A_ji_0;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[25] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
@@ -388,7 +387,7 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_re
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[22] = A_ji_3;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -426,36 +425,32 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_re
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real t42 = A_j[0] * v_3_in_j_0;
-    const jg_real t43 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t44 = A_j[6] * omega_i[0] + omega_i[1] * t43;
-    const jg_real t45 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t46 = A_j[3] * omega_i[0] + omega_i[1] * t45;
-    const jg_real t47 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
-    const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
+    /* v_3_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_2_in_j_0 + v_1_in_j_0;
+    const jg_real t41 = A_j[0] * v_3_in_j_0;
+    const jg_real t42 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    const jg_real t43 = A_j[6] * omega_i[0] + omega_i[1] * t42;
+    const jg_real t44 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t45 = A_j[3] * omega_i[0] + omega_i[1] * t44;
+    const jg_real t46 = e_ij_in_j_1 * t43 - e_ij_in_j_2 * t45;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real t56 = A_j[3] * v_3_in_j_1;
-    const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real v_3_in_j_1 = v_2_in_j_1 + v_1_in_j_1;
+    const jg_real t53 = A_j[3] * v_3_in_j_1;
+    const jg_real t54 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real t55 = A_j[0] * omega_i[0] + omega_i[1] * t54;
+    const jg_real t56 = e_ij_in_j_2 * t55 - t43 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
+    const jg_real v_3_in_j_2 = v_2_in_j_2 + v_1_in_j_2;
+    const jg_real t61 = A_j[6] * v_3_in_j_2;
+    const jg_real t62 = t45 * e_ij_in_j_0 - e_ij_in_j_1 * t55;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_2 = A_ji_5 * C_i[7] + A_ji_2 * C_i[6] + A_ji_8 * C_i[8];
     jg_real sine_0;
@@ -464,881 +459,869 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_re
     /* g_star_in_i = g_star, axes of body i */
     const jg_real g_star_in_i_1 = C_i[4] * cosine_0 - C_i[1] * sine_0;
     const jg_real g_star_in_i_0 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real t71 = t45 * g_star_in_i_1 + A_j[3] * g_star_in_i_0;
+    const jg_real t68 = t44 * g_star_in_i_1 + A_j[3] * g_star_in_i_0;
     const jg_real g_star_in_i_2 = C_i[5] * cosine_0 - C_i[2] * sine_0;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_1 = A_ji_4 * g_star_in_i_1 + A_ji_1 * g_star_in_i_0 + A_ji_7 * g_star_in_i_2;
-    const jg_real t74 = t43 * C_i[7] + A_j[6] * C_i[6];
+    const jg_real t71 = t42 * C_i[7] + A_j[6] * C_i[6];
     const jg_real h_star_in_j_1 = A_ji_4 * C_i[7] + A_ji_1 * C_i[6] + A_ji_7 * C_i[8];
-    const jg_real t76 = t43 * g_star_in_i_1 + A_j[6] * g_star_in_i_0;
+    const jg_real t73 = t42 * g_star_in_i_1 + A_j[6] * g_star_in_i_0;
     const jg_real g_star_in_j_2 = A_ji_5 * g_star_in_i_1 + A_ji_2 * g_star_in_i_0 + A_ji_8 * g_star_in_i_2;
-    const jg_real t78 = t45 * C_i[7] + A_j[3] * C_i[6];
-    const jg_real t79 = h_star_in_j_2 * t71 + t74 * g_star_in_j_1 - (h_star_in_j_1 * t76 + t78 * g_star_in_j_2);
+    const jg_real t75 = t44 * C_i[7] + A_j[3] * C_i[6];
+    const jg_real t76 = h_star_in_j_2 * t68 + t71 * g_star_in_j_1 - (h_star_in_j_1 * t73 + t75 * g_star_in_j_2);
     const jg_real h_star_in_j_0 = A_ji_3 * C_i[7] + A_ji_0 * C_i[6] + A_ji_6 * C_i[8];
-    const jg_real t81 = t47 * C_i[7] + A_j[0] * C_i[6];
-    const jg_real t82 = t47 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
+    const jg_real t78 = t54 * C_i[7] + A_j[0] * C_i[6];
+    const jg_real t79 = t54 * g_star_in_i_1 + A_j[0] * g_star_in_i_0;
     const jg_real g_star_in_j_0 = A_ji_3 * g_star_in_i_1 + A_ji_0 * g_star_in_i_0 + A_ji_6 * g_star_in_i_2;
-    const jg_real t84 = h_star_in_j_0 * t76 + t81 * g_star_in_j_2 - (h_star_in_j_2 * t82 + t74 * g_star_in_j_0);
-    const jg_real t85 = h_star_in_j_1 * t82 + t78 * g_star_in_j_0 - (h_star_in_j_0 * t71 + t81 * g_star_in_j_1);
+    const jg_real t81 = h_star_in_j_0 * t73 + t78 * g_star_in_j_2 - (h_star_in_j_2 * t79 + t71 * g_star_in_j_0);
+    const jg_real t82 = h_star_in_j_1 * t79 + t75 * g_star_in_j_0 - (h_star_in_j_0 * t68 + t78 * g_star_in_j_1);
     /* g_star_cross_h_j_in_j = g_star x h_j, axes of body j */
     const jg_real g_star_cross_h_j_in_j_0 = C_j[8] * g_star_in_j_1 - C_j[7] * g_star_in_j_2;
-    const jg_real t87 = C_j[8] * t71 - C_j[7] * t76;
+    const jg_real t84 = C_j[8] * t68 - C_j[7] * t73;
     const jg_real g_star_cross_h_j_in_j_1 = C_j[6] * g_star_in_j_2 - C_j[8] * g_star_in_j_0;
-    const jg_real t89 = C_j[6] * t76 - C_j[8] * t82;
+    const jg_real t86 = C_j[6] * t73 - C_j[8] * t79;
     const jg_real g_star_cross_h_j_in_j_2 = C_j[7] * g_star_in_j_0 - C_j[6] * g_star_in_j_1;
-    const jg_real t91 = C_j[7] * t82 - C_j[6] * t71;
+    const jg_real t88 = C_j[7] * t79 - C_j[6] * t68;
     /* h_star_cross_f_j_in_j = h_star x f_j, axes of body j */
     const jg_real h_star_cross_f_j_in_j_0 = C_j[2] * h_star_in_j_1 - h_star_in_j_2 * C_j[1];
-    const jg_real t93 = t78 * C_j[2] - t74 * C_j[1];
+    const jg_real t90 = C_j[2] * t75 - t71 * C_j[1];
     const jg_real h_star_cross_f_j_in_j_1 = h_star_in_j_2 * C_j[0] - C_j[2] * h_star_in_j_0;
-    const jg_real t95 = t74 * C_j[0] - C_j[2] * t81;
+    const jg_real t92 = t71 * C_j[0] - C_j[2] * t78;
     const jg_real h_star_cross_f_j_in_j_2 = C_j[1] * h_star_in_j_0 - C_j[0] * h_star_in_j_1;
-    const jg_real t97 = C_j[1] * t81 - t78 * C_j[0];
+    const jg_real t94 = C_j[1] * t78 - C_j[0] * t75;
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
-    jac_phi_q_v_A_i[3] = -(omega_j[0] * t87 + omega_j[1] * t89 + omega_j[2] * t91 + (alphadot * (C_j[6] * t79 +
-        C_j[7] * t84 + C_j[8] * t85) - (t44 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t91 + (t57 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t87 + (t46 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t89)))));
-    jac_phi_q_v_A_i[4] = t44 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t97 + (t57 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t93 + (t46 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t95)) - (omega_j[0] * t93 +
-        omega_j[1] * t95 + omega_j[2] * t97);
+    jac_phi_q_v_A_i[0] = t61 + A_ji_2 * t62 + (t41 + A_ji_0 * t46 + (t53 + A_ji_1 * t56));
+    jac_phi_q_v_A_i[1] = t42 * v_3_in_j_2 + A_ji_5 * t62 + (t54 * v_3_in_j_0 + A_ji_3 * t46 + (t44 * v_3_in_j_1 +
+        A_ji_4 * t56));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t46 + A_ji_7 * t56 + A_ji_8 * t62;
+    jac_phi_q_v_A_i[3] = -(omega_j[0] * t84 + omega_j[1] * t86 + omega_j[2] * t88 + (alphadot * (C_j[6] * t76 +
+        C_j[7] * t81 + C_j[8] * t82) - (t43 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t88 + (t55 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t84 + (t45 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t86)))));
+    jac_phi_q_v_A_i[4] = t43 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t94 + (t55 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t90 + (t45 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t92)) - (omega_j[0] * t90 +
+        omega_j[1] * t92 + omega_j[2] * t94);
     /* f_star_in_j = f_star, axes of body j */
     const jg_real f_star_in_j_1 = h_star_in_j_0 * g_star_in_j_2 - h_star_in_j_2 * g_star_in_j_0;
     const jg_real f_star_in_j_2 = h_star_in_j_1 * g_star_in_j_0 - h_star_in_j_0 * g_star_in_j_1;
     /* f_star_cross_g_j_in_j = f_star x g_j, axes of body j */
     const jg_real f_star_cross_g_j_in_j_0 = C_j[5] * f_star_in_j_1 - C_j[4] * f_star_in_j_2;
-    const jg_real t101 = C_j[5] * t84 - C_j[4] * t85;
+    const jg_real t98 = C_j[5] * t81 - C_j[4] * t82;
     const jg_real f_star_in_j_0 = h_star_in_j_2 * g_star_in_j_1 - h_star_in_j_1 * g_star_in_j_2;
     const jg_real f_star_cross_g_j_in_j_1 = C_j[3] * f_star_in_j_2 - C_j[5] * f_star_in_j_0;
-    const jg_real t104 = C_j[3] * t85 - C_j[5] * t79;
+    const jg_real t101 = C_j[3] * t82 - C_j[5] * t76;
     const jg_real f_star_cross_g_j_in_j_2 = C_j[4] * f_star_in_j_0 - C_j[3] * f_star_in_j_1;
-    const jg_real t106 = C_j[4] * t79 - C_j[3] * t84;
-    const jg_real t107 = A_j[1] * v_3_in_j_0;
-    const jg_real t108 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t109 = A_j[7] * omega_i[0] + omega_i[1] * t108;
-    const jg_real t110 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t111 = A_j[4] * omega_i[0] + omega_i[1] * t110;
-    const jg_real t112 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t113 = e_ij_in_j_1 * t109 - e_ij_in_j_2 * t111 - (A_j[1] * v_i[0] + v_i[1] * t112);
-    const jg_real t114 = A_j[4] * v_3_in_j_1;
-    const jg_real t115 = A_j[1] * omega_i[0] + omega_i[1] * t112;
-    const jg_real t116 = e_ij_in_j_2 * t115 - t109 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t110);
-    const jg_real t117 = A_j[7] * v_3_in_j_2;
-    const jg_real t118 = t111 * e_ij_in_j_0 - e_ij_in_j_1 * t115 - (v_i[1] * t108 + A_j[7] * v_i[0]);
-    const jg_real t119 = t110 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
-    const jg_real t120 = t108 * C_i[7] + A_j[7] * C_i[6];
-    const jg_real t121 = t108 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
-    const jg_real t122 = t110 * C_i[7] + A_j[4] * C_i[6];
-    const jg_real t123 = h_star_in_j_2 * t119 + t120 * g_star_in_j_1 - (h_star_in_j_1 * t121 + t122 *
+    const jg_real t103 = C_j[4] * t76 - C_j[3] * t81;
+    const jg_real t104 = A_j[1] * v_3_in_j_0;
+    const jg_real t105 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real t106 = A_j[7] * omega_i[0] + omega_i[1] * t105;
+    const jg_real t107 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t108 = A_j[4] * omega_i[0] + omega_i[1] * t107;
+    const jg_real t109 = e_ij_in_j_1 * t106 - e_ij_in_j_2 * t108;
+    const jg_real t110 = A_j[4] * v_3_in_j_1;
+    const jg_real t111 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t112 = A_j[1] * omega_i[0] + omega_i[1] * t111;
+    const jg_real t113 = e_ij_in_j_2 * t112 - t106 * e_ij_in_j_0;
+    const jg_real t114 = A_j[7] * v_3_in_j_2;
+    const jg_real t115 = t108 * e_ij_in_j_0 - e_ij_in_j_1 * t112;
+    const jg_real t116 = t107 * g_star_in_i_1 + A_j[4] * g_star_in_i_0;
+    const jg_real t117 = t105 * C_i[7] + A_j[7] * C_i[6];
+    const jg_real t118 = t105 * g_star_in_i_1 + A_j[7] * g_star_in_i_0;
+    const jg_real t119 = t107 * C_i[7] + A_j[4] * C_i[6];
+    const jg_real t120 = h_star_in_j_2 * t116 + t117 * g_star_in_j_1 - (h_star_in_j_1 * t118 + t119 *
         g_star_in_j_2);
-    const jg_real t124 = t112 * C_i[7] + A_j[1] * C_i[6];
-    const jg_real t125 = t112 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
-    const jg_real t126 = h_star_in_j_0 * t121 + t124 * g_star_in_j_2 - (h_star_in_j_2 * t125 + t120 *
+    const jg_real t121 = t111 * C_i[7] + A_j[1] * C_i[6];
+    const jg_real t122 = t111 * g_star_in_i_1 + A_j[1] * g_star_in_i_0;
+    const jg_real t123 = h_star_in_j_0 * t118 + t121 * g_star_in_j_2 - (h_star_in_j_2 * t122 + t117 *
         g_star_in_j_0);
-    const jg_real t127 = h_star_in_j_1 * t125 + t122 * g_star_in_j_0 - (h_star_in_j_0 * t119 + t124 *
+    const jg_real t124 = h_star_in_j_1 * t122 + t119 * g_star_in_j_0 - (h_star_in_j_0 * t116 + t121 *
         g_star_in_j_1);
-    const jg_real t128 = C_j[8] * t119 - C_j[7] * t121;
-    const jg_real t129 = C_j[6] * t121 - C_j[8] * t125;
-    const jg_real t130 = C_j[7] * t125 - C_j[6] * t119;
-    const jg_real t131 = t122 * C_j[2] - t120 * C_j[1];
-    const jg_real t132 = t120 * C_j[0] - C_j[2] * t124;
-    const jg_real t133 = C_j[1] * t124 - t122 * C_j[0];
-    const jg_real t134 = C_j[5] * t126 - C_j[4] * t127;
-    const jg_real t135 = C_j[3] * t127 - C_j[5] * t123;
-    const jg_real t136 = C_j[4] * t123 - C_j[3] * t126;
-    const jg_real t137 = A_j[2] * v_3_in_j_0;
-    const jg_real t138 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t139 = A_j[8] * omega_i[0] + omega_i[1] * t138;
-    const jg_real t140 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t141 = A_j[5] * omega_i[0] + omega_i[1] * t140;
-    const jg_real t142 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t143 = e_ij_in_j_1 * t139 - e_ij_in_j_2 * t141 - (A_j[2] * v_i[0] + v_i[1] * t142);
-    const jg_real t144 = A_j[5] * v_3_in_j_1;
-    const jg_real t145 = A_j[2] * omega_i[0] + omega_i[1] * t142;
-    const jg_real t146 = e_ij_in_j_2 * t145 - t139 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t140);
-    const jg_real t147 = A_j[8] * v_3_in_j_2;
-    const jg_real t148 = t141 * e_ij_in_j_0 - e_ij_in_j_1 * t145 - (v_i[1] * t138 + A_j[8] * v_i[0]);
-    jac_phi_q_v_A_i[5] = t44 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t106 + (t57 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t101 + (t46 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t104)) + alphadot * (C_j[3] * t82
-        + C_j[4] * t71 + C_j[5] * t76) - (omega_j[0] * t101 + omega_j[1] * t104 + omega_j[2] * t106);
-    jac_phi_q_v_A_i[6] = t117 + A_ji_2 * t118 + (t107 + A_ji_0 * t113 + (t114 + A_ji_1 * t116));
-    jac_phi_q_v_A_i[7] = t108 * v_3_in_j_2 + A_ji_5 * t118 + (t112 * v_3_in_j_0 + A_ji_3 * t113 + (t110 * v_3_in_j_1
-        + A_ji_4 * t116));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t113 + A_ji_7 * t116 + A_ji_8 * t118;
-    jac_phi_q_v_A_i[9] = -(omega_j[0] * t128 + omega_j[1] * t129 + omega_j[2] * t130 + (alphadot * (C_j[6] * t123 +
-        C_j[7] * t126 + C_j[8] * t127) - (t109 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t130 + (t115 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t128 + (t111 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t129)))));
-    jac_phi_q_v_A_i[10] = t109 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t133 + (t115 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t131 + (t111 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t132)) - (omega_j[0] * t131 +
-        omega_j[1] * t132 + omega_j[2] * t133);
-    jac_phi_q_v_A_i[11] = t109 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t136 + (t115 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t134 + (t111 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t135)) + alphadot * (C_j[3] *
-        t125 + C_j[4] * t119 + C_j[5] * t121) - (omega_j[0] * t134 + omega_j[1] * t135 + omega_j[2] * t136);
-    jac_phi_q_v_A_i[12] = t147 + A_ji_2 * t148 + (t137 + A_ji_0 * t143 + (t144 + A_ji_1 * t146));
-    const jg_real t149 = t140 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
-    const jg_real t150 = t138 * C_i[7] + A_j[8] * C_i[6];
-    const jg_real t151 = t138 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
-    const jg_real t152 = t140 * C_i[7] + A_j[5] * C_i[6];
-    const jg_real t153 = h_star_in_j_2 * t149 + t150 * g_star_in_j_1 - (h_star_in_j_1 * t151 + t152 *
+    const jg_real t125 = C_j[8] * t116 - C_j[7] * t118;
+    const jg_real t126 = C_j[6] * t118 - C_j[8] * t122;
+    const jg_real t127 = C_j[7] * t122 - C_j[6] * t116;
+    const jg_real t128 = C_j[2] * t119 - t117 * C_j[1];
+    const jg_real t129 = t117 * C_j[0] - C_j[2] * t121;
+    const jg_real t130 = C_j[1] * t121 - C_j[0] * t119;
+    const jg_real t131 = C_j[5] * t123 - C_j[4] * t124;
+    const jg_real t132 = C_j[3] * t124 - C_j[5] * t120;
+    const jg_real t133 = C_j[4] * t120 - C_j[3] * t123;
+    const jg_real t134 = A_j[2] * v_3_in_j_0;
+    const jg_real t135 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real t136 = A_j[8] * omega_i[0] + omega_i[1] * t135;
+    const jg_real t137 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t138 = A_j[5] * omega_i[0] + omega_i[1] * t137;
+    const jg_real t139 = e_ij_in_j_1 * t136 - e_ij_in_j_2 * t138;
+    const jg_real t140 = A_j[5] * v_3_in_j_1;
+    const jg_real t141 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t142 = A_j[2] * omega_i[0] + omega_i[1] * t141;
+    const jg_real t143 = e_ij_in_j_2 * t142 - t136 * e_ij_in_j_0;
+    const jg_real t144 = A_j[8] * v_3_in_j_2;
+    const jg_real t145 = t138 * e_ij_in_j_0 - e_ij_in_j_1 * t142;
+    jac_phi_q_v_A_i[5] = t43 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t103 + (t55 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t98 + (t45 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t101)) + alphadot * (C_j[3] * t79 +
+        C_j[4] * t68 + C_j[5] * t73) - (omega_j[0] * t98 + omega_j[1] * t101 + omega_j[2] * t103);
+    jac_phi_q_v_A_i[6] = t114 + A_ji_2 * t115 + (t104 + A_ji_0 * t109 + (t110 + A_ji_1 * t113));
+    jac_phi_q_v_A_i[7] = t105 * v_3_in_j_2 + A_ji_5 * t115 + (t111 * v_3_in_j_0 + A_ji_3 * t109 + (t107 * v_3_in_j_1
+        + A_ji_4 * t113));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t109 + A_ji_7 * t113 + A_ji_8 * t115;
+    jac_phi_q_v_A_i[9] = -(omega_j[0] * t125 + omega_j[1] * t126 + omega_j[2] * t127 + (alphadot * (C_j[6] * t120 +
+        C_j[7] * t123 + C_j[8] * t124) - (t106 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t127 + (t112 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t125 + (t108 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t126)))));
+    jac_phi_q_v_A_i[10] = t106 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t130 + (t112 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t128 + (t108 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t129)) - (omega_j[0] * t128 +
+        omega_j[1] * t129 + omega_j[2] * t130);
+    jac_phi_q_v_A_i[11] = t106 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t133 + (t112 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t131 + (t108 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t132)) + alphadot * (C_j[3] *
+        t122 + C_j[4] * t116 + C_j[5] * t118) - (omega_j[0] * t131 + omega_j[1] * t132 + omega_j[2] * t133);
+    jac_phi_q_v_A_i[12] = t144 + A_ji_2 * t145 + (t134 + A_ji_0 * t139 + (t140 + A_ji_1 * t143));
+    const jg_real t146 = t137 * g_star_in_i_1 + A_j[5] * g_star_in_i_0;
+    const jg_real t147 = t135 * C_i[7] + A_j[8] * C_i[6];
+    const jg_real t148 = t135 * g_star_in_i_1 + A_j[8] * g_star_in_i_0;
+    const jg_real t149 = t137 * C_i[7] + A_j[5] * C_i[6];
+    const jg_real t150 = h_star_in_j_2 * t146 + t147 * g_star_in_j_1 - (h_star_in_j_1 * t148 + t149 *
         g_star_in_j_2);
-    const jg_real t154 = t142 * C_i[7] + A_j[2] * C_i[6];
-    const jg_real t155 = t142 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
-    const jg_real t156 = h_star_in_j_0 * t151 + t154 * g_star_in_j_2 - (h_star_in_j_2 * t155 + t150 *
+    const jg_real t151 = t141 * C_i[7] + A_j[2] * C_i[6];
+    const jg_real t152 = t141 * g_star_in_i_1 + A_j[2] * g_star_in_i_0;
+    const jg_real t153 = h_star_in_j_0 * t148 + t151 * g_star_in_j_2 - (h_star_in_j_2 * t152 + t147 *
         g_star_in_j_0);
-    const jg_real t157 = h_star_in_j_1 * t155 + t152 * g_star_in_j_0 - (h_star_in_j_0 * t149 + t154 *
+    const jg_real t154 = h_star_in_j_1 * t152 + t149 * g_star_in_j_0 - (h_star_in_j_0 * t146 + t151 *
         g_star_in_j_1);
-    const jg_real t158 = C_j[8] * t149 - C_j[7] * t151;
-    const jg_real t159 = C_j[6] * t151 - C_j[8] * t155;
-    const jg_real t160 = C_j[7] * t155 - C_j[6] * t149;
-    const jg_real t161 = t152 * C_j[2] - t150 * C_j[1];
-    const jg_real t162 = t150 * C_j[0] - C_j[2] * t154;
-    const jg_real t163 = C_j[1] * t154 - t152 * C_j[0];
-    const jg_real t164 = C_j[5] * t156 - C_j[4] * t157;
-    const jg_real t165 = C_j[3] * t157 - C_j[5] * t153;
-    const jg_real t166 = C_j[4] * t153 - C_j[3] * t156;
-    const jg_real t167 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t168 = A_j[6] * omega_i[2] + omega_i[1] * t167;
-    const jg_real t169 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t170 = A_j[3] * omega_i[2] + omega_i[1] * t169;
-    const jg_real t171 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t172 = e_ij_in_j_1 * t168 - e_ij_in_j_2 * t170 - (A_j[0] * v_i[2] + v_i[1] * t171);
-    const jg_real t173 = A_j[0] * omega_i[2] + omega_i[1] * t171;
-    const jg_real t174 = e_ij_in_j_2 * t173 - t168 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t169);
-    const jg_real t175 = e_ij_in_j_0 * t170 - e_ij_in_j_1 * t173 - (v_i[1] * t167 + A_j[6] * v_i[2]);
-    jac_phi_q_v_A_i[13] = t138 * v_3_in_j_2 + A_ji_5 * t148 + (t142 * v_3_in_j_0 + A_ji_3 * t143 + (t140 *
-        v_3_in_j_1 + A_ji_4 * t146));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t143 + A_ji_7 * t146 + A_ji_8 * t148;
-    jac_phi_q_v_A_i[15] = -(omega_j[0] * t158 + omega_j[1] * t159 + omega_j[2] * t160 + (alphadot * (C_j[6] * t153 +
-        C_j[7] * t156 + C_j[8] * t157) - (t139 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t160 + (t145 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t158 + (t141 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t159)))));
-    jac_phi_q_v_A_i[16] = t139 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t163 + (t145 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t161 + (t141 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t162)) - (omega_j[0] * t161 +
-        omega_j[1] * t162 + omega_j[2] * t163);
-    jac_phi_q_v_A_i[17] = t139 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t166 + (t145 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t164 + (t141 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t165)) + alphadot * (C_j[3] *
-        t155 + C_j[4] * t149 + C_j[5] * t151) - (omega_j[0] * t164 + omega_j[1] * t165 + omega_j[2] * t166);
-    jac_phi_q_v_A_i[18] = A_ji_0 * t172 + A_ji_1 * t174 + A_ji_2 * t175;
-    jac_phi_q_v_A_i[19] = t167 * v_3_in_j_2 + A_ji_5 * t175 + (t171 * v_3_in_j_0 + A_ji_3 * t172 + (t169 *
-        v_3_in_j_1 + A_ji_4 * t174));
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t175 + (t42 + A_ji_6 * t172 + (t56 + A_ji_7 * t174));
-    const jg_real t176 = t169 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
-    const jg_real t177 = t167 * C_i[7] + A_j[6] * C_i[8];
-    const jg_real t178 = t167 * g_star_in_i_1 + A_j[6] * g_star_in_i_2;
-    const jg_real t179 = t169 * C_i[7] + A_j[3] * C_i[8];
-    const jg_real t180 = h_star_in_j_2 * t176 + t177 * g_star_in_j_1 - (h_star_in_j_1 * t178 + t179 *
+    const jg_real t155 = C_j[8] * t146 - C_j[7] * t148;
+    const jg_real t156 = C_j[6] * t148 - C_j[8] * t152;
+    const jg_real t157 = C_j[7] * t152 - C_j[6] * t146;
+    const jg_real t158 = C_j[2] * t149 - t147 * C_j[1];
+    const jg_real t159 = t147 * C_j[0] - C_j[2] * t151;
+    const jg_real t160 = C_j[1] * t151 - C_j[0] * t149;
+    const jg_real t161 = C_j[5] * t153 - C_j[4] * t154;
+    const jg_real t162 = C_j[3] * t154 - C_j[5] * t150;
+    const jg_real t163 = C_j[4] * t150 - C_j[3] * t153;
+    const jg_real t164 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t165 = A_j[6] * omega_i[2] + omega_i[1] * t164;
+    const jg_real t166 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t167 = A_j[3] * omega_i[2] + omega_i[1] * t166;
+    const jg_real t168 = e_ij_in_j_1 * t165 - e_ij_in_j_2 * t167;
+    const jg_real t169 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t170 = A_j[0] * omega_i[2] + omega_i[1] * t169;
+    const jg_real t171 = e_ij_in_j_2 * t170 - t165 * e_ij_in_j_0;
+    const jg_real t172 = e_ij_in_j_0 * t167 - e_ij_in_j_1 * t170;
+    jac_phi_q_v_A_i[13] = t135 * v_3_in_j_2 + A_ji_5 * t145 + (t141 * v_3_in_j_0 + A_ji_3 * t139 + (t137 *
+        v_3_in_j_1 + A_ji_4 * t143));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t139 + A_ji_7 * t143 + A_ji_8 * t145;
+    jac_phi_q_v_A_i[15] = -(omega_j[0] * t155 + omega_j[1] * t156 + omega_j[2] * t157 + (alphadot * (C_j[6] * t150 +
+        C_j[7] * t153 + C_j[8] * t154) - (t136 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t157 + (t142 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t155 + (t138 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t156)))));
+    jac_phi_q_v_A_i[16] = t136 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t160 + (t142 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t158 + (t138 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t159)) - (omega_j[0] * t158 +
+        omega_j[1] * t159 + omega_j[2] * t160);
+    jac_phi_q_v_A_i[17] = t136 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t163 + (t142 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t161 + (t138 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t162)) + alphadot * (C_j[3] *
+        t152 + C_j[4] * t146 + C_j[5] * t148) - (omega_j[0] * t161 + omega_j[1] * t162 + omega_j[2] * t163);
+    jac_phi_q_v_A_i[18] = A_ji_0 * t168 + A_ji_1 * t171 + A_ji_2 * t172;
+    jac_phi_q_v_A_i[19] = t164 * v_3_in_j_2 + A_ji_5 * t172 + (t169 * v_3_in_j_0 + A_ji_3 * t168 + (t166 *
+        v_3_in_j_1 + A_ji_4 * t171));
+    jac_phi_q_v_A_i[20] = t61 + A_ji_8 * t172 + (t41 + A_ji_6 * t168 + (t53 + A_ji_7 * t171));
+    const jg_real t173 = t166 * g_star_in_i_1 + A_j[3] * g_star_in_i_2;
+    const jg_real t174 = t164 * C_i[7] + A_j[6] * C_i[8];
+    const jg_real t175 = t164 * g_star_in_i_1 + A_j[6] * g_star_in_i_2;
+    const jg_real t176 = t166 * C_i[7] + A_j[3] * C_i[8];
+    const jg_real t177 = h_star_in_j_2 * t173 + t174 * g_star_in_j_1 - (h_star_in_j_1 * t175 + t176 *
         g_star_in_j_2);
-    const jg_real t181 = t171 * C_i[7] + A_j[0] * C_i[8];
-    const jg_real t182 = t171 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
-    const jg_real t183 = h_star_in_j_0 * t178 + t181 * g_star_in_j_2 - (h_star_in_j_2 * t182 + t177 *
+    const jg_real t178 = t169 * C_i[7] + A_j[0] * C_i[8];
+    const jg_real t179 = t169 * g_star_in_i_1 + A_j[0] * g_star_in_i_2;
+    const jg_real t180 = h_star_in_j_0 * t175 + t178 * g_star_in_j_2 - (h_star_in_j_2 * t179 + t174 *
         g_star_in_j_0);
-    const jg_real t184 = h_star_in_j_1 * t182 + t179 * g_star_in_j_0 - (h_star_in_j_0 * t176 + t181 *
+    const jg_real t181 = h_star_in_j_1 * t179 + t176 * g_star_in_j_0 - (h_star_in_j_0 * t173 + t178 *
         g_star_in_j_1);
-    const jg_real t185 = C_j[8] * t176 - C_j[7] * t178;
-    const jg_real t186 = C_j[6] * t178 - C_j[8] * t182;
-    const jg_real t187 = C_j[7] * t182 - C_j[6] * t176;
-    const jg_real t188 = C_j[2] * t179 - t177 * C_j[1];
-    const jg_real t189 = t177 * C_j[0] - C_j[2] * t181;
-    const jg_real t190 = C_j[1] * t181 - C_j[0] * t179;
-    const jg_real t191 = C_j[5] * t183 - C_j[4] * t184;
-    const jg_real t192 = C_j[3] * t184 - C_j[5] * t180;
-    const jg_real t193 = C_j[4] * t180 - C_j[3] * t183;
-    const jg_real t194 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t195 = A_j[7] * omega_i[2] + omega_i[1] * t194;
-    const jg_real t196 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t197 = A_j[4] * omega_i[2] + omega_i[1] * t196;
-    const jg_real t198 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t199 = e_ij_in_j_1 * t195 - e_ij_in_j_2 * t197 - (A_j[1] * v_i[2] + v_i[1] * t198);
-    const jg_real t200 = A_j[1] * omega_i[2] + omega_i[1] * t198;
-    const jg_real t201 = e_ij_in_j_2 * t200 - t195 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t196);
-    const jg_real t202 = e_ij_in_j_0 * t197 - e_ij_in_j_1 * t200 - (v_i[1] * t194 + A_j[7] * v_i[2]);
-    const jg_real t203 = t196 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
-    const jg_real t204 = t194 * C_i[7] + A_j[7] * C_i[8];
-    const jg_real t205 = t194 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
-    const jg_real t206 = t196 * C_i[7] + A_j[4] * C_i[8];
-    const jg_real t207 = h_star_in_j_2 * t203 + t204 * g_star_in_j_1 - (h_star_in_j_1 * t205 + t206 *
+    const jg_real t182 = C_j[8] * t173 - C_j[7] * t175;
+    const jg_real t183 = C_j[6] * t175 - C_j[8] * t179;
+    const jg_real t184 = C_j[7] * t179 - C_j[6] * t173;
+    const jg_real t185 = C_j[2] * t176 - t174 * C_j[1];
+    const jg_real t186 = t174 * C_j[0] - C_j[2] * t178;
+    const jg_real t187 = C_j[1] * t178 - C_j[0] * t176;
+    const jg_real t188 = C_j[5] * t180 - C_j[4] * t181;
+    const jg_real t189 = C_j[3] * t181 - C_j[5] * t177;
+    const jg_real t190 = C_j[4] * t177 - C_j[3] * t180;
+    const jg_real t191 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t192 = A_j[7] * omega_i[2] + omega_i[1] * t191;
+    const jg_real t193 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t194 = A_j[4] * omega_i[2] + omega_i[1] * t193;
+    const jg_real t195 = e_ij_in_j_1 * t192 - e_ij_in_j_2 * t194;
+    const jg_real t196 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t197 = A_j[1] * omega_i[2] + omega_i[1] * t196;
+    const jg_real t198 = e_ij_in_j_2 * t197 - t192 * e_ij_in_j_0;
+    const jg_real t199 = e_ij_in_j_0 * t194 - e_ij_in_j_1 * t197;
+    const jg_real t200 = t193 * g_star_in_i_1 + A_j[4] * g_star_in_i_2;
+    const jg_real t201 = t191 * C_i[7] + A_j[7] * C_i[8];
+    const jg_real t202 = t191 * g_star_in_i_1 + A_j[7] * g_star_in_i_2;
+    const jg_real t203 = t193 * C_i[7] + A_j[4] * C_i[8];
+    const jg_real t204 = h_star_in_j_2 * t200 + t201 * g_star_in_j_1 - (h_star_in_j_1 * t202 + t203 *
         g_star_in_j_2);
-    const jg_real t208 = t198 * C_i[7] + A_j[1] * C_i[8];
-    const jg_real t209 = t198 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
-    const jg_real t210 = h_star_in_j_0 * t205 + t208 * g_star_in_j_2 - (h_star_in_j_2 * t209 + t204 *
+    const jg_real t205 = t196 * C_i[7] + A_j[1] * C_i[8];
+    const jg_real t206 = t196 * g_star_in_i_1 + A_j[1] * g_star_in_i_2;
+    const jg_real t207 = h_star_in_j_0 * t202 + t205 * g_star_in_j_2 - (h_star_in_j_2 * t206 + t201 *
         g_star_in_j_0);
-    const jg_real t211 = h_star_in_j_1 * t209 + t206 * g_star_in_j_0 - (h_star_in_j_0 * t203 + t208 *
+    const jg_real t208 = h_star_in_j_1 * t206 + t203 * g_star_in_j_0 - (h_star_in_j_0 * t200 + t205 *
         g_star_in_j_1);
-    const jg_real t212 = C_j[8] * t203 - C_j[7] * t205;
-    const jg_real t213 = C_j[6] * t205 - C_j[8] * t209;
-    const jg_real t214 = C_j[7] * t209 - C_j[6] * t203;
-    const jg_real t215 = C_j[2] * t206 - t204 * C_j[1];
-    const jg_real t216 = t204 * C_j[0] - C_j[2] * t208;
-    const jg_real t217 = C_j[1] * t208 - C_j[0] * t206;
-    jac_phi_q_v_A_i[21] = -(omega_j[0] * t185 + omega_j[1] * t186 + omega_j[2] * t187 + (alphadot * (C_j[6] * t180 +
-        C_j[7] * t183 + C_j[8] * t184) - (t168 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t187 + (t173 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t185 + (t170 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t186)))));
-    jac_phi_q_v_A_i[22] = t168 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t190 + (t173 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t188 + (t170 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t189)) - (omega_j[0] * t188 +
-        omega_j[1] * t189 + omega_j[2] * t190);
-    jac_phi_q_v_A_i[23] = t168 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t193 + (t173 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t191 + (t170 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t192)) + alphadot * (C_j[3] *
-        t182 + C_j[4] * t176 + C_j[5] * t178) - (omega_j[0] * t191 + omega_j[1] * t192 + omega_j[2] * t193);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t199 + A_ji_1 * t201 + A_ji_2 * t202;
-    jac_phi_q_v_A_i[25] = t194 * v_3_in_j_2 + A_ji_5 * t202 + (t198 * v_3_in_j_0 + A_ji_3 * t199 + (t196 *
-        v_3_in_j_1 + A_ji_4 * t201));
-    jac_phi_q_v_A_i[26] = t117 + A_ji_8 * t202 + (t107 + A_ji_6 * t199 + (t114 + A_ji_7 * t201));
-    jac_phi_q_v_A_i[27] = -(omega_j[0] * t212 + omega_j[1] * t213 + omega_j[2] * t214 + (alphadot * (C_j[6] * t207 +
-        C_j[7] * t210 + C_j[8] * t211) - (t195 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t214 + (t200 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t212 + (t197 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t213)))));
-    jac_phi_q_v_A_i[28] = t195 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t217 + (t200 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t215 + (t197 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t216)) - (omega_j[0] * t215 +
-        omega_j[1] * t216 + omega_j[2] * t217);
-    const jg_real t218 = C_j[5] * t210 - C_j[4] * t211;
-    const jg_real t219 = C_j[3] * t211 - C_j[5] * t207;
-    const jg_real t220 = C_j[4] * t207 - C_j[3] * t210;
-    const jg_real t221 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t222 = A_j[8] * omega_i[2] + omega_i[1] * t221;
-    const jg_real t223 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t224 = A_j[5] * omega_i[2] + omega_i[1] * t223;
-    const jg_real t225 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t226 = e_ij_in_j_1 * t222 - e_ij_in_j_2 * t224 - (A_j[2] * v_i[2] + v_i[1] * t225);
-    const jg_real t227 = A_j[2] * omega_i[2] + omega_i[1] * t225;
-    const jg_real t228 = e_ij_in_j_2 * t227 - t222 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t223);
-    const jg_real t229 = e_ij_in_j_0 * t224 - e_ij_in_j_1 * t227 - (v_i[1] * t221 + A_j[8] * v_i[2]);
-    const jg_real t230 = t223 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
-    const jg_real t231 = t221 * C_i[7] + A_j[8] * C_i[8];
-    const jg_real t232 = t221 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
-    const jg_real t233 = t223 * C_i[7] + A_j[5] * C_i[8];
-    const jg_real t234 = h_star_in_j_2 * t230 + t231 * g_star_in_j_1 - (h_star_in_j_1 * t232 + t233 *
+    const jg_real t209 = C_j[8] * t200 - C_j[7] * t202;
+    const jg_real t210 = C_j[6] * t202 - C_j[8] * t206;
+    const jg_real t211 = C_j[7] * t206 - C_j[6] * t200;
+    const jg_real t212 = C_j[2] * t203 - t201 * C_j[1];
+    const jg_real t213 = t201 * C_j[0] - C_j[2] * t205;
+    const jg_real t214 = C_j[1] * t205 - C_j[0] * t203;
+    jac_phi_q_v_A_i[21] = -(omega_j[0] * t182 + omega_j[1] * t183 + omega_j[2] * t184 + (alphadot * (C_j[6] * t177 +
+        C_j[7] * t180 + C_j[8] * t181) - (t165 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t184 + (t170 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t182 + (t167 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t183)))));
+    jac_phi_q_v_A_i[22] = t165 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t187 + (t170 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t185 + (t167 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t186)) - (omega_j[0] * t185 +
+        omega_j[1] * t186 + omega_j[2] * t187);
+    jac_phi_q_v_A_i[23] = t165 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t190 + (t170 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t188 + (t167 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t189)) + alphadot * (C_j[3] *
+        t179 + C_j[4] * t173 + C_j[5] * t175) - (omega_j[0] * t188 + omega_j[1] * t189 + omega_j[2] * t190);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t195 + A_ji_1 * t198 + A_ji_2 * t199;
+    jac_phi_q_v_A_i[25] = t191 * v_3_in_j_2 + A_ji_5 * t199 + (t196 * v_3_in_j_0 + A_ji_3 * t195 + (t193 *
+        v_3_in_j_1 + A_ji_4 * t198));
+    jac_phi_q_v_A_i[26] = t114 + A_ji_8 * t199 + (t104 + A_ji_6 * t195 + (t110 + A_ji_7 * t198));
+    jac_phi_q_v_A_i[27] = -(omega_j[0] * t209 + omega_j[1] * t210 + omega_j[2] * t211 + (alphadot * (C_j[6] * t204 +
+        C_j[7] * t207 + C_j[8] * t208) - (t192 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t211 + (t197 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t209 + (t194 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t210)))));
+    jac_phi_q_v_A_i[28] = t192 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t214 + (t197 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t212 + (t194 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t213)) - (omega_j[0] * t212 +
+        omega_j[1] * t213 + omega_j[2] * t214);
+    const jg_real t215 = C_j[5] * t207 - C_j[4] * t208;
+    const jg_real t216 = C_j[3] * t208 - C_j[5] * t204;
+    const jg_real t217 = C_j[4] * t204 - C_j[3] * t207;
+    const jg_real t218 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t219 = A_j[8] * omega_i[2] + omega_i[1] * t218;
+    const jg_real t220 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t221 = A_j[5] * omega_i[2] + omega_i[1] * t220;
+    const jg_real t222 = e_ij_in_j_1 * t219 - e_ij_in_j_2 * t221;
+    const jg_real t223 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t224 = A_j[2] * omega_i[2] + omega_i[1] * t223;
+    const jg_real t225 = e_ij_in_j_2 * t224 - t219 * e_ij_in_j_0;
+    const jg_real t226 = e_ij_in_j_0 * t221 - e_ij_in_j_1 * t224;
+    const jg_real t227 = t220 * g_star_in_i_1 + A_j[5] * g_star_in_i_2;
+    const jg_real t228 = t218 * C_i[7] + A_j[8] * C_i[8];
+    const jg_real t229 = t218 * g_star_in_i_1 + A_j[8] * g_star_in_i_2;
+    const jg_real t230 = t220 * C_i[7] + A_j[5] * C_i[8];
+    const jg_real t231 = h_star_in_j_2 * t227 + t228 * g_star_in_j_1 - (h_star_in_j_1 * t229 + t230 *
         g_star_in_j_2);
-    const jg_real t235 = t225 * C_i[7] + A_j[2] * C_i[8];
-    const jg_real t236 = t225 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
-    const jg_real t237 = h_star_in_j_0 * t232 + t235 * g_star_in_j_2 - (h_star_in_j_2 * t236 + t231 *
+    const jg_real t232 = t223 * C_i[7] + A_j[2] * C_i[8];
+    const jg_real t233 = t223 * g_star_in_i_1 + A_j[2] * g_star_in_i_2;
+    const jg_real t234 = h_star_in_j_0 * t229 + t232 * g_star_in_j_2 - (h_star_in_j_2 * t233 + t228 *
         g_star_in_j_0);
-    const jg_real t238 = h_star_in_j_1 * t236 + t233 * g_star_in_j_0 - (h_star_in_j_0 * t230 + t235 *
+    const jg_real t235 = h_star_in_j_1 * t233 + t230 * g_star_in_j_0 - (h_star_in_j_0 * t227 + t232 *
         g_star_in_j_1);
-    const jg_real t239 = C_j[8] * t230 - C_j[7] * t232;
-    const jg_real t240 = C_j[6] * t232 - C_j[8] * t236;
-    const jg_real t241 = C_j[7] * t236 - C_j[6] * t230;
-    const jg_real t242 = C_j[2] * t233 - t231 * C_j[1];
-    const jg_real t243 = t231 * C_j[0] - C_j[2] * t235;
-    const jg_real t244 = C_j[1] * t235 - C_j[0] * t233;
-    const jg_real t245 = C_j[5] * t237 - C_j[4] * t238;
-    const jg_real t246 = C_j[3] * t238 - C_j[5] * t234;
-    const jg_real t247 = C_j[4] * t234 - C_j[3] * t237;
-    const jg_real t248 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t236 = C_j[8] * t227 - C_j[7] * t229;
+    const jg_real t237 = C_j[6] * t229 - C_j[8] * t233;
+    const jg_real t238 = C_j[7] * t233 - C_j[6] * t227;
+    const jg_real t239 = C_j[2] * t230 - t228 * C_j[1];
+    const jg_real t240 = t228 * C_j[0] - C_j[2] * t232;
+    const jg_real t241 = C_j[1] * t232 - C_j[0] * t230;
+    const jg_real t242 = C_j[5] * t234 - C_j[4] * t235;
+    const jg_real t243 = C_j[3] * t235 - C_j[5] * t231;
+    const jg_real t244 = C_j[4] * t231 - C_j[3] * t234;
+    const jg_real t245 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t246 = omega_i[1] * t245;
+    const jg_real t247 = t246 * e_ij_in_j_1;
+    const jg_real t248 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t249 = omega_i[1] * t248;
-    const jg_real t250 = t249 * e_ij_in_j_1;
-    const jg_real t251 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
-    const jg_real t252 = omega_i[1] * t251;
-    const jg_real t253 = e_ij_in_j_2 * t252;
-    const jg_real t254 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
-    const jg_real t255 = t250 - t253 - t254;
-    const jg_real t256 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t257 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
-    const jg_real t258 = e_ij_in_j_2 * t257;
-    const jg_real t259 = v_i[1] * t251;
-    const jg_real t260 = t258 - (t256 + t249 * e_ij_in_j_0) - t259;
-    const jg_real t261 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t262 = e_ij_in_j_1 * t257;
-    const jg_real t263 = v_i[1] * t248;
-    const jg_real t264 = t261 + t252 * e_ij_in_j_0 - t262 - t263;
-    jac_phi_q_v_A_i[29] = t195 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t220 + (t200 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t218 + (t197 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t219)) + alphadot * (C_j[3] *
-        t209 + C_j[4] * t203 + C_j[5] * t205) - (omega_j[0] * t218 + omega_j[1] * t219 + omega_j[2] * t220);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t226 + A_ji_1 * t228 + A_ji_2 * t229;
-    jac_phi_q_v_A_i[31] = t221 * v_3_in_j_2 + A_ji_5 * t229 + (t225 * v_3_in_j_0 + A_ji_3 * t226 + (t223 *
-        v_3_in_j_1 + A_ji_4 * t228));
-    jac_phi_q_v_A_i[32] = t147 + A_ji_8 * t229 + (t137 + A_ji_6 * t226 + (t144 + A_ji_7 * t228));
-    jac_phi_q_v_A_i[33] = -(omega_j[0] * t239 + omega_j[1] * t240 + omega_j[2] * t241 + (alphadot * (C_j[6] * t234 +
-        C_j[7] * t237 + C_j[8] * t238) - (t222 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t241 + (t227 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t239 + (t224 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t240)))));
-    jac_phi_q_v_A_i[34] = t222 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t244 + (t227 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t242 + (t224 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t243)) - (omega_j[0] * t242 +
-        omega_j[1] * t243 + omega_j[2] * t244);
-    jac_phi_q_v_A_i[35] = t222 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t247 + (t227 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t245 + (t224 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t246)) + alphadot * (C_j[3] *
-        t236 + C_j[4] * t230 + C_j[5] * t232) - (omega_j[0] * t245 + omega_j[1] * t246 + omega_j[2] * t247);
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t255 + A_ji_1 * t260 + A_ji_2 * t264;
-    const jg_real t265 = t251 * g_star_in_i_1;
-    const jg_real t266 = h_star_in_j_2 * t265;
-    const jg_real t267 = t248 * C_i[7];
-    const jg_real t268 = t267 * g_star_in_j_1;
-    const jg_real t269 = t248 * g_star_in_i_1;
-    const jg_real t270 = h_star_in_j_1 * t269;
-    const jg_real t271 = t251 * C_i[7];
-    const jg_real t272 = t271 * g_star_in_j_2;
-    const jg_real t273 = t266 + t268 - (t270 + t272);
-    const jg_real t274 = A_i[0] * C_i[6] + A_i[6] * C_i[8];
-    const jg_real t275 = t274 * g_star_in_j_2;
-    const jg_real t276 = A_i[0] * g_star_in_i_0 + A_i[6] * g_star_in_i_2;
-    const jg_real t277 = h_star_in_j_2 * t276;
-    const jg_real t278 = t275 + h_star_in_j_0 * t269 - (t277 + t267 * g_star_in_j_0);
-    const jg_real t279 = h_star_in_j_1 * t276;
-    const jg_real t280 = t274 * g_star_in_j_1;
-    const jg_real t281 = t279 + t271 * g_star_in_j_0 - (t280 + h_star_in_j_0 * t265);
-    const jg_real t282 = C_j[8] * t265;
-    const jg_real t283 = C_j[7] * t269;
-    const jg_real t284 = t282 - t283;
-    const jg_real t285 = C_j[8] * t276;
-    const jg_real t286 = C_j[6] * t269 - t285;
-    const jg_real t287 = C_j[7] * t276;
-    const jg_real t288 = t287 - C_j[6] * t265;
-    const jg_real t289 = t271 * C_j[2];
-    const jg_real t290 = t267 * C_j[1];
-    const jg_real t291 = t289 - t290;
-    const jg_real t292 = t274 * C_j[2];
-    const jg_real t293 = t267 * C_j[0] - t292;
-    const jg_real t294 = t274 * C_j[1];
-    const jg_real t295 = t294 - t271 * C_j[0];
-    const jg_real t296 = C_j[5] * t278 - C_j[4] * t281;
-    const jg_real t297 = C_j[3] * t281 - C_j[5] * t273;
-    const jg_real t298 = C_j[4] * t273 - C_j[3] * t278;
-    const jg_real t299 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
-    const jg_real t300 = omega_i[1] * t299;
-    const jg_real t301 = t300 * e_ij_in_j_1;
-    const jg_real t302 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
-    const jg_real t303 = omega_i[1] * t302;
-    const jg_real t304 = e_ij_in_j_2 * t303;
-    const jg_real t305 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
-    const jg_real t306 = t301 - t304 - t305;
-    const jg_real t307 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t308 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
-    const jg_real t309 = e_ij_in_j_2 * t308;
-    const jg_real t310 = v_i[1] * t302;
-    const jg_real t311 = t309 - (t307 + t300 * e_ij_in_j_0) - t310;
-    const jg_real t312 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t313 = e_ij_in_j_1 * t308;
-    const jg_real t314 = v_i[1] * t299;
-    const jg_real t315 = t312 + t303 * e_ij_in_j_0 - t313 - t314;
-    jac_phi_q_v_A_j[1] = t248 * v_3_in_j_2 + A_ji_5 * t264 + (t251 * v_3_in_j_1 + A_ji_4 * t260 + A_ji_3 * t255);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t255 + A_ji_7 * t260 + A_ji_8 * t264;
-    jac_phi_q_v_A_j[3] = -(omega_j[0] * t284 + omega_j[1] * t286 + omega_j[2] * t288 + (alphadot * (C_j[6] * t273 +
-        C_j[7] * t278 + C_j[8] * t281) - (t249 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t288 + (t257 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t284 + (t252 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t286)))));
-    jac_phi_q_v_A_j[4] = t249 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t295 + (t257 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t291 + (t252 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t293)) - (omega_j[0] * t291 +
-        omega_j[1] * t293 + omega_j[2] * t295);
-    jac_phi_q_v_A_j[5] = t249 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t298 + (t257 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t296 + (t252 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t297)) + alphadot * (C_j[3] *
-        t276 + C_j[4] * t265 + C_j[5] * t269) - (omega_j[0] * t296 + omega_j[1] * t297 + omega_j[2] * t298);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t306 + A_ji_1 * t311 + A_ji_2 * t315;
-    jac_phi_q_v_A_j[7] = t299 * v_3_in_j_2 + A_ji_5 * t315 + (t302 * v_3_in_j_1 + A_ji_4 * t311 + A_ji_3 * t306);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t306 + A_ji_7 * t311 + A_ji_8 * t315;
-    const jg_real t316 = t302 * g_star_in_i_1;
-    const jg_real t317 = h_star_in_j_2 * t316;
-    const jg_real t318 = t299 * C_i[7];
-    const jg_real t319 = t318 * g_star_in_j_1;
-    const jg_real t320 = t299 * g_star_in_i_1;
-    const jg_real t321 = h_star_in_j_1 * t320;
-    const jg_real t322 = t302 * C_i[7];
-    const jg_real t323 = t322 * g_star_in_j_2;
-    const jg_real t324 = t317 + t319 - (t321 + t323);
-    const jg_real t325 = A_i[1] * C_i[6] + A_i[7] * C_i[8];
-    const jg_real t326 = t325 * g_star_in_j_2;
-    const jg_real t327 = A_i[1] * g_star_in_i_0 + A_i[7] * g_star_in_i_2;
-    const jg_real t328 = h_star_in_j_2 * t327;
-    const jg_real t329 = t326 + h_star_in_j_0 * t320 - (t328 + t318 * g_star_in_j_0);
-    const jg_real t330 = h_star_in_j_1 * t327;
-    const jg_real t331 = t325 * g_star_in_j_1;
-    const jg_real t332 = t330 + t322 * g_star_in_j_0 - (t331 + h_star_in_j_0 * t316);
-    const jg_real t333 = C_j[8] * t316;
-    const jg_real t334 = C_j[7] * t320;
-    const jg_real t335 = t333 - t334;
-    const jg_real t336 = C_j[8] * t327;
-    const jg_real t337 = C_j[6] * t320 - t336;
-    const jg_real t338 = C_j[7] * t327;
-    const jg_real t339 = t338 - C_j[6] * t316;
-    const jg_real t340 = t322 * C_j[2];
-    const jg_real t341 = t318 * C_j[1];
-    const jg_real t342 = t340 - t341;
-    const jg_real t343 = t325 * C_j[2];
-    const jg_real t344 = t318 * C_j[0] - t343;
-    const jg_real t345 = t325 * C_j[1];
-    const jg_real t346 = t345 - t322 * C_j[0];
-    const jg_real t347 = C_j[5] * t329 - C_j[4] * t332;
-    const jg_real t348 = C_j[3] * t332 - C_j[5] * t324;
-    const jg_real t349 = C_j[4] * t324 - C_j[3] * t329;
-    const jg_real t350 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
-    const jg_real t351 = omega_i[1] * t350;
-    const jg_real t352 = t351 * e_ij_in_j_1;
-    const jg_real t353 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
-    const jg_real t354 = omega_i[1] * t353;
-    const jg_real t355 = e_ij_in_j_2 * t354;
-    const jg_real t356 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
-    const jg_real t357 = t352 - t355 - t356;
-    const jg_real t358 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t359 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
-    const jg_real t360 = e_ij_in_j_2 * t359;
-    const jg_real t361 = v_i[1] * t353;
-    const jg_real t362 = t360 - (t358 + t351 * e_ij_in_j_0) - t361;
-    const jg_real t363 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t364 = e_ij_in_j_1 * t359;
-    const jg_real t365 = v_i[1] * t350;
-    const jg_real t366 = t363 + t354 * e_ij_in_j_0 - t364 - t365;
-    const jg_real t367 = t353 * g_star_in_i_1;
-    const jg_real t368 = h_star_in_j_2 * t367;
-    const jg_real t369 = t350 * C_i[7];
-    const jg_real t370 = t369 * g_star_in_j_1;
-    const jg_real t371 = t350 * g_star_in_i_1;
-    const jg_real t372 = h_star_in_j_1 * t371;
-    const jg_real t373 = t353 * C_i[7];
-    const jg_real t374 = t373 * g_star_in_j_2;
-    const jg_real t375 = t368 + t370 - (t372 + t374);
-    const jg_real t376 = A_i[2] * C_i[6] + A_i[8] * C_i[8];
-    const jg_real t377 = t376 * g_star_in_j_2;
-    const jg_real t378 = A_i[2] * g_star_in_i_0 + A_i[8] * g_star_in_i_2;
-    const jg_real t379 = h_star_in_j_2 * t378;
-    const jg_real t380 = t377 + h_star_in_j_0 * t371 - (t379 + t369 * g_star_in_j_0);
-    const jg_real t381 = h_star_in_j_1 * t378;
-    const jg_real t382 = t376 * g_star_in_j_1;
-    const jg_real t383 = t381 + t373 * g_star_in_j_0 - (t382 + h_star_in_j_0 * t367);
-    const jg_real t384 = C_j[8] * t367;
-    const jg_real t385 = C_j[7] * t371;
-    const jg_real t386 = t384 - t385;
-    const jg_real t387 = C_j[8] * t378;
-    const jg_real t388 = C_j[6] * t371 - t387;
-    const jg_real t389 = C_j[7] * t378;
-    const jg_real t390 = t389 - C_j[6] * t367;
-    const jg_real t391 = t373 * C_j[2];
-    const jg_real t392 = t369 * C_j[1];
-    const jg_real t393 = t391 - t392;
-    const jg_real t394 = t376 * C_j[2];
-    const jg_real t395 = t369 * C_j[0] - t394;
-    const jg_real t396 = t376 * C_j[1];
-    const jg_real t397 = t396 - t373 * C_j[0];
-    jac_phi_q_v_A_j[9] = -(omega_j[0] * t335 + omega_j[1] * t337 + omega_j[2] * t339 + (alphadot * (C_j[6] * t324 +
-        C_j[7] * t329 + C_j[8] * t332) - (t300 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t339 + (t308 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t335 + (t303 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t337)))));
-    jac_phi_q_v_A_j[10] = t300 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t308 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t342 + (t303 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
-        omega_j[1] * t344 + omega_j[2] * t346);
-    jac_phi_q_v_A_j[11] = t300 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t349 + (t308 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t347 + (t303 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t348)) + alphadot * (C_j[3] *
-        t327 + C_j[4] * t316 + C_j[5] * t320) - (omega_j[0] * t347 + omega_j[1] * t348 + omega_j[2] * t349);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t357 + A_ji_1 * t362 + A_ji_2 * t366;
-    jac_phi_q_v_A_j[13] = t350 * v_3_in_j_2 + A_ji_5 * t366 + (t353 * v_3_in_j_1 + A_ji_4 * t362 + A_ji_3 * t357);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t357 + A_ji_7 * t362 + A_ji_8 * t366;
-    jac_phi_q_v_A_j[15] = -(omega_j[0] * t386 + omega_j[1] * t388 + omega_j[2] * t390 + (alphadot * (C_j[6] * t375 +
-        C_j[7] * t380 + C_j[8] * t383) - (t351 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t390 + (t359 *
-        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t386 + (t354 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
-        t388)))));
-    jac_phi_q_v_A_j[16] = t351 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t397 + (t359 * h_star_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t393 + (t354 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t395)) - (omega_j[0] * t393 +
-        omega_j[1] * t395 + omega_j[2] * t397);
-    const jg_real t398 = C_j[5] * t380 - C_j[4] * t383;
-    const jg_real t399 = C_j[3] * t383 - C_j[5] * t375;
-    const jg_real t400 = C_j[4] * t375 - C_j[3] * t380;
-    const jg_real t401 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
-    const jg_real t402 = omega_i[1] * t401;
-    const jg_real t403 = t402 * e_ij_in_j_0;
-    const jg_real t404 = t403 + t253 + t254;
-    const jg_real t405 = t402 * e_ij_in_j_1 + t256 - t258 + t259;
-    const jg_real t406 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t407 = t257 * e_ij_in_j_0;
-    const jg_real t408 = v_i[1] * t401;
-    const jg_real t409 = t407 - (t406 - e_ij_in_j_1 * t252) - t408;
-    const jg_real t410 = t401 * C_i[7];
-    const jg_real t411 = t401 * g_star_in_i_1;
-    const jg_real t412 = t277 + t410 * g_star_in_j_1 - (h_star_in_j_1 * t411 + t275);
-    const jg_real t413 = h_star_in_j_0 * t411;
-    const jg_real t414 = t410 * g_star_in_j_0;
-    const jg_real t415 = t413 - t272 - (t414 - t266);
-    const jg_real t416 = t274 * g_star_in_j_0;
-    const jg_real t417 = h_star_in_j_0 * t276;
-    const jg_real t418 = t416 - h_star_in_j_1 * t265 - (t417 - t271 * g_star_in_j_1);
-    const jg_real t419 = t285 - C_j[7] * t411;
-    const jg_real t420 = C_j[6] * t411;
-    const jg_real t421 = t282 + t420;
-    const jg_real t422 = C_j[6] * t276;
-    const jg_real t423 = t422 + C_j[7] * t265;
-    const jg_real t424 = t410 * C_j[0];
-    const jg_real t425 = t424 + t289;
-    const jg_real t426 = t292 - t410 * C_j[1];
-    const jg_real t427 = t274 * C_j[0];
-    const jg_real t428 = t427 + t271 * C_j[1];
-    const jg_real t429 = C_j[5] * t415 - C_j[4] * t418;
-    const jg_real t430 = C_j[3] * t418 - C_j[5] * t412;
-    const jg_real t431 = C_j[4] * t412 - C_j[3] * t415;
-    const jg_real t432 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
-    const jg_real t433 = omega_i[1] * t432;
-    const jg_real t434 = t433 * e_ij_in_j_0;
-    const jg_real t435 = t434 + t304 + t305;
-    const jg_real t436 = t433 * e_ij_in_j_1 + t307 - t309 + t310;
-    const jg_real t437 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t438 = t308 * e_ij_in_j_0;
-    const jg_real t439 = v_i[1] * t432;
-    const jg_real t440 = t438 - (t437 - e_ij_in_j_1 * t303) - t439;
-    jac_phi_q_v_A_j[17] = t351 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t400 + (t359 * f_star_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t398 + (t354 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t399)) + alphadot * (C_j[3] *
-        t378 + C_j[4] * t367 + C_j[5] * t371) - (omega_j[0] * t398 + omega_j[1] * t399 + omega_j[2] * t400);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t404 + A_ji_0 * t405 + A_ji_2 * t409;
-    jac_phi_q_v_A_j[19] = t401 * v_3_in_j_2 + A_ji_5 * t409 + (A_ji_3 * t405 - t251 * v_3_in_j_0 - A_ji_4 * t404);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t404 + A_ji_6 * t405 + A_ji_8 * t409;
-    jac_phi_q_v_A_j[21] = -(omega_j[0] * t419 + omega_j[1] * t421 - omega_j[2] * t423 + (alphadot * (C_j[6] * t412 +
-        C_j[7] * t415 + C_j[8] * t418) - (t402 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t423 + (omega_i_in_j_0 *
-        t419 - t252 * g_star_cross_h_j_in_j_0 + (t257 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t421)))));
-    jac_phi_q_v_A_j[22] = t402 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t428 + (omega_i_in_j_0 * t426 - t252 *
-        h_star_cross_f_j_in_j_0 + (t257 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t425)) - (omega_j[0] * t426 +
-        omega_j[1] * t425 - omega_j[2] * t428);
-    jac_phi_q_v_A_j[23] = t402 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t431 + (omega_i_in_j_0 * t429 - t252 *
-        f_star_cross_g_j_in_j_0 + (t257 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t430)) + alphadot * (C_j[4] *
-        t276 - C_j[3] * t265 + C_j[5] * t411) - (omega_j[0] * t429 + omega_j[1] * t430 + omega_j[2] * t431);
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t435 + A_ji_0 * t436 + A_ji_2 * t440;
-    const jg_real t441 = t432 * C_i[7];
-    const jg_real t442 = t432 * g_star_in_i_1;
-    const jg_real t443 = t328 + t441 * g_star_in_j_1 - (h_star_in_j_1 * t442 + t326);
-    const jg_real t444 = h_star_in_j_0 * t442;
-    const jg_real t445 = t441 * g_star_in_j_0;
-    const jg_real t446 = t444 - t323 - (t445 - t317);
-    const jg_real t447 = t325 * g_star_in_j_0;
-    const jg_real t448 = h_star_in_j_0 * t327;
-    const jg_real t449 = t447 - h_star_in_j_1 * t316 - (t448 - t322 * g_star_in_j_1);
-    const jg_real t450 = t336 - C_j[7] * t442;
-    const jg_real t451 = C_j[6] * t442;
-    const jg_real t452 = t333 + t451;
-    const jg_real t453 = C_j[6] * t327;
-    const jg_real t454 = t453 + C_j[7] * t316;
-    const jg_real t455 = t441 * C_j[0];
-    const jg_real t456 = t455 + t340;
-    const jg_real t457 = t343 - t441 * C_j[1];
-    const jg_real t458 = t325 * C_j[0];
-    const jg_real t459 = t458 + t322 * C_j[1];
-    const jg_real t460 = C_j[5] * t446 - C_j[4] * t449;
-    const jg_real t461 = C_j[3] * t449 - C_j[5] * t443;
-    const jg_real t462 = C_j[4] * t443 - C_j[3] * t446;
-    const jg_real t463 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t464 = omega_i[1] * t463;
-    const jg_real t465 = t464 * e_ij_in_j_0;
-    const jg_real t466 = t465 + t355 + t356;
-    const jg_real t467 = t464 * e_ij_in_j_1 + t358 - t360 + t361;
-    const jg_real t468 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t469 = t359 * e_ij_in_j_0;
-    const jg_real t470 = v_i[1] * t463;
-    const jg_real t471 = t469 - (t468 - e_ij_in_j_1 * t354) - t470;
-    jac_phi_q_v_A_j[25] = t432 * v_3_in_j_2 + A_ji_5 * t440 + (A_ji_3 * t436 - t302 * v_3_in_j_0 - A_ji_4 * t435);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t435 + A_ji_6 * t436 + A_ji_8 * t440;
-    jac_phi_q_v_A_j[27] = -(omega_j[0] * t450 + omega_j[1] * t452 - omega_j[2] * t454 + (alphadot * (C_j[6] * t443 +
-        C_j[7] * t446 + C_j[8] * t449) - (t433 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t454 + (omega_i_in_j_0 *
-        t450 - t303 * g_star_cross_h_j_in_j_0 + (t308 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t452)))));
-    jac_phi_q_v_A_j[28] = t433 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t459 + (omega_i_in_j_0 * t457 - t303 *
-        h_star_cross_f_j_in_j_0 + (t308 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t456)) - (omega_j[0] * t457 +
-        omega_j[1] * t456 - omega_j[2] * t459);
-    jac_phi_q_v_A_j[29] = t433 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t462 + (omega_i_in_j_0 * t460 - t303 *
-        f_star_cross_g_j_in_j_0 + (t308 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t461)) + alphadot * (C_j[4] *
-        t327 - C_j[3] * t316 + C_j[5] * t442) - (omega_j[0] * t460 + omega_j[1] * t461 + omega_j[2] * t462);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t466 + A_ji_0 * t467 + A_ji_2 * t471;
-    jac_phi_q_v_A_j[31] = t463 * v_3_in_j_2 + A_ji_5 * t471 + (A_ji_3 * t467 - t353 * v_3_in_j_0 - A_ji_4 * t466);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t466 + A_ji_6 * t467 + A_ji_8 * t471;
-    const jg_real t472 = t463 * C_i[7];
-    const jg_real t473 = t463 * g_star_in_i_1;
-    const jg_real t474 = t379 + t472 * g_star_in_j_1 - (h_star_in_j_1 * t473 + t377);
-    const jg_real t475 = h_star_in_j_0 * t473;
-    const jg_real t476 = t472 * g_star_in_j_0;
-    const jg_real t477 = t475 - t374 - (t476 - t368);
-    const jg_real t478 = t376 * g_star_in_j_0;
-    const jg_real t479 = h_star_in_j_0 * t378;
-    const jg_real t480 = t478 - h_star_in_j_1 * t367 - (t479 - t373 * g_star_in_j_1);
-    const jg_real t481 = t387 - C_j[7] * t473;
-    const jg_real t482 = C_j[6] * t473;
-    const jg_real t483 = t384 + t482;
-    const jg_real t484 = C_j[6] * t378;
-    const jg_real t485 = t484 + C_j[7] * t367;
-    const jg_real t486 = t472 * C_j[0];
-    const jg_real t487 = t486 + t391;
-    const jg_real t488 = t394 - t472 * C_j[1];
-    const jg_real t489 = t376 * C_j[0];
-    const jg_real t490 = t489 + t373 * C_j[1];
-    const jg_real t491 = C_j[5] * t477 - C_j[4] * t480;
-    const jg_real t492 = C_j[3] * t480 - C_j[5] * t474;
-    const jg_real t493 = C_j[4] * t474 - C_j[3] * t477;
-    const jg_real t494 = t250 - t403 - t254;
-    const jg_real t495 = t262 - (t261 - t402 * e_ij_in_j_2) + t263;
-    const jg_real t496 = t406 - t249 * e_ij_in_j_2 - t407 + t408;
-    const jg_real t497 = t280 - h_star_in_j_2 * t411 - (t279 - t410 * g_star_in_j_2);
-    const jg_real t498 = t417 - t267 * g_star_in_j_2 - (t416 - h_star_in_j_2 * t269);
-    const jg_real t499 = t268 + t413 - (t270 + t414);
-    const jg_real t500 = t422 + C_j[8] * t269;
-    const jg_real t501 = C_j[8] * t411 + t287;
-    const jg_real t502 = t420 - t283;
-    const jg_real t503 = t424 - t290;
-    const jg_real t504 = t427 + t267 * C_j[2];
-    const jg_real t505 = t294 + t410 * C_j[2];
-    jac_phi_q_v_A_j[33] = -(omega_j[0] * t481 + omega_j[1] * t483 - omega_j[2] * t485 + (alphadot * (C_j[6] * t474 +
-        C_j[7] * t477 + C_j[8] * t480) - (t464 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t485 + (omega_i_in_j_0 *
-        t481 - t354 * g_star_cross_h_j_in_j_0 + (t359 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t483)))));
-    jac_phi_q_v_A_j[34] = t464 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t490 + (omega_i_in_j_0 * t488 - t354 *
-        h_star_cross_f_j_in_j_0 + (t359 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t487)) - (omega_j[0] * t488 +
-        omega_j[1] * t487 - omega_j[2] * t490);
-    jac_phi_q_v_A_j[35] = t464 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t354 *
-        f_star_cross_g_j_in_j_0 + (t359 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t492)) + alphadot * (C_j[4] *
-        t378 - C_j[3] * t367 + C_j[5] * t473) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t495 - t248 * v_3_in_j_0 + (A_ji_4 * t496 - t401 * v_3_in_j_1) + A_ji_5 * t494;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
-    jac_phi_q_v_A_j[39] = -(omega_j[1] * t500 - omega_j[0] * t501 + omega_j[2] * t502 + (alphadot * (C_j[6] * t497 +
-        C_j[7] * t498 + C_j[8] * t499) - (t257 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t502 + (omega_i_in_j_1 *
-        t500 - t402 * g_star_cross_h_j_in_j_1 - (t249 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t501)))));
-    jac_phi_q_v_A_j[40] = t257 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t503 + (omega_i_in_j_1 * t504 - t402 *
-        h_star_cross_f_j_in_j_1 - (t249 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t505)) - (omega_j[1] * t504 -
-        omega_j[0] * t505 + omega_j[2] * t503);
+    const jg_real t250 = e_ij_in_j_2 * t249;
+    const jg_real t251 = t247 - t250;
+    const jg_real t252 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t253 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t254 = e_ij_in_j_2 * t253;
+    const jg_real t255 = t254 - (t252 + t246 * e_ij_in_j_0);
+    const jg_real t256 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t257 = e_ij_in_j_1 * t253;
+    const jg_real t258 = t256 + t249 * e_ij_in_j_0 - t257;
+    jac_phi_q_v_A_i[29] = t192 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t217 + (t197 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t215 + (t194 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t216)) + alphadot * (C_j[3] *
+        t206 + C_j[4] * t200 + C_j[5] * t202) - (omega_j[0] * t215 + omega_j[1] * t216 + omega_j[2] * t217);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t222 + A_ji_1 * t225 + A_ji_2 * t226;
+    jac_phi_q_v_A_i[31] = t218 * v_3_in_j_2 + A_ji_5 * t226 + (t223 * v_3_in_j_0 + A_ji_3 * t222 + (t220 *
+        v_3_in_j_1 + A_ji_4 * t225));
+    jac_phi_q_v_A_i[32] = t144 + A_ji_8 * t226 + (t134 + A_ji_6 * t222 + (t140 + A_ji_7 * t225));
+    jac_phi_q_v_A_i[33] = -(omega_j[0] * t236 + omega_j[1] * t237 + omega_j[2] * t238 + (alphadot * (C_j[6] * t231 +
+        C_j[7] * t234 + C_j[8] * t235) - (t219 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t238 + (t224 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t236 + (t221 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t237)))));
+    jac_phi_q_v_A_i[34] = t219 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t241 + (t224 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t239 + (t221 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t240)) - (omega_j[0] * t239 +
+        omega_j[1] * t240 + omega_j[2] * t241);
+    jac_phi_q_v_A_i[35] = t219 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t244 + (t224 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t242 + (t221 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t243)) + alphadot * (C_j[3] *
+        t233 + C_j[4] * t227 + C_j[5] * t229) - (omega_j[0] * t242 + omega_j[1] * t243 + omega_j[2] * t244);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t251 + A_ji_1 * t255 + A_ji_2 * t258;
+    const jg_real t259 = t248 * g_star_in_i_1;
+    const jg_real t260 = h_star_in_j_2 * t259;
+    const jg_real t261 = t245 * C_i[7];
+    const jg_real t262 = t261 * g_star_in_j_1;
+    const jg_real t263 = t245 * g_star_in_i_1;
+    const jg_real t264 = h_star_in_j_1 * t263;
+    const jg_real t265 = t248 * C_i[7];
+    const jg_real t266 = t265 * g_star_in_j_2;
+    const jg_real t267 = t260 + t262 - (t264 + t266);
+    const jg_real t268 = A_i[0] * C_i[6] + A_i[6] * C_i[8];
+    const jg_real t269 = t268 * g_star_in_j_2;
+    const jg_real t270 = A_i[0] * g_star_in_i_0 + A_i[6] * g_star_in_i_2;
+    const jg_real t271 = h_star_in_j_2 * t270;
+    const jg_real t272 = t269 + h_star_in_j_0 * t263 - (t271 + t261 * g_star_in_j_0);
+    const jg_real t273 = h_star_in_j_1 * t270;
+    const jg_real t274 = t268 * g_star_in_j_1;
+    const jg_real t275 = t273 + t265 * g_star_in_j_0 - (t274 + h_star_in_j_0 * t259);
+    const jg_real t276 = C_j[8] * t259;
+    const jg_real t277 = C_j[7] * t263;
+    const jg_real t278 = t276 - t277;
+    const jg_real t279 = C_j[8] * t270;
+    const jg_real t280 = C_j[6] * t263 - t279;
+    const jg_real t281 = C_j[7] * t270;
+    const jg_real t282 = t281 - C_j[6] * t259;
+    const jg_real t283 = t265 * C_j[2];
+    const jg_real t284 = t261 * C_j[1];
+    const jg_real t285 = t283 - t284;
+    const jg_real t286 = t268 * C_j[2];
+    const jg_real t287 = t261 * C_j[0] - t286;
+    const jg_real t288 = t268 * C_j[1];
+    const jg_real t289 = t288 - t265 * C_j[0];
+    const jg_real t290 = C_j[5] * t272 - C_j[4] * t275;
+    const jg_real t291 = C_j[3] * t275 - C_j[5] * t267;
+    const jg_real t292 = C_j[4] * t267 - C_j[3] * t272;
+    const jg_real t293 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
+    const jg_real t294 = omega_i[1] * t293;
+    const jg_real t295 = t294 * e_ij_in_j_1;
+    const jg_real t296 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
+    const jg_real t297 = omega_i[1] * t296;
+    const jg_real t298 = e_ij_in_j_2 * t297;
+    const jg_real t299 = t295 - t298;
+    const jg_real t300 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t301 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t302 = e_ij_in_j_2 * t301;
+    const jg_real t303 = t302 - (t300 + t294 * e_ij_in_j_0);
+    const jg_real t304 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t305 = e_ij_in_j_1 * t301;
+    const jg_real t306 = t304 + t297 * e_ij_in_j_0 - t305;
+    jac_phi_q_v_A_j[1] = t245 * v_3_in_j_2 + A_ji_5 * t258 + (t248 * v_3_in_j_1 + A_ji_4 * t255 + A_ji_3 * t251);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t251 + A_ji_7 * t255 + A_ji_8 * t258;
+    jac_phi_q_v_A_j[3] = -(omega_j[0] * t278 + omega_j[1] * t280 + omega_j[2] * t282 + (alphadot * (C_j[6] * t267 +
+        C_j[7] * t272 + C_j[8] * t275) - (t246 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t282 + (t253 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t278 + (t249 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t280)))));
+    jac_phi_q_v_A_j[4] = t246 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t289 + (t253 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t285 + (t249 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t287)) - (omega_j[0] * t285 +
+        omega_j[1] * t287 + omega_j[2] * t289);
+    jac_phi_q_v_A_j[5] = t246 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t292 + (t253 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t290 + (t249 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t291)) + alphadot * (C_j[3] *
+        t270 + C_j[4] * t259 + C_j[5] * t263) - (omega_j[0] * t290 + omega_j[1] * t291 + omega_j[2] * t292);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t299 + A_ji_1 * t303 + A_ji_2 * t306;
+    jac_phi_q_v_A_j[7] = t293 * v_3_in_j_2 + A_ji_5 * t306 + (t296 * v_3_in_j_1 + A_ji_4 * t303 + A_ji_3 * t299);
+    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t299 + A_ji_7 * t303 + A_ji_8 * t306;
+    const jg_real t307 = t296 * g_star_in_i_1;
+    const jg_real t308 = h_star_in_j_2 * t307;
+    const jg_real t309 = t293 * C_i[7];
+    const jg_real t310 = t309 * g_star_in_j_1;
+    const jg_real t311 = t293 * g_star_in_i_1;
+    const jg_real t312 = h_star_in_j_1 * t311;
+    const jg_real t313 = t296 * C_i[7];
+    const jg_real t314 = t313 * g_star_in_j_2;
+    const jg_real t315 = t308 + t310 - (t312 + t314);
+    const jg_real t316 = A_i[1] * C_i[6] + A_i[7] * C_i[8];
+    const jg_real t317 = t316 * g_star_in_j_2;
+    const jg_real t318 = A_i[1] * g_star_in_i_0 + A_i[7] * g_star_in_i_2;
+    const jg_real t319 = h_star_in_j_2 * t318;
+    const jg_real t320 = t317 + h_star_in_j_0 * t311 - (t319 + t309 * g_star_in_j_0);
+    const jg_real t321 = h_star_in_j_1 * t318;
+    const jg_real t322 = t316 * g_star_in_j_1;
+    const jg_real t323 = t321 + t313 * g_star_in_j_0 - (t322 + h_star_in_j_0 * t307);
+    const jg_real t324 = C_j[8] * t307;
+    const jg_real t325 = C_j[7] * t311;
+    const jg_real t326 = t324 - t325;
+    const jg_real t327 = C_j[8] * t318;
+    const jg_real t328 = C_j[6] * t311 - t327;
+    const jg_real t329 = C_j[7] * t318;
+    const jg_real t330 = t329 - C_j[6] * t307;
+    const jg_real t331 = t313 * C_j[2];
+    const jg_real t332 = t309 * C_j[1];
+    const jg_real t333 = t331 - t332;
+    const jg_real t334 = t316 * C_j[2];
+    const jg_real t335 = t309 * C_j[0] - t334;
+    const jg_real t336 = t316 * C_j[1];
+    const jg_real t337 = t336 - t313 * C_j[0];
+    const jg_real t338 = C_j[5] * t320 - C_j[4] * t323;
+    const jg_real t339 = C_j[3] * t323 - C_j[5] * t315;
+    const jg_real t340 = C_j[4] * t315 - C_j[3] * t320;
+    const jg_real t341 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
+    const jg_real t342 = omega_i[1] * t341;
+    const jg_real t343 = t342 * e_ij_in_j_1;
+    const jg_real t344 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
+    const jg_real t345 = omega_i[1] * t344;
+    const jg_real t346 = e_ij_in_j_2 * t345;
+    const jg_real t347 = t343 - t346;
+    const jg_real t348 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t349 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t350 = e_ij_in_j_2 * t349;
+    const jg_real t351 = t350 - (t348 + t342 * e_ij_in_j_0);
+    const jg_real t352 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t353 = e_ij_in_j_1 * t349;
+    const jg_real t354 = t352 + t345 * e_ij_in_j_0 - t353;
+    const jg_real t355 = t344 * g_star_in_i_1;
+    const jg_real t356 = h_star_in_j_2 * t355;
+    const jg_real t357 = t341 * C_i[7];
+    const jg_real t358 = t357 * g_star_in_j_1;
+    const jg_real t359 = t341 * g_star_in_i_1;
+    const jg_real t360 = h_star_in_j_1 * t359;
+    const jg_real t361 = t344 * C_i[7];
+    const jg_real t362 = t361 * g_star_in_j_2;
+    const jg_real t363 = t356 + t358 - (t360 + t362);
+    const jg_real t364 = A_i[2] * C_i[6] + A_i[8] * C_i[8];
+    const jg_real t365 = t364 * g_star_in_j_2;
+    const jg_real t366 = A_i[2] * g_star_in_i_0 + A_i[8] * g_star_in_i_2;
+    const jg_real t367 = h_star_in_j_2 * t366;
+    const jg_real t368 = t365 + h_star_in_j_0 * t359 - (t367 + t357 * g_star_in_j_0);
+    const jg_real t369 = h_star_in_j_1 * t366;
+    const jg_real t370 = t364 * g_star_in_j_1;
+    const jg_real t371 = t369 + t361 * g_star_in_j_0 - (t370 + h_star_in_j_0 * t355);
+    const jg_real t372 = C_j[8] * t355;
+    const jg_real t373 = C_j[7] * t359;
+    const jg_real t374 = t372 - t373;
+    const jg_real t375 = C_j[8] * t366;
+    const jg_real t376 = C_j[6] * t359 - t375;
+    const jg_real t377 = C_j[7] * t366;
+    const jg_real t378 = t377 - C_j[6] * t355;
+    const jg_real t379 = t361 * C_j[2];
+    const jg_real t380 = t357 * C_j[1];
+    const jg_real t381 = t379 - t380;
+    const jg_real t382 = t364 * C_j[2];
+    const jg_real t383 = t357 * C_j[0] - t382;
+    const jg_real t384 = t364 * C_j[1];
+    const jg_real t385 = t384 - t361 * C_j[0];
+    jac_phi_q_v_A_j[9] = -(omega_j[0] * t326 + omega_j[1] * t328 + omega_j[2] * t330 + (alphadot * (C_j[6] * t315 +
+        C_j[7] * t320 + C_j[8] * t323) - (t294 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t330 + (t301 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t326 + (t297 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t328)))));
+    jac_phi_q_v_A_j[10] = t294 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t337 + (t301 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t333 + (t297 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t335)) - (omega_j[0] * t333 +
+        omega_j[1] * t335 + omega_j[2] * t337);
+    jac_phi_q_v_A_j[11] = t294 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t340 + (t301 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t338 + (t297 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t339)) + alphadot * (C_j[3] *
+        t318 + C_j[4] * t307 + C_j[5] * t311) - (omega_j[0] * t338 + omega_j[1] * t339 + omega_j[2] * t340);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t347 + A_ji_1 * t351 + A_ji_2 * t354;
+    jac_phi_q_v_A_j[13] = t341 * v_3_in_j_2 + A_ji_5 * t354 + (t344 * v_3_in_j_1 + A_ji_4 * t351 + A_ji_3 * t347);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t347 + A_ji_7 * t351 + A_ji_8 * t354;
+    jac_phi_q_v_A_j[15] = -(omega_j[0] * t374 + omega_j[1] * t376 + omega_j[2] * t378 + (alphadot * (C_j[6] * t363 +
+        C_j[7] * t368 + C_j[8] * t371) - (t342 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t378 + (t349 *
+        g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t374 + (t345 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 *
+        t376)))));
+    jac_phi_q_v_A_j[16] = t342 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t385 + (t349 * h_star_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t381 + (t345 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t383)) - (omega_j[0] * t381 +
+        omega_j[1] * t383 + omega_j[2] * t385);
+    const jg_real t386 = C_j[5] * t368 - C_j[4] * t371;
+    const jg_real t387 = C_j[3] * t371 - C_j[5] * t363;
+    const jg_real t388 = C_j[4] * t363 - C_j[3] * t368;
+    const jg_real t389 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
+    const jg_real t390 = omega_i[1] * t389;
+    const jg_real t391 = t390 * e_ij_in_j_0;
+    const jg_real t392 = t391 + t250;
+    const jg_real t393 = t390 * e_ij_in_j_1 + t252 - t254;
+    const jg_real t394 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t395 = t253 * e_ij_in_j_0;
+    const jg_real t396 = t395 - (t394 - e_ij_in_j_1 * t249);
+    const jg_real t397 = t389 * C_i[7];
+    const jg_real t398 = t389 * g_star_in_i_1;
+    const jg_real t399 = t271 + t397 * g_star_in_j_1 - (h_star_in_j_1 * t398 + t269);
+    const jg_real t400 = h_star_in_j_0 * t398;
+    const jg_real t401 = t397 * g_star_in_j_0;
+    const jg_real t402 = t400 - t266 - (t401 - t260);
+    const jg_real t403 = t268 * g_star_in_j_0;
+    const jg_real t404 = h_star_in_j_0 * t270;
+    const jg_real t405 = t403 - h_star_in_j_1 * t259 - (t404 - t265 * g_star_in_j_1);
+    const jg_real t406 = t279 - C_j[7] * t398;
+    const jg_real t407 = C_j[6] * t398;
+    const jg_real t408 = t276 + t407;
+    const jg_real t409 = C_j[6] * t270;
+    const jg_real t410 = t409 + C_j[7] * t259;
+    const jg_real t411 = t397 * C_j[0];
+    const jg_real t412 = t411 + t283;
+    const jg_real t413 = t286 - t397 * C_j[1];
+    const jg_real t414 = t268 * C_j[0];
+    const jg_real t415 = t414 + t265 * C_j[1];
+    const jg_real t416 = C_j[5] * t402 - C_j[4] * t405;
+    const jg_real t417 = C_j[3] * t405 - C_j[5] * t399;
+    const jg_real t418 = C_j[4] * t399 - C_j[3] * t402;
+    const jg_real t419 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
+    const jg_real t420 = omega_i[1] * t419;
+    const jg_real t421 = t420 * e_ij_in_j_0;
+    const jg_real t422 = t421 + t298;
+    const jg_real t423 = t420 * e_ij_in_j_1 + t300 - t302;
+    const jg_real t424 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t425 = t301 * e_ij_in_j_0;
+    const jg_real t426 = t425 - (t424 - e_ij_in_j_1 * t297);
+    jac_phi_q_v_A_j[17] = t342 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t388 + (t349 * f_star_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t386 + (t345 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t387)) + alphadot * (C_j[3] *
+        t366 + C_j[4] * t355 + C_j[5] * t359) - (omega_j[0] * t386 + omega_j[1] * t387 + omega_j[2] * t388);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t392 + A_ji_0 * t393 + A_ji_2 * t396;
+    jac_phi_q_v_A_j[19] = t389 * v_3_in_j_2 + A_ji_5 * t396 + (A_ji_3 * t393 - t248 * v_3_in_j_0 - A_ji_4 * t392);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t392 + A_ji_6 * t393 + A_ji_8 * t396;
+    jac_phi_q_v_A_j[21] = -(omega_j[0] * t406 + omega_j[1] * t408 - omega_j[2] * t410 + (alphadot * (C_j[6] * t399 +
+        C_j[7] * t402 + C_j[8] * t405) - (t390 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t410 + (omega_i_in_j_0 *
+        t406 - t249 * g_star_cross_h_j_in_j_0 + (t253 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t408)))));
+    jac_phi_q_v_A_j[22] = t390 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t415 + (omega_i_in_j_0 * t413 - t249 *
+        h_star_cross_f_j_in_j_0 + (t253 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t412)) - (omega_j[0] * t413 +
+        omega_j[1] * t412 - omega_j[2] * t415);
+    jac_phi_q_v_A_j[23] = t390 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t418 + (omega_i_in_j_0 * t416 - t249 *
+        f_star_cross_g_j_in_j_0 + (t253 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t417)) + alphadot * (C_j[4] *
+        t270 - C_j[3] * t259 + C_j[5] * t398) - (omega_j[0] * t416 + omega_j[1] * t417 + omega_j[2] * t418);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t422 + A_ji_0 * t423 + A_ji_2 * t426;
+    const jg_real t427 = t419 * C_i[7];
+    const jg_real t428 = t419 * g_star_in_i_1;
+    const jg_real t429 = t319 + t427 * g_star_in_j_1 - (h_star_in_j_1 * t428 + t317);
+    const jg_real t430 = h_star_in_j_0 * t428;
+    const jg_real t431 = t427 * g_star_in_j_0;
+    const jg_real t432 = t430 - t314 - (t431 - t308);
+    const jg_real t433 = t316 * g_star_in_j_0;
+    const jg_real t434 = h_star_in_j_0 * t318;
+    const jg_real t435 = t433 - h_star_in_j_1 * t307 - (t434 - t313 * g_star_in_j_1);
+    const jg_real t436 = t327 - C_j[7] * t428;
+    const jg_real t437 = C_j[6] * t428;
+    const jg_real t438 = t324 + t437;
+    const jg_real t439 = C_j[6] * t318;
+    const jg_real t440 = t439 + C_j[7] * t307;
+    const jg_real t441 = t427 * C_j[0];
+    const jg_real t442 = t441 + t331;
+    const jg_real t443 = t334 - t427 * C_j[1];
+    const jg_real t444 = t316 * C_j[0];
+    const jg_real t445 = t444 + t313 * C_j[1];
+    const jg_real t446 = C_j[5] * t432 - C_j[4] * t435;
+    const jg_real t447 = C_j[3] * t435 - C_j[5] * t429;
+    const jg_real t448 = C_j[4] * t429 - C_j[3] * t432;
+    const jg_real t449 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t450 = omega_i[1] * t449;
+    const jg_real t451 = t450 * e_ij_in_j_0;
+    const jg_real t452 = t451 + t346;
+    const jg_real t453 = t450 * e_ij_in_j_1 + t348 - t350;
+    const jg_real t454 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t455 = t349 * e_ij_in_j_0;
+    const jg_real t456 = t455 - (t454 - e_ij_in_j_1 * t345);
+    jac_phi_q_v_A_j[25] = t419 * v_3_in_j_2 + A_ji_5 * t426 + (A_ji_3 * t423 - t296 * v_3_in_j_0 - A_ji_4 * t422);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t422 + A_ji_6 * t423 + A_ji_8 * t426;
+    jac_phi_q_v_A_j[27] = -(omega_j[0] * t436 + omega_j[1] * t438 - omega_j[2] * t440 + (alphadot * (C_j[6] * t429 +
+        C_j[7] * t432 + C_j[8] * t435) - (t420 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t440 + (omega_i_in_j_0 *
+        t436 - t297 * g_star_cross_h_j_in_j_0 + (t301 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t438)))));
+    jac_phi_q_v_A_j[28] = t420 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t445 + (omega_i_in_j_0 * t443 - t297 *
+        h_star_cross_f_j_in_j_0 + (t301 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t442)) - (omega_j[0] * t443 +
+        omega_j[1] * t442 - omega_j[2] * t445);
+    jac_phi_q_v_A_j[29] = t420 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t448 + (omega_i_in_j_0 * t446 - t297 *
+        f_star_cross_g_j_in_j_0 + (t301 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t447)) + alphadot * (C_j[4] *
+        t318 - C_j[3] * t307 + C_j[5] * t428) - (omega_j[0] * t446 + omega_j[1] * t447 + omega_j[2] * t448);
+    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t452 + A_ji_0 * t453 + A_ji_2 * t456;
+    jac_phi_q_v_A_j[31] = t449 * v_3_in_j_2 + A_ji_5 * t456 + (A_ji_3 * t453 - t344 * v_3_in_j_0 - A_ji_4 * t452);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t452 + A_ji_6 * t453 + A_ji_8 * t456;
+    const jg_real t457 = t449 * C_i[7];
+    const jg_real t458 = t449 * g_star_in_i_1;
+    const jg_real t459 = t367 + t457 * g_star_in_j_1 - (h_star_in_j_1 * t458 + t365);
+    const jg_real t460 = h_star_in_j_0 * t458;
+    const jg_real t461 = t457 * g_star_in_j_0;
+    const jg_real t462 = t460 - t362 - (t461 - t356);
+    const jg_real t463 = t364 * g_star_in_j_0;
+    const jg_real t464 = h_star_in_j_0 * t366;
+    const jg_real t465 = t463 - h_star_in_j_1 * t355 - (t464 - t361 * g_star_in_j_1);
+    const jg_real t466 = t375 - C_j[7] * t458;
+    const jg_real t467 = C_j[6] * t458;
+    const jg_real t468 = t372 + t467;
+    const jg_real t469 = C_j[6] * t366;
+    const jg_real t470 = t469 + C_j[7] * t355;
+    const jg_real t471 = t457 * C_j[0];
+    const jg_real t472 = t471 + t379;
+    const jg_real t473 = t382 - t457 * C_j[1];
+    const jg_real t474 = t364 * C_j[0];
+    const jg_real t475 = t474 + t361 * C_j[1];
+    const jg_real t476 = C_j[5] * t462 - C_j[4] * t465;
+    const jg_real t477 = C_j[3] * t465 - C_j[5] * t459;
+    const jg_real t478 = C_j[4] * t459 - C_j[3] * t462;
+    const jg_real t479 = t247 - t391;
+    const jg_real t480 = t257 - (t256 - t390 * e_ij_in_j_2);
+    const jg_real t481 = t394 - t246 * e_ij_in_j_2 - t395;
+    const jg_real t482 = t274 - h_star_in_j_2 * t398 - (t273 - t397 * g_star_in_j_2);
+    const jg_real t483 = t404 - t261 * g_star_in_j_2 - (t403 - h_star_in_j_2 * t263);
+    const jg_real t484 = t262 + t400 - (t264 + t401);
+    const jg_real t485 = t409 + C_j[8] * t263;
+    const jg_real t486 = C_j[8] * t398 + t281;
+    const jg_real t487 = t407 - t277;
+    const jg_real t488 = t411 - t284;
+    const jg_real t489 = t414 + t261 * C_j[2];
+    const jg_real t490 = t288 + t397 * C_j[2];
+    jac_phi_q_v_A_j[33] = -(omega_j[0] * t466 + omega_j[1] * t468 - omega_j[2] * t470 + (alphadot * (C_j[6] * t459 +
+        C_j[7] * t462 + C_j[8] * t465) - (t450 * g_star_cross_h_j_in_j_2 - omega_i_in_j_2 * t470 + (omega_i_in_j_0 *
+        t466 - t345 * g_star_cross_h_j_in_j_0 + (t349 * g_star_cross_h_j_in_j_1 + omega_i_in_j_1 * t468)))));
+    jac_phi_q_v_A_j[34] = t450 * h_star_cross_f_j_in_j_2 - omega_i_in_j_2 * t475 + (omega_i_in_j_0 * t473 - t345 *
+        h_star_cross_f_j_in_j_0 + (t349 * h_star_cross_f_j_in_j_1 + omega_i_in_j_1 * t472)) - (omega_j[0] * t473 +
+        omega_j[1] * t472 - omega_j[2] * t475);
+    jac_phi_q_v_A_j[35] = t450 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t478 + (omega_i_in_j_0 * t476 - t345 *
+        f_star_cross_g_j_in_j_0 + (t349 * f_star_cross_g_j_in_j_1 + omega_i_in_j_1 * t477)) + alphadot * (C_j[4] *
+        t366 - C_j[3] * t355 + C_j[5] * t458) - (omega_j[0] * t476 + omega_j[1] * t477 + omega_j[2] * t478);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t479 + (A_ji_0 * t480 + A_ji_1 * t481);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t480 - t245 * v_3_in_j_0 + (A_ji_4 * t481 - t389 * v_3_in_j_1) + A_ji_5 * t479;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t479 + (A_ji_6 * t480 + A_ji_7 * t481);
+    jac_phi_q_v_A_j[39] = -(omega_j[1] * t485 - omega_j[0] * t486 + omega_j[2] * t487 + (alphadot * (C_j[6] * t482 +
+        C_j[7] * t483 + C_j[8] * t484) - (t253 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t487 + (omega_i_in_j_1 *
+        t485 - t390 * g_star_cross_h_j_in_j_1 - (t246 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t486)))));
+    jac_phi_q_v_A_j[40] = t253 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t488 + (omega_i_in_j_1 * t489 - t390 *
+        h_star_cross_f_j_in_j_1 - (t246 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t490)) - (omega_j[1] * t489 -
+        omega_j[0] * t490 + omega_j[2] * t488);
+    const jg_real t491 = C_j[5] * t483 - C_j[4] * t484;
+    const jg_real t492 = C_j[3] * t484 - C_j[5] * t482;
+    const jg_real t493 = C_j[4] * t482 - C_j[3] * t483;
+    const jg_real t494 = t295 - t421;
+    const jg_real t495 = t305 - (t304 - t420 * e_ij_in_j_2);
+    const jg_real t496 = t424 - t294 * e_ij_in_j_2 - t425;
+    const jg_real t497 = t322 - h_star_in_j_2 * t428 - (t321 - t427 * g_star_in_j_2);
+    const jg_real t498 = t434 - t309 * g_star_in_j_2 - (t433 - h_star_in_j_2 * t311);
+    const jg_real t499 = t310 + t430 - (t312 + t431);
+    const jg_real t500 = t439 + C_j[8] * t311;
+    const jg_real t501 = C_j[8] * t428 + t329;
+    const jg_real t502 = t437 - t325;
+    const jg_real t503 = t441 - t332;
+    const jg_real t504 = t444 + t309 * C_j[2];
+    const jg_real t505 = t336 + t427 * C_j[2];
     const jg_real t506 = C_j[5] * t498 - C_j[4] * t499;
     const jg_real t507 = C_j[3] * t499 - C_j[5] * t497;
     const jg_real t508 = C_j[4] * t497 - C_j[3] * t498;
-    const jg_real t509 = t301 - t434 - t305;
-    const jg_real t510 = t313 - (t312 - t433 * e_ij_in_j_2) + t314;
-    const jg_real t511 = t437 - t300 * e_ij_in_j_2 - t438 + t439;
-    const jg_real t512 = t331 - h_star_in_j_2 * t442 - (t330 - t441 * g_star_in_j_2);
-    const jg_real t513 = t448 - t318 * g_star_in_j_2 - (t447 - h_star_in_j_2 * t320);
-    const jg_real t514 = t319 + t444 - (t321 + t445);
-    const jg_real t515 = t453 + C_j[8] * t320;
-    const jg_real t516 = C_j[8] * t442 + t338;
-    const jg_real t517 = t451 - t334;
-    const jg_real t518 = t455 - t341;
-    const jg_real t519 = t458 + t318 * C_j[2];
-    const jg_real t520 = t345 + t441 * C_j[2];
+    const jg_real t509 = t343 - t451;
+    const jg_real t510 = t353 - (t352 - t450 * e_ij_in_j_2);
+    const jg_real t511 = t454 - t342 * e_ij_in_j_2 - t455;
+    jac_phi_q_v_A_j[41] = t253 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t491 - t246 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t492 - t390 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
+        t270 - (C_j[3] * t263 + C_j[4] * t398)) - (omega_j[0] * t491 + omega_j[1] * t492 + omega_j[2] * t493);
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t494 + (A_ji_0 * t495 + A_ji_1 * t496);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t495 - t293 * v_3_in_j_0 + (A_ji_4 * t496 - t419 * v_3_in_j_1) + A_ji_5 * t494;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t494 + (A_ji_6 * t495 + A_ji_7 * t496);
+    jac_phi_q_v_A_j[45] = -(omega_j[1] * t500 - omega_j[0] * t501 + omega_j[2] * t502 + (alphadot * (C_j[6] * t497 +
+        C_j[7] * t498 + C_j[8] * t499) - (t301 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t502 + (omega_i_in_j_1 *
+        t500 - t420 * g_star_cross_h_j_in_j_1 - (t294 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t501)))));
+    jac_phi_q_v_A_j[46] = t301 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t503 + (omega_i_in_j_1 * t504 - t420 *
+        h_star_cross_f_j_in_j_1 - (t294 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t505)) - (omega_j[1] * t504 -
+        omega_j[0] * t505 + omega_j[2] * t503);
+    jac_phi_q_v_A_j[47] = t301 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t294 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t420 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
+        t318 - (C_j[3] * t311 + C_j[4] * t428)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
+    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
+    const jg_real t512 = t370 - h_star_in_j_2 * t458 - (t369 - t457 * g_star_in_j_2);
+    const jg_real t513 = t464 - t357 * g_star_in_j_2 - (t463 - h_star_in_j_2 * t359);
+    const jg_real t514 = t358 + t460 - (t360 + t461);
+    const jg_real t515 = t469 + C_j[8] * t359;
+    const jg_real t516 = C_j[8] * t458 + t377;
+    const jg_real t517 = t467 - t373;
+    const jg_real t518 = t471 - t380;
+    const jg_real t519 = t474 + t357 * C_j[2];
+    const jg_real t520 = t384 + t457 * C_j[2];
     const jg_real t521 = C_j[5] * t513 - C_j[4] * t514;
     const jg_real t522 = C_j[3] * t514 - C_j[5] * t512;
     const jg_real t523 = C_j[4] * t512 - C_j[3] * t513;
-    const jg_real t524 = t352 - t465 - t356;
-    const jg_real t525 = t364 - (t363 - t464 * e_ij_in_j_2) + t365;
-    const jg_real t526 = t468 - t351 * e_ij_in_j_2 - t469 + t470;
-    jac_phi_q_v_A_j[41] = t257 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t508 + (omega_i_in_j_0 * t506 - t249 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t507 - t402 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
-        t276 - (C_j[3] * t269 + C_j[4] * t411)) - (omega_j[0] * t506 + omega_j[1] * t507 + omega_j[2] * t508);
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t509 + (A_ji_0 * t510 + A_ji_1 * t511);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t510 - t299 * v_3_in_j_0 + (A_ji_4 * t511 - t432 * v_3_in_j_1) + A_ji_5 * t509;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
-    jac_phi_q_v_A_j[45] = -(omega_j[1] * t515 - omega_j[0] * t516 + omega_j[2] * t517 + (alphadot * (C_j[6] * t512 +
-        C_j[7] * t513 + C_j[8] * t514) - (t308 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t517 + (omega_i_in_j_1 *
-        t515 - t433 * g_star_cross_h_j_in_j_1 - (t300 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t516)))));
-    jac_phi_q_v_A_j[46] = t308 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t433 *
-        h_star_cross_f_j_in_j_1 - (t300 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
+    const jg_real t524 = C_i[4] * sine_0 + C_i[1] * cosine_0;
+    const jg_real t525 = C_i[3] * sine_0 + C_i[0] * cosine_0;
+    const jg_real t526 = C_i[5] * sine_0 + C_i[2] * cosine_0;
+    const jg_real t527 = A_ji_5 * t524 + A_ji_2 * t525 + A_ji_8 * t526;
+    const jg_real t528 = A_ji_4 * t524 + A_ji_1 * t525 + A_ji_7 * t526;
+    const jg_real t529 = h_star_in_j_1 * t527 - h_star_in_j_2 * t528;
+    const jg_real t530 = A_ji_3 * t524 + A_ji_0 * t525 + A_ji_6 * t526;
+    const jg_real t531 = h_star_in_j_2 * t530 - h_star_in_j_0 * t527;
+    const jg_real t532 = h_star_in_j_0 * t528 - h_star_in_j_1 * t530;
+    const jg_real t533 = C_j[7] * t527 - C_j[8] * t528;
+    const jg_real t534 = C_j[8] * t530 - C_j[6] * t527;
+    const jg_real t535 = C_j[6] * t528 - C_j[7] * t530;
+    const jg_real t536 = C_j[5] * t531 - C_j[4] * t532;
+    const jg_real t537 = C_j[3] * t532 - C_j[5] * t529;
+    const jg_real t538 = C_j[4] * t529 - C_j[3] * t531;
+    const jg_real t539 = A_ji_2 * sine_0;
+    const jg_real t540 = A_ji_1 * sine_0;
+    const jg_real t541 = h_star_in_j_1 * t539 - h_star_in_j_2 * t540;
+    const jg_real t542 = A_ji_0 * sine_0;
+    const jg_real t543 = h_star_in_j_2 * t542 - h_star_in_j_0 * t539;
+    const jg_real t544 = h_star_in_j_0 * t540 - h_star_in_j_1 * t542;
+    const jg_real t545 = C_j[7] * t539 - C_j[8] * t540;
+    const jg_real t546 = C_j[8] * t542 - C_j[6] * t539;
+    const jg_real t547 = C_j[6] * t540 - C_j[7] * t542;
+    jac_phi_q_v_A_j[49] = A_ji_3 * t510 - t341 * v_3_in_j_0 + (A_ji_4 * t511 - t449 * v_3_in_j_1) + A_ji_5 * t509;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t509 + (A_ji_6 * t510 + A_ji_7 * t511);
+    jac_phi_q_v_A_j[51] = -(omega_j[1] * t515 - omega_j[0] * t516 + omega_j[2] * t517 + (alphadot * (C_j[6] * t512 +
+        C_j[7] * t513 + C_j[8] * t514) - (t349 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t517 + (omega_i_in_j_1 *
+        t515 - t450 * g_star_cross_h_j_in_j_1 - (t342 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t516)))));
+    jac_phi_q_v_A_j[52] = t349 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t518 + (omega_i_in_j_1 * t519 - t450 *
+        h_star_cross_f_j_in_j_1 - (t342 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t520)) - (omega_j[1] * t519 -
         omega_j[0] * t520 + omega_j[2] * t518);
-    jac_phi_q_v_A_j[47] = t308 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t523 + (omega_i_in_j_0 * t521 - t300 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t522 - t433 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
-        t327 - (C_j[3] * t320 + C_j[4] * t442)) - (omega_j[0] * t521 + omega_j[1] * t522 + omega_j[2] * t523);
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t524 + (A_ji_0 * t525 + A_ji_1 * t526);
-    const jg_real t527 = t382 - h_star_in_j_2 * t473 - (t381 - t472 * g_star_in_j_2);
-    const jg_real t528 = t479 - t369 * g_star_in_j_2 - (t478 - h_star_in_j_2 * t371);
-    const jg_real t529 = t370 + t475 - (t372 + t476);
-    const jg_real t530 = t484 + C_j[8] * t371;
-    const jg_real t531 = C_j[8] * t473 + t389;
-    const jg_real t532 = t482 - t385;
-    const jg_real t533 = t486 - t392;
-    const jg_real t534 = t489 + t369 * C_j[2];
-    const jg_real t535 = t396 + t472 * C_j[2];
-    const jg_real t536 = C_j[5] * t528 - C_j[4] * t529;
-    const jg_real t537 = C_j[3] * t529 - C_j[5] * t527;
-    const jg_real t538 = C_j[4] * t527 - C_j[3] * t528;
-    const jg_real t539 = C_i[4] * sine_0 + C_i[1] * cosine_0;
-    const jg_real t540 = C_i[3] * sine_0 + C_i[0] * cosine_0;
-    const jg_real t541 = C_i[5] * sine_0 + C_i[2] * cosine_0;
-    const jg_real t542 = A_ji_5 * t539 + A_ji_2 * t540 + A_ji_8 * t541;
-    const jg_real t543 = A_ji_4 * t539 + A_ji_1 * t540 + A_ji_7 * t541;
-    const jg_real t544 = h_star_in_j_1 * t542 - h_star_in_j_2 * t543;
-    const jg_real t545 = A_ji_3 * t539 + A_ji_0 * t540 + A_ji_6 * t541;
-    const jg_real t546 = h_star_in_j_2 * t545 - h_star_in_j_0 * t542;
-    const jg_real t547 = h_star_in_j_0 * t543 - h_star_in_j_1 * t545;
-    const jg_real t548 = C_j[7] * t542 - C_j[8] * t543;
-    const jg_real t549 = C_j[8] * t545 - C_j[6] * t542;
-    const jg_real t550 = C_j[6] * t543 - C_j[7] * t545;
-    const jg_real t551 = C_j[5] * t546 - C_j[4] * t547;
-    const jg_real t552 = C_j[3] * t547 - C_j[5] * t544;
-    const jg_real t553 = C_j[4] * t544 - C_j[3] * t546;
-    const jg_real t554 = A_ji_2 * sine_0;
-    const jg_real t555 = A_ji_1 * sine_0;
-    const jg_real t556 = h_star_in_j_1 * t554 - h_star_in_j_2 * t555;
-    const jg_real t557 = A_ji_0 * sine_0;
-    const jg_real t558 = h_star_in_j_2 * t557 - h_star_in_j_0 * t554;
-    const jg_real t559 = h_star_in_j_0 * t555 - h_star_in_j_1 * t557;
-    const jg_real t560 = C_j[7] * t554 - C_j[8] * t555;
-    const jg_real t561 = C_j[8] * t557 - C_j[6] * t554;
-    const jg_real t562 = C_j[6] * t555 - C_j[7] * t557;
-    jac_phi_q_v_A_j[49] = A_ji_3 * t525 - t350 * v_3_in_j_0 + (A_ji_4 * t526 - t463 * v_3_in_j_1) + A_ji_5 * t524;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t524 + (A_ji_6 * t525 + A_ji_7 * t526);
-    jac_phi_q_v_A_j[51] = -(omega_j[1] * t530 - omega_j[0] * t531 + omega_j[2] * t532 + (alphadot * (C_j[6] * t527 +
-        C_j[7] * t528 + C_j[8] * t529) - (t359 * g_star_cross_h_j_in_j_2 + omega_i_in_j_2 * t532 + (omega_i_in_j_1 *
-        t530 - t464 * g_star_cross_h_j_in_j_1 - (t351 * g_star_cross_h_j_in_j_0 + omega_i_in_j_0 * t531)))));
-    jac_phi_q_v_A_j[52] = t359 * h_star_cross_f_j_in_j_2 + omega_i_in_j_2 * t533 + (omega_i_in_j_1 * t534 - t464 *
-        h_star_cross_f_j_in_j_1 - (t351 * h_star_cross_f_j_in_j_0 + omega_i_in_j_0 * t535)) - (omega_j[1] * t534 -
-        omega_j[0] * t535 + omega_j[2] * t533);
-    jac_phi_q_v_A_j[53] = t359 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t538 + (omega_i_in_j_0 * t536 - t351 *
-        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t537 - t464 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
-        t378 - (C_j[3] * t371 + C_j[4] * t473)) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] * t538);
-    jac_phi_q_v_alpha[0] = -(omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] * t550 + (alphadot * (C_j[6] * t544
-        + C_j[7] * t546 + C_j[8] * t547) - (omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 *
-        t550)));
-    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t552 + omega_i_in_j_2 * t553 - alphadot *
-        (C_j[3] * t545 + C_j[4] * t543 + C_j[5] * t542) - (omega_j[0] * t551 + omega_j[1] * t552 + omega_j[2] *
-        t553);
-    jac_phi_q_v_geometry[0] = -(omega_j[0] * t560 + omega_j[1] * t561 + omega_j[2] * t562 + (alphadot * (C_j[6] *
-        t556 + C_j[7] * t558 + C_j[8] * t559) - (omega_i_in_j_0 * t560 + omega_i_in_j_1 * t561 + omega_i_in_j_2 *
-        t562)));
-    const jg_real t563 = C_j[5] * t558 - C_j[4] * t559;
-    const jg_real t564 = C_j[3] * t559 - C_j[5] * t556;
-    const jg_real t565 = C_j[4] * t556 - C_j[3] * t558;
-    const jg_real t566 = A_ji_5 * sine_0;
-    const jg_real t567 = A_ji_4 * sine_0;
-    const jg_real t568 = h_star_in_j_1 * t566 - h_star_in_j_2 * t567;
-    const jg_real t569 = A_ji_3 * sine_0;
-    const jg_real t570 = h_star_in_j_2 * t569 - h_star_in_j_0 * t566;
-    const jg_real t571 = h_star_in_j_0 * t567 - h_star_in_j_1 * t569;
-    const jg_real t572 = C_j[7] * t566 - C_j[8] * t567;
-    const jg_real t573 = C_j[8] * t569 - C_j[6] * t566;
-    const jg_real t574 = C_j[6] * t567 - C_j[7] * t569;
-    const jg_real t575 = C_j[5] * t570 - C_j[4] * t571;
-    const jg_real t576 = C_j[3] * t571 - C_j[5] * t568;
-    const jg_real t577 = C_j[4] * t568 - C_j[3] * t570;
-    const jg_real t578 = A_ji_8 * sine_0;
-    const jg_real t579 = A_ji_7 * sine_0;
-    const jg_real t580 = h_star_in_j_1 * t578 - h_star_in_j_2 * t579;
-    const jg_real t581 = A_ji_6 * sine_0;
-    const jg_real t582 = h_star_in_j_2 * t581 - h_star_in_j_0 * t578;
-    const jg_real t583 = h_star_in_j_0 * t579 - h_star_in_j_1 * t581;
-    const jg_real t584 = C_j[7] * t578 - C_j[8] * t579;
-    const jg_real t585 = C_j[8] * t581 - C_j[6] * t578;
-    const jg_real t586 = C_j[6] * t579 - C_j[7] * t581;
-    const jg_real t587 = C_j[5] * t582 - C_j[4] * t583;
-    const jg_real t588 = C_j[3] * t583 - C_j[5] * t580;
-    const jg_real t589 = C_j[4] * t580 - C_j[3] * t582;
-    const jg_real t590 = A_ji_1 * cosine_0;
-    const jg_real t591 = A_ji_2 * cosine_0;
-    const jg_real t592 = h_star_in_j_2 * t590 - h_star_in_j_1 * t591;
-    const jg_real t593 = A_ji_0 * cosine_0;
-    const jg_real t594 = h_star_in_j_0 * t591 - h_star_in_j_2 * t593;
-    const jg_real t595 = h_star_in_j_1 * t593 - h_star_in_j_0 * t590;
-    const jg_real t596 = C_j[8] * t590 - C_j[7] * t591;
-    const jg_real t597 = C_j[6] * t591 - C_j[8] * t593;
-    const jg_real t598 = C_j[7] * t593 - C_j[6] * t590;
-    const jg_real t599 = C_j[5] * t594 - C_j[4] * t595;
-    const jg_real t600 = C_j[3] * t595 - C_j[5] * t592;
-    const jg_real t601 = C_j[4] * t592 - C_j[3] * t594;
-    const jg_real t602 = A_ji_4 * cosine_0;
-    const jg_real t603 = A_ji_5 * cosine_0;
-    const jg_real t604 = h_star_in_j_2 * t602 - h_star_in_j_1 * t603;
-    const jg_real t605 = A_ji_3 * cosine_0;
-    const jg_real t606 = h_star_in_j_0 * t603 - h_star_in_j_2 * t605;
-    const jg_real t607 = h_star_in_j_1 * t605 - h_star_in_j_0 * t602;
-    const jg_real t608 = C_j[8] * t602 - C_j[7] * t603;
-    const jg_real t609 = C_j[6] * t603 - C_j[8] * t605;
-    const jg_real t610 = C_j[7] * t605 - C_j[6] * t602;
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t563 + omega_i_in_j_1 * t564 + omega_i_in_j_2 * t565 - alphadot *
-        (C_j[3] * t557 + C_j[4] * t555 + C_j[5] * t554) - (omega_j[0] * t563 + omega_j[1] * t564 + omega_j[2] *
-        t565);
-    jac_phi_q_v_geometry[2] = -(omega_j[0] * t572 + omega_j[1] * t573 + omega_j[2] * t574 + (alphadot * (C_j[6] *
-        t568 + C_j[7] * t570 + C_j[8] * t571) - (omega_i_in_j_0 * t572 + omega_i_in_j_1 * t573 + omega_i_in_j_2 *
-        t574)));
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t575 + omega_i_in_j_1 * t576 + omega_i_in_j_2 * t577 - alphadot *
-        (C_j[3] * t569 + C_j[4] * t567 + C_j[5] * t566) - (omega_j[0] * t575 + omega_j[1] * t576 + omega_j[2] *
-        t577);
-    jac_phi_q_v_geometry[4] = -(omega_j[0] * t584 + omega_j[1] * t585 + omega_j[2] * t586 + (alphadot * (C_j[6] *
-        t580 + C_j[7] * t582 + C_j[8] * t583) - (omega_i_in_j_0 * t584 + omega_i_in_j_1 * t585 + omega_i_in_j_2 *
-        t586)));
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t587 + omega_i_in_j_1 * t588 + omega_i_in_j_2 * t589 - alphadot *
-        (C_j[3] * t581 + C_j[4] * t579 + C_j[5] * t578) - (omega_j[0] * t587 + omega_j[1] * t588 + omega_j[2] *
-        t589);
-    jac_phi_q_v_geometry[6] = -(omega_j[0] * t596 + omega_j[1] * t597 + omega_j[2] * t598 + (alphadot * (C_j[6] *
-        t592 + C_j[7] * t594 + C_j[8] * t595) - (omega_i_in_j_0 * t596 + omega_i_in_j_1 * t597 + omega_i_in_j_2 *
-        t598)));
-    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t599 + omega_i_in_j_1 * t600 + omega_i_in_j_2 * t601 + alphadot *
-        (C_j[3] * t593 + C_j[4] * t590 + C_j[5] * t591) - (omega_j[0] * t599 + omega_j[1] * t600 + omega_j[2] *
-        t601);
-    jac_phi_q_v_geometry[8] = -(omega_j[0] * t608 + omega_j[1] * t609 + omega_j[2] * t610 + (alphadot * (C_j[6] *
-        t604 + C_j[7] * t606 + C_j[8] * t607) - (omega_i_in_j_0 * t608 + omega_i_in_j_1 * t609 + omega_i_in_j_2 *
-        t610)));
-    const jg_real t611 = C_j[5] * t606 - C_j[4] * t607;
-    const jg_real t612 = C_j[3] * t607 - C_j[5] * t604;
-    const jg_real t613 = C_j[4] * t604 - C_j[3] * t606;
-    const jg_real t614 = A_ji_7 * cosine_0;
-    const jg_real t615 = A_ji_8 * cosine_0;
-    const jg_real t616 = h_star_in_j_2 * t614 - h_star_in_j_1 * t615;
-    const jg_real t617 = A_ji_6 * cosine_0;
-    const jg_real t618 = h_star_in_j_0 * t615 - h_star_in_j_2 * t617;
-    const jg_real t619 = h_star_in_j_1 * t617 - h_star_in_j_0 * t614;
-    const jg_real t620 = C_j[8] * t614 - C_j[7] * t615;
-    const jg_real t621 = C_j[6] * t615 - C_j[8] * t617;
-    const jg_real t622 = C_j[7] * t617 - C_j[6] * t614;
-    const jg_real t623 = C_j[5] * t618 - C_j[4] * t619;
-    const jg_real t624 = C_j[3] * t619 - C_j[5] * t616;
-    const jg_real t625 = C_j[4] * t616 - C_j[3] * t618;
-    const jg_real t626 = -(alphadot * pitch);
-    const jg_real t627 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
-    const jg_real t628 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
-    const jg_real t629 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
-    const jg_real t630 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
-    const jg_real t631 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
-    const jg_real t632 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t611 + omega_i_in_j_1 * t612 + omega_i_in_j_2 * t613 + alphadot *
-        (C_j[3] * t605 + C_j[4] * t602 + C_j[5] * t603) - (omega_j[0] * t611 + omega_j[1] * t612 + omega_j[2] *
-        t613);
-    jac_phi_q_v_geometry[10] = -(omega_j[0] * t620 + omega_j[1] * t621 + omega_j[2] * t622 + (alphadot * (C_j[6] *
-        t616 + C_j[7] * t618 + C_j[8] * t619) - (omega_i_in_j_0 * t620 + omega_i_in_j_1 * t621 + omega_i_in_j_2 *
-        t622)));
-    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t623 + omega_i_in_j_1 * t624 + omega_i_in_j_2 * t625 + alphadot *
-        (C_j[3] * t617 + C_j[4] * t614 + C_j[5] * t615) - (omega_j[0] * t623 + omega_j[1] * t624 + omega_j[2] *
-        t625);
-    jac_phi_q_v_geometry[12] = t626;
-    jac_phi_q_v_geometry[16] = t626;
-    jac_phi_q_v_geometry[20] = t626;
-    jac_phi_q_v_geometry[13] = -(alphadot * (C_j[6] * t627 + C_j[7] * t628 + C_j[8] * t629));
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t630 + omega_i_in_j_1 * t631 + omega_i_in_j_2 * t632 - (omega_j[0] *
-        t630 + omega_j[1] * t631 + omega_j[2] * t632);
-    const jg_real t633 = C_j[5] * t628 - C_j[4] * t629;
-    const jg_real t634 = C_j[3] * t629 - C_j[5] * t627;
-    const jg_real t635 = C_j[4] * t627 - C_j[3] * t628;
-    const jg_real t636 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
-    const jg_real t637 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
-    const jg_real t638 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
-    const jg_real t639 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
-    const jg_real t640 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
-    const jg_real t641 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    const jg_real t642 = C_j[5] * t637 - C_j[4] * t638;
-    const jg_real t643 = C_j[3] * t638 - C_j[5] * t636;
-    const jg_real t644 = C_j[4] * t636 - C_j[3] * t637;
-    const jg_real t645 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
-    const jg_real t646 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
-    const jg_real t647 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
-    const jg_real t648 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
-    const jg_real t649 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
-    const jg_real t650 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    const jg_real t651 = C_j[5] * t646 - C_j[4] * t647;
-    const jg_real t652 = C_j[3] * t647 - C_j[5] * t645;
-    const jg_real t653 = C_j[4] * t645 - C_j[3] * t646;
-    const jg_real t654 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t655 = omega_j[1] - omega_i_in_j_1;
-    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t633 + omega_i_in_j_1 * t634 + omega_i_in_j_2 * t635 - (omega_j[0] *
+    jac_phi_q_v_A_j[53] = t349 * f_star_cross_g_j_in_j_2 + omega_i_in_j_2 * t523 + (omega_i_in_j_0 * t521 - t342 *
+        f_star_cross_g_j_in_j_0 + (omega_i_in_j_1 * t522 - t450 * f_star_cross_g_j_in_j_1)) + alphadot * (C_j[5] *
+        t366 - (C_j[3] * t359 + C_j[4] * t458)) - (omega_j[0] * t521 + omega_j[1] * t522 + omega_j[2] * t523);
+    jac_phi_q_v_alpha[0] = -(omega_j[0] * t533 + omega_j[1] * t534 + omega_j[2] * t535 + (alphadot * (C_j[6] * t529
+        + C_j[7] * t531 + C_j[8] * t532) - (omega_i_in_j_0 * t533 + omega_i_in_j_1 * t534 + omega_i_in_j_2 *
+        t535)));
+    jac_phi_q_v_alpha[1] = omega_i_in_j_0 * t536 + omega_i_in_j_1 * t537 + omega_i_in_j_2 * t538 - alphadot *
+        (C_j[3] * t530 + C_j[4] * t528 + C_j[5] * t527) - (omega_j[0] * t536 + omega_j[1] * t537 + omega_j[2] *
+        t538);
+    jac_phi_q_v_geometry[0] = -(omega_j[0] * t545 + omega_j[1] * t546 + omega_j[2] * t547 + (alphadot * (C_j[6] *
+        t541 + C_j[7] * t543 + C_j[8] * t544) - (omega_i_in_j_0 * t545 + omega_i_in_j_1 * t546 + omega_i_in_j_2 *
+        t547)));
+    const jg_real t548 = C_j[5] * t543 - C_j[4] * t544;
+    const jg_real t549 = C_j[3] * t544 - C_j[5] * t541;
+    const jg_real t550 = C_j[4] * t541 - C_j[3] * t543;
+    const jg_real t551 = A_ji_5 * sine_0;
+    const jg_real t552 = A_ji_4 * sine_0;
+    const jg_real t553 = h_star_in_j_1 * t551 - h_star_in_j_2 * t552;
+    const jg_real t554 = A_ji_3 * sine_0;
+    const jg_real t555 = h_star_in_j_2 * t554 - h_star_in_j_0 * t551;
+    const jg_real t556 = h_star_in_j_0 * t552 - h_star_in_j_1 * t554;
+    const jg_real t557 = C_j[7] * t551 - C_j[8] * t552;
+    const jg_real t558 = C_j[8] * t554 - C_j[6] * t551;
+    const jg_real t559 = C_j[6] * t552 - C_j[7] * t554;
+    const jg_real t560 = C_j[5] * t555 - C_j[4] * t556;
+    const jg_real t561 = C_j[3] * t556 - C_j[5] * t553;
+    const jg_real t562 = C_j[4] * t553 - C_j[3] * t555;
+    const jg_real t563 = A_ji_8 * sine_0;
+    const jg_real t564 = A_ji_7 * sine_0;
+    const jg_real t565 = h_star_in_j_1 * t563 - h_star_in_j_2 * t564;
+    const jg_real t566 = A_ji_6 * sine_0;
+    const jg_real t567 = h_star_in_j_2 * t566 - h_star_in_j_0 * t563;
+    const jg_real t568 = h_star_in_j_0 * t564 - h_star_in_j_1 * t566;
+    const jg_real t569 = C_j[7] * t563 - C_j[8] * t564;
+    const jg_real t570 = C_j[8] * t566 - C_j[6] * t563;
+    const jg_real t571 = C_j[6] * t564 - C_j[7] * t566;
+    const jg_real t572 = C_j[5] * t567 - C_j[4] * t568;
+    const jg_real t573 = C_j[3] * t568 - C_j[5] * t565;
+    const jg_real t574 = C_j[4] * t565 - C_j[3] * t567;
+    const jg_real t575 = A_ji_1 * cosine_0;
+    const jg_real t576 = A_ji_2 * cosine_0;
+    const jg_real t577 = h_star_in_j_2 * t575 - h_star_in_j_1 * t576;
+    const jg_real t578 = A_ji_0 * cosine_0;
+    const jg_real t579 = h_star_in_j_0 * t576 - h_star_in_j_2 * t578;
+    const jg_real t580 = h_star_in_j_1 * t578 - h_star_in_j_0 * t575;
+    const jg_real t581 = C_j[8] * t575 - C_j[7] * t576;
+    const jg_real t582 = C_j[6] * t576 - C_j[8] * t578;
+    const jg_real t583 = C_j[7] * t578 - C_j[6] * t575;
+    const jg_real t584 = C_j[5] * t579 - C_j[4] * t580;
+    const jg_real t585 = C_j[3] * t580 - C_j[5] * t577;
+    const jg_real t586 = C_j[4] * t577 - C_j[3] * t579;
+    const jg_real t587 = A_ji_4 * cosine_0;
+    const jg_real t588 = A_ji_5 * cosine_0;
+    const jg_real t589 = h_star_in_j_2 * t587 - h_star_in_j_1 * t588;
+    const jg_real t590 = A_ji_3 * cosine_0;
+    const jg_real t591 = h_star_in_j_0 * t588 - h_star_in_j_2 * t590;
+    const jg_real t592 = h_star_in_j_1 * t590 - h_star_in_j_0 * t587;
+    const jg_real t593 = C_j[8] * t587 - C_j[7] * t588;
+    const jg_real t594 = C_j[6] * t588 - C_j[8] * t590;
+    const jg_real t595 = C_j[7] * t590 - C_j[6] * t587;
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t548 + omega_i_in_j_1 * t549 + omega_i_in_j_2 * t550 - alphadot *
+        (C_j[3] * t542 + C_j[4] * t540 + C_j[5] * t539) - (omega_j[0] * t548 + omega_j[1] * t549 + omega_j[2] *
+        t550);
+    jac_phi_q_v_geometry[2] = -(omega_j[0] * t557 + omega_j[1] * t558 + omega_j[2] * t559 + (alphadot * (C_j[6] *
+        t553 + C_j[7] * t555 + C_j[8] * t556) - (omega_i_in_j_0 * t557 + omega_i_in_j_1 * t558 + omega_i_in_j_2 *
+        t559)));
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t560 + omega_i_in_j_1 * t561 + omega_i_in_j_2 * t562 - alphadot *
+        (C_j[3] * t554 + C_j[4] * t552 + C_j[5] * t551) - (omega_j[0] * t560 + omega_j[1] * t561 + omega_j[2] *
+        t562);
+    jac_phi_q_v_geometry[4] = -(omega_j[0] * t569 + omega_j[1] * t570 + omega_j[2] * t571 + (alphadot * (C_j[6] *
+        t565 + C_j[7] * t567 + C_j[8] * t568) - (omega_i_in_j_0 * t569 + omega_i_in_j_1 * t570 + omega_i_in_j_2 *
+        t571)));
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t572 + omega_i_in_j_1 * t573 + omega_i_in_j_2 * t574 - alphadot *
+        (C_j[3] * t566 + C_j[4] * t564 + C_j[5] * t563) - (omega_j[0] * t572 + omega_j[1] * t573 + omega_j[2] *
+        t574);
+    jac_phi_q_v_geometry[6] = -(omega_j[0] * t581 + omega_j[1] * t582 + omega_j[2] * t583 + (alphadot * (C_j[6] *
+        t577 + C_j[7] * t579 + C_j[8] * t580) - (omega_i_in_j_0 * t581 + omega_i_in_j_1 * t582 + omega_i_in_j_2 *
+        t583)));
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t584 + omega_i_in_j_1 * t585 + omega_i_in_j_2 * t586 + alphadot *
+        (C_j[3] * t578 + C_j[4] * t575 + C_j[5] * t576) - (omega_j[0] * t584 + omega_j[1] * t585 + omega_j[2] *
+        t586);
+    jac_phi_q_v_geometry[8] = -(omega_j[0] * t593 + omega_j[1] * t594 + omega_j[2] * t595 + (alphadot * (C_j[6] *
+        t589 + C_j[7] * t591 + C_j[8] * t592) - (omega_i_in_j_0 * t593 + omega_i_in_j_1 * t594 + omega_i_in_j_2 *
+        t595)));
+    const jg_real t596 = C_j[5] * t591 - C_j[4] * t592;
+    const jg_real t597 = C_j[3] * t592 - C_j[5] * t589;
+    const jg_real t598 = C_j[4] * t589 - C_j[3] * t591;
+    const jg_real t599 = A_ji_7 * cosine_0;
+    const jg_real t600 = A_ji_8 * cosine_0;
+    const jg_real t601 = h_star_in_j_2 * t599 - h_star_in_j_1 * t600;
+    const jg_real t602 = A_ji_6 * cosine_0;
+    const jg_real t603 = h_star_in_j_0 * t600 - h_star_in_j_2 * t602;
+    const jg_real t604 = h_star_in_j_1 * t602 - h_star_in_j_0 * t599;
+    const jg_real t605 = C_j[8] * t599 - C_j[7] * t600;
+    const jg_real t606 = C_j[6] * t600 - C_j[8] * t602;
+    const jg_real t607 = C_j[7] * t602 - C_j[6] * t599;
+    const jg_real t608 = C_j[5] * t603 - C_j[4] * t604;
+    const jg_real t609 = C_j[3] * t604 - C_j[5] * t601;
+    const jg_real t610 = C_j[4] * t601 - C_j[3] * t603;
+    const jg_real t611 = -(alphadot * pitch);
+    const jg_real t612 = A_ji_2 * g_star_in_j_1 - A_ji_1 * g_star_in_j_2;
+    const jg_real t613 = A_ji_0 * g_star_in_j_2 - A_ji_2 * g_star_in_j_0;
+    const jg_real t614 = A_ji_1 * g_star_in_j_0 - A_ji_0 * g_star_in_j_1;
+    const jg_real t615 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
+    const jg_real t616 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
+    const jg_real t617 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t596 + omega_i_in_j_1 * t597 + omega_i_in_j_2 * t598 + alphadot *
+        (C_j[3] * t590 + C_j[4] * t587 + C_j[5] * t588) - (omega_j[0] * t596 + omega_j[1] * t597 + omega_j[2] *
+        t598);
+    jac_phi_q_v_geometry[10] = -(omega_j[0] * t605 + omega_j[1] * t606 + omega_j[2] * t607 + (alphadot * (C_j[6] *
+        t601 + C_j[7] * t603 + C_j[8] * t604) - (omega_i_in_j_0 * t605 + omega_i_in_j_1 * t606 + omega_i_in_j_2 *
+        t607)));
+    jac_phi_q_v_geometry[11] = omega_i_in_j_0 * t608 + omega_i_in_j_1 * t609 + omega_i_in_j_2 * t610 + alphadot *
+        (C_j[3] * t602 + C_j[4] * t599 + C_j[5] * t600) - (omega_j[0] * t608 + omega_j[1] * t609 + omega_j[2] *
+        t610);
+    jac_phi_q_v_geometry[12] = t611;
+    jac_phi_q_v_geometry[16] = t611;
+    jac_phi_q_v_geometry[20] = t611;
+    jac_phi_q_v_geometry[13] = -(alphadot * (C_j[6] * t612 + C_j[7] * t613 + C_j[8] * t614));
+    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t615 + omega_i_in_j_1 * t616 + omega_i_in_j_2 * t617 - (omega_j[0] *
+        t615 + omega_j[1] * t616 + omega_j[2] * t617);
+    const jg_real t618 = C_j[5] * t613 - C_j[4] * t614;
+    const jg_real t619 = C_j[3] * t614 - C_j[5] * t612;
+    const jg_real t620 = C_j[4] * t612 - C_j[3] * t613;
+    const jg_real t621 = A_ji_5 * g_star_in_j_1 - A_ji_4 * g_star_in_j_2;
+    const jg_real t622 = A_ji_3 * g_star_in_j_2 - A_ji_5 * g_star_in_j_0;
+    const jg_real t623 = A_ji_4 * g_star_in_j_0 - A_ji_3 * g_star_in_j_1;
+    const jg_real t624 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
+    const jg_real t625 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
+    const jg_real t626 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
+    const jg_real t627 = C_j[5] * t622 - C_j[4] * t623;
+    const jg_real t628 = C_j[3] * t623 - C_j[5] * t621;
+    const jg_real t629 = C_j[4] * t621 - C_j[3] * t622;
+    const jg_real t630 = A_ji_8 * g_star_in_j_1 - A_ji_7 * g_star_in_j_2;
+    const jg_real t631 = A_ji_6 * g_star_in_j_2 - A_ji_8 * g_star_in_j_0;
+    const jg_real t632 = A_ji_7 * g_star_in_j_0 - A_ji_6 * g_star_in_j_1;
+    const jg_real t633 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
+    const jg_real t634 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
+    const jg_real t635 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
+    const jg_real t636 = C_j[5] * t631 - C_j[4] * t632;
+    const jg_real t637 = C_j[3] * t632 - C_j[5] * t630;
+    const jg_real t638 = C_j[4] * t630 - C_j[3] * t631;
+    const jg_real t639 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t640 = omega_j[1] - omega_i_in_j_1;
+    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t618 + omega_i_in_j_1 * t619 + omega_i_in_j_2 * t620 - (omega_j[0] *
+        t618 + omega_j[1] * t619 + omega_j[2] * t620);
+    jac_phi_q_v_geometry[17] = -(alphadot * (C_j[6] * t621 + C_j[7] * t622 + C_j[8] * t623));
+    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t624 + omega_i_in_j_1 * t625 + omega_i_in_j_2 * t626 - (omega_j[0] *
+        t624 + omega_j[1] * t625 + omega_j[2] * t626);
+    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t627 + omega_i_in_j_1 * t628 + omega_i_in_j_2 * t629 - (omega_j[0] *
+        t627 + omega_j[1] * t628 + omega_j[2] * t629);
+    jac_phi_q_v_geometry[21] = -(alphadot * (C_j[6] * t630 + C_j[7] * t631 + C_j[8] * t632));
+    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t633 + omega_i_in_j_1 * t634 + omega_i_in_j_2 * t635 - (omega_j[0] *
         t633 + omega_j[1] * t634 + omega_j[2] * t635);
-    jac_phi_q_v_geometry[17] = -(alphadot * (C_j[6] * t636 + C_j[7] * t637 + C_j[8] * t638));
-    jac_phi_q_v_geometry[18] = omega_i_in_j_0 * t639 + omega_i_in_j_1 * t640 + omega_i_in_j_2 * t641 - (omega_j[0] *
-        t639 + omega_j[1] * t640 + omega_j[2] * t641);
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t642 + omega_i_in_j_1 * t643 + omega_i_in_j_2 * t644 - (omega_j[0] *
-        t642 + omega_j[1] * t643 + omega_j[2] * t644);
-    jac_phi_q_v_geometry[21] = -(alphadot * (C_j[6] * t645 + C_j[7] * t646 + C_j[8] * t647));
-    jac_phi_q_v_geometry[22] = omega_i_in_j_0 * t648 + omega_i_in_j_1 * t649 + omega_i_in_j_2 * t650 - (omega_j[0] *
-        t648 + omega_j[1] * t649 + omega_j[2] * t650);
-    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t651 + omega_i_in_j_1 * t652 + omega_i_in_j_2 * t653 - (omega_j[0] *
-        t651 + omega_j[1] * t652 + omega_j[2] * t653);
-    jac_phi_q_v_geometry[24] = -(A_ji_1 * t654 + A_ji_2 * t655);
-    const jg_real t656 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[25] = -(A_ji_4 * t654 + A_ji_5 * t655);
-    jac_phi_q_v_geometry[26] = -(A_ji_7 * t654 + A_ji_8 * t655);
-    jac_phi_q_v_geometry[27] = A_ji_0 * t654 - A_ji_2 * t656;
-    jac_phi_q_v_geometry[28] = A_ji_3 * t654 - A_ji_5 * t656;
-    jac_phi_q_v_geometry[29] = A_ji_6 * t654 - A_ji_8 * t656;
-    jac_phi_q_v_geometry[30] = A_ji_0 * t655 + A_ji_1 * t656;
-    jac_phi_q_v_geometry[31] = A_ji_3 * t655 + A_ji_4 * t656;
-    jac_phi_q_v_geometry[32] = A_ji_6 * t655 + A_ji_7 * t656;
-    jac_phi_q_v_geometry[33] = omega_i_in_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
+    jac_phi_q_v_geometry[23] = omega_i_in_j_0 * t636 + omega_i_in_j_1 * t637 + omega_i_in_j_2 * t638 - (omega_j[0] *
+        t636 + omega_j[1] * t637 + omega_j[2] * t638);
+    jac_phi_q_v_geometry[24] = -(A_ji_1 * t639 + A_ji_2 * t640);
+    const jg_real t641 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[25] = -(A_ji_4 * t639 + A_ji_5 * t640);
+    jac_phi_q_v_geometry[26] = -(A_ji_7 * t639 + A_ji_8 * t640);
+    jac_phi_q_v_geometry[27] = A_ji_0 * t639 - A_ji_2 * t641;
+    jac_phi_q_v_geometry[28] = A_ji_3 * t639 - A_ji_5 * t641;
+    jac_phi_q_v_geometry[29] = A_ji_6 * t639 - A_ji_8 * t641;
+    jac_phi_q_v_geometry[30] = A_ji_0 * t640 + A_ji_1 * t641;
+    jac_phi_q_v_geometry[31] = A_ji_3 * t640 + A_ji_4 * t641;
+    jac_phi_q_v_geometry[32] = A_ji_6 * t640 + A_ji_7 * t641;
+    jac_phi_q_v_geometry[33] = h_star_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * h_star_in_j_1 - (omega_j[1] *
         h_star_in_j_2 - omega_j[2] * h_star_in_j_1);
-    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - omega_i_in_j_0 * h_star_in_j_2 - (omega_j[2] *
+    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * h_star_in_j_0 - h_star_in_j_2 * omega_i_in_j_0 - (omega_j[2] *
         h_star_in_j_0 - omega_j[0] * h_star_in_j_2);
     jac_phi_q_v_geometry[35] = omega_i_in_j_0 * h_star_in_j_1 - omega_i_in_j_1 * h_star_in_j_0 - (omega_j[0] *
         h_star_in_j_1 - omega_j[1] * h_star_in_j_0);
@@ -1352,86 +1335,77 @@ static void jg_screw_parametric_phi_q_v_jacobian(const jg_real *r_i, const jg_re
         - (omega_i_in_j_1 * g_star_in_j_2 - omega_i_in_j_2 * g_star_in_j_1)));
     jac_phi_q_v_geometry[40] = -(omega_j[2] * g_star_in_j_0 - omega_j[0] * g_star_in_j_2 + (alphadot * f_star_in_j_1
         - (omega_i_in_j_2 * g_star_in_j_0 - omega_i_in_j_0 * g_star_in_j_2)));
-    const jg_real t657 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
-    const jg_real t658 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
+    const jg_real t642 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t643 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t644 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
     jac_phi_q_v_geometry[41] = -(omega_j[0] * g_star_in_j_1 - omega_j[1] * g_star_in_j_0 + (alphadot * f_star_in_j_2
         - (omega_i_in_j_0 * g_star_in_j_1 - omega_i_in_j_1 * g_star_in_j_0)));
     jac_phi_q_v_geometry[42] = -(alphadot * C_i[6]);
     jac_phi_q_v_geometry[43] = -(alphadot * C_i[7]);
     jac_phi_q_v_geometry[44] = -(alphadot * C_i[8]);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t657;
-    jac_phi_q_v_velocity[3] = t657;
-    jac_phi_q_v_velocity[2] = t658;
-    jac_phi_q_v_velocity[6] = t658;
-    const jg_real t659 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    const jg_real t660 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t661 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t662 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t659;
-    jac_phi_q_v_velocity[7] = t659;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t660 + A_ji_1 * t661 + A_ji_2 * t662;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t660 + A_ji_4 * t661 + A_ji_5 * t662;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t660 + A_ji_7 * t661 + A_ji_8 * t662;
-    jac_phi_q_v_velocity[12] = A_ji_0 * g_star_cross_h_j_in_j_0 + A_ji_1 * g_star_cross_h_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[3] = A_ji_0 * t642 + A_ji_1 * t643 + A_ji_2 * t644;
+    const jg_real t645 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t646 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t647 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t642 + A_ji_4 * t643 + A_ji_5 * t644;
+    jac_phi_q_v_velocity[5] = A_ji_6 * t642 + A_ji_7 * t643 + A_ji_8 * t644;
+    jac_phi_q_v_velocity[6] = A_ji_0 * g_star_cross_h_j_in_j_0 + A_ji_1 * g_star_cross_h_j_in_j_1 + A_ji_2 *
         g_star_cross_h_j_in_j_2;
-    const jg_real t663 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t664 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t665 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[13] = A_ji_0 * h_star_cross_f_j_in_j_0 + A_ji_1 * h_star_cross_f_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[7] = A_ji_0 * h_star_cross_f_j_in_j_0 + A_ji_1 * h_star_cross_f_j_in_j_1 + A_ji_2 *
         h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_star_cross_g_j_in_j_0 + A_ji_1 * f_star_cross_g_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[8] = A_ji_0 * f_star_cross_g_j_in_j_0 + A_ji_1 * f_star_cross_g_j_in_j_1 + A_ji_2 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t663 + A_ji_1 * t664 + A_ji_2 * t665;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t663 + A_ji_4 * t664 + A_ji_5 * t665;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t663 + A_ji_7 * t664 + A_ji_8 * t665;
-    jac_phi_q_v_velocity[18] = A_ji_3 * g_star_cross_h_j_in_j_0 + A_ji_4 * g_star_cross_h_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[9] = A_ji_0 * t645 + A_ji_1 * t646 + A_ji_2 * t647;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t645 + A_ji_4 * t646 + A_ji_5 * t647;
+    jac_phi_q_v_velocity[11] = A_ji_6 * t645 + A_ji_7 * t646 + A_ji_8 * t647;
+    const jg_real t648 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t649 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t650 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[12] = A_ji_3 * g_star_cross_h_j_in_j_0 + A_ji_4 * g_star_cross_h_j_in_j_1 + A_ji_5 *
         g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[19] = A_ji_3 * h_star_cross_f_j_in_j_0 + A_ji_4 * h_star_cross_f_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[13] = A_ji_3 * h_star_cross_f_j_in_j_0 + A_ji_4 * h_star_cross_f_j_in_j_1 + A_ji_5 *
         h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[20] = A_ji_3 * f_star_cross_g_j_in_j_0 + A_ji_4 * f_star_cross_g_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[14] = A_ji_3 * f_star_cross_g_j_in_j_0 + A_ji_4 * f_star_cross_g_j_in_j_1 + A_ji_5 *
         f_star_cross_g_j_in_j_2;
-    const jg_real t666 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t667 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t668 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t666 + A_ji_1 * t667 + A_ji_2 * t668;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t666 + A_ji_4 * t667 + A_ji_5 * t668;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t666 + A_ji_7 * t667 + A_ji_8 * t668;
-    jac_phi_q_v_velocity[24] = A_ji_6 * g_star_cross_h_j_in_j_0 + A_ji_7 * g_star_cross_h_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[15] = A_ji_0 * t648 + A_ji_1 * t649 + A_ji_2 * t650;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t648 + A_ji_4 * t649 + A_ji_5 * t650;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t648 + A_ji_7 * t649 + A_ji_8 * t650;
+    jac_phi_q_v_velocity[18] = A_ji_6 * g_star_cross_h_j_in_j_0 + A_ji_7 * g_star_cross_h_j_in_j_1 + A_ji_8 *
         g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[25] = A_ji_6 * h_star_cross_f_j_in_j_0 + A_ji_7 * h_star_cross_f_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[19] = A_ji_6 * h_star_cross_f_j_in_j_0 + A_ji_7 * h_star_cross_f_j_in_j_1 + A_ji_8 *
         h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[26] = A_ji_6 * f_star_cross_g_j_in_j_0 + A_ji_7 * f_star_cross_g_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[20] = A_ji_6 * f_star_cross_g_j_in_j_0 + A_ji_7 * f_star_cross_g_j_in_j_1 + A_ji_8 *
         f_star_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = -g_star_cross_h_j_in_j_0;
-    jac_phi_q_v_velocity[40] = -h_star_cross_f_j_in_j_0;
-    jac_phi_q_v_velocity[41] = -f_star_cross_g_j_in_j_0;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_1;
-    jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_1;
-    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = -g_star_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[52] = -h_star_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[53] = -f_star_cross_g_j_in_j_2;
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = -g_star_cross_h_j_in_j_0;
+    jac_phi_q_v_velocity[34] = -h_star_cross_f_j_in_j_0;
+    jac_phi_q_v_velocity[35] = -f_star_cross_g_j_in_j_0;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = -g_star_cross_h_j_in_j_1;
+    jac_phi_q_v_velocity[40] = -h_star_cross_f_j_in_j_1;
+    jac_phi_q_v_velocity[41] = -f_star_cross_g_j_in_j_1;
+    jac_phi_q_v_velocity[42] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_v_velocity[44] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[6] * f_star_in_j_0 + C_j[7] * f_star_in_j_1 + C_j[8] * f_star_in_j_2;
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    jac_phi_q_v_velocity[54] = -(pitch * C_i[6]);
-    jac_phi_q_v_velocity[55] = -(pitch * C_i[7]);
-    jac_phi_q_v_velocity[56] = -(pitch * C_i[8]);
-    jac_phi_q_v_velocity[57] = -f_star_dot_h_j;
-    jac_phi_q_v_velocity[58] = g_star_dot_g_j;
+    jac_phi_q_v_velocity[45] = -g_star_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[46] = -h_star_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[47] = -f_star_cross_g_j_in_j_2;
+    jac_phi_q_v_velocity[48] = -(pitch * C_i[6]);
+    jac_phi_q_v_velocity[49] = -(pitch * C_i[7]);
+    jac_phi_q_v_velocity[50] = -(pitch * C_i[8]);
+    jac_phi_q_v_velocity[51] = -f_star_dot_h_j;
+    jac_phi_q_v_velocity[52] = g_star_dot_g_j;
 }
 
 static void jg_screw_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
@@ -2846,7 +2820,7 @@ int jac_jg_screw_parametric_phi_q_v_external(const double **arg, double **res, c
     double unwanted_3[54];
     double unwanted_4[2];
     double unwanted_5[45];
-    double unwanted_6[59];
+    double unwanted_6[53];
     (void)iw;
     (void)w;
     (void)mem;
@@ -2955,9 +2929,8 @@ const casadi_int *jac_jg_screw_parametric_phi_q_v_external_sparsity_out(casadi_i
         4, 5, 5, 5, 3, 3, 3, 0, 1, 2
     };
     static const casadi_int pattern_6[] = {
-        6, 13, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 59, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0,
-        1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3,
-        4, 5, 0, 1, 2, 3, 5
+        6, 13, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 53, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
+        2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 5
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

@@ -51,10 +51,8 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_r_i[7] = -A_i[5];
     /* s_j_world = s_j, world axes */
     const jg_real s_j_world_0 = s_j[0] * A_j[0] + s_j[1] * A_j[3] + s_j[2] * A_j[6];
-    /* v_0_world = r_j - r_i, world axes */
-    const jg_real v_0_world_0 = r_j[0] - r_i[0];
     /* e_ij_world = r_j + s_j - r_i, world axes */
-    const jg_real e_ij_world_0 = v_0_world_0 + s_j_world_0;
+    const jg_real e_ij_world_0 = r_j[0] - r_i[0] + s_j_world_0;
     /* h_j_world = h_j, world axes */
     const jg_real h_j_world_0 = A_j[0] * C_j[6] + A_j[3] * C_j[7] + A_j[6] * C_j[8];
     /* f_j_world = f_j, world axes */
@@ -68,13 +66,11 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_A_i[2] = h_j_world_0 * C_i[3];
     jac_phi_A_i[3] = C_i[0] * f_j_world_0;
     const jg_real s_j_world_1 = s_j[0] * A_j[1] + s_j[1] * A_j[4] + s_j[2] * A_j[7];
-    const jg_real v_0_world_1 = r_j[1] - r_i[1];
-    const jg_real e_ij_world_1 = v_0_world_1 + s_j_world_1;
+    const jg_real e_ij_world_1 = r_j[1] - r_i[1] + s_j_world_1;
     const jg_real h_j_world_1 = A_j[1] * C_j[6] + A_j[4] * C_j[7] + A_j[7] * C_j[8];
     const jg_real f_j_world_1 = A_j[1] * C_j[0] + A_j[4] * C_j[1] + A_j[7] * C_j[2];
     const jg_real s_j_world_2 = s_j[0] * A_j[2] + s_j[1] * A_j[5] + s_j[2] * A_j[8];
-    const jg_real v_0_world_2 = r_j[2] - r_i[2];
-    const jg_real e_ij_world_2 = v_0_world_2 + s_j_world_2;
+    const jg_real e_ij_world_2 = r_j[2] - r_i[2] + s_j_world_2;
     jac_phi_A_i[4] = e_ij_world_1;
     jac_phi_A_i[16] = e_ij_world_1;
     jac_phi_A_i[28] = e_ij_world_1;
@@ -166,39 +162,39 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_A_j[48] = s_j[2] * A_i[2];
     jac_phi_A_j[49] = s_j[2] * A_i[5];
     jac_phi_A_j[50] = s_j[2] * A_i[8];
-    const jg_real t21 = -(pitch * C_i[6]);
-    const jg_real t22 = -(pitch * C_i[7]);
-    const jg_real t23 = -(pitch * C_i[8]);
+    const jg_real t18 = -(pitch * C_i[6]);
+    const jg_real t19 = -(pitch * C_i[7]);
+    const jg_real t20 = -(pitch * C_i[8]);
     jac_phi_A_j[51] = C_j[8] * f_i_world_2;
     jac_phi_A_j[52] = C_j[8] * g_i_world_2;
     jac_phi_A_j[53] = f_i_world_2 * C_j[2];
-    jac_phi_alpha[0] = t21;
-    jac_phi_geometry[36] = t21;
-    jac_phi_alpha[1] = t22;
-    jac_phi_geometry[37] = t22;
-    jac_phi_alpha[2] = t23;
-    jac_phi_geometry[38] = t23;
-    const jg_real t24 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
-    const jg_real t25 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
+    jac_phi_alpha[0] = t18;
+    jac_phi_geometry[36] = t18;
+    jac_phi_alpha[1] = t19;
+    jac_phi_geometry[37] = t19;
+    jac_phi_alpha[2] = t20;
+    jac_phi_geometry[38] = t20;
+    const jg_real t21 = A_i[0] * h_j_world_0 + A_i[1] * h_j_world_1 + A_i[2] * h_j_world_2;
+    const jg_real t22 = A_i[3] * h_j_world_0 + A_i[4] * h_j_world_1 + A_i[5] * h_j_world_2;
     jac_phi_alpha[3] = jg_sin(alpha[0]);
     jac_phi_geometry[0] = JG_REAL(-1.0);
     jac_phi_geometry[1] = JG_REAL(-1.0);
     jac_phi_geometry[2] = JG_REAL(-1.0);
-    jac_phi_geometry[3] = t24;
-    jac_phi_geometry[9] = t24;
+    jac_phi_geometry[3] = t21;
+    jac_phi_geometry[9] = t21;
     jac_phi_geometry[4] = A_i[0] * f_j_world_0 + A_i[1] * f_j_world_1 + A_i[2] * f_j_world_2;
-    jac_phi_geometry[5] = t25;
-    jac_phi_geometry[10] = t25;
-    const jg_real t26 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
-    const jg_real t27 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
-    const jg_real t28 = -(pitch * t27);
+    jac_phi_geometry[5] = t22;
+    jac_phi_geometry[10] = t22;
+    const jg_real t23 = A_i[6] * h_j_world_0 + A_i[7] * h_j_world_1 + A_i[8] * h_j_world_2;
+    const jg_real t24 = alpha[0] + theta_0 + revolutions * JG_REAL(6.283185307179586);
+    const jg_real t25 = -(pitch * t24);
     jac_phi_geometry[6] = A_i[3] * f_j_world_0 + A_i[4] * f_j_world_1 + A_i[5] * f_j_world_2;
-    jac_phi_geometry[7] = t26;
-    jac_phi_geometry[11] = t26;
+    jac_phi_geometry[7] = t23;
+    jac_phi_geometry[11] = t23;
     jac_phi_geometry[8] = A_i[6] * f_j_world_0 + A_i[7] * f_j_world_1 + A_i[8] * f_j_world_2;
-    jac_phi_geometry[12] = t28;
-    jac_phi_geometry[13] = t28;
-    jac_phi_geometry[14] = t28;
+    jac_phi_geometry[12] = t25;
+    jac_phi_geometry[13] = t25;
+    jac_phi_geometry[14] = t25;
     jac_phi_geometry[15] = A_j[0] * A_i[0] + A_j[1] * A_i[1] + A_j[2] * A_i[2];
     jac_phi_geometry[16] = A_j[0] * A_i[3] + A_j[1] * A_i[4] + A_j[2] * A_i[5];
     jac_phi_geometry[17] = A_j[0] * A_i[6] + A_j[1] * A_i[7] + A_j[2] * A_i[8];
@@ -208,25 +204,25 @@ static void jg_screw_parametric_table4_phi_jacobian(const jg_real *JG_RESTRICT r
     jac_phi_geometry[21] = A_j[6] * A_i[0] + A_j[7] * A_i[1] + A_j[8] * A_i[2];
     jac_phi_geometry[22] = A_j[6] * A_i[3] + A_j[7] * A_i[4] + A_j[8] * A_i[5];
     jac_phi_geometry[23] = A_j[6] * A_i[6] + A_j[7] * A_i[7] + A_j[8] * A_i[8];
-    const jg_real t29 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
-    const jg_real t30 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
-    const jg_real t31 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
-    jac_phi_geometry[24] = t29;
-    jac_phi_geometry[27] = t29;
-    jac_phi_geometry[25] = t30;
-    jac_phi_geometry[29] = t30;
-    jac_phi_geometry[26] = t31;
-    jac_phi_geometry[31] = t31;
+    const jg_real t26 = A_j[0] * f_i_world_0 + A_j[1] * f_i_world_1 + A_j[2] * f_i_world_2;
+    const jg_real t27 = A_j[3] * f_i_world_0 + A_j[4] * f_i_world_1 + A_j[5] * f_i_world_2;
+    const jg_real t28 = A_j[6] * f_i_world_0 + A_j[7] * f_i_world_1 + A_j[8] * f_i_world_2;
+    jac_phi_geometry[24] = t26;
+    jac_phi_geometry[27] = t26;
+    jac_phi_geometry[25] = t27;
+    jac_phi_geometry[29] = t27;
+    jac_phi_geometry[26] = t28;
+    jac_phi_geometry[31] = t28;
     jac_phi_geometry[28] = A_j[0] * g_i_world_0 + A_j[1] * g_i_world_1 + A_j[2] * g_i_world_2;
     jac_phi_geometry[30] = A_j[3] * g_i_world_0 + A_j[4] * g_i_world_1 + A_j[5] * g_i_world_2;
-    const jg_real t32 = JG_REAL(6.283185307179586) * pitch;
+    const jg_real t29 = JG_REAL(6.283185307179586) * pitch;
     jac_phi_geometry[32] = A_j[6] * g_i_world_0 + A_j[7] * g_i_world_1 + A_j[8] * g_i_world_2;
-    jac_phi_geometry[33] = -(C_i[6] * t27);
-    jac_phi_geometry[34] = -(C_i[7] * t27);
-    jac_phi_geometry[35] = -(C_i[8] * t27);
-    jac_phi_geometry[39] = -(C_i[6] * t32);
-    jac_phi_geometry[40] = -(C_i[7] * t32);
-    jac_phi_geometry[41] = -(C_i[8] * t32);
+    jac_phi_geometry[33] = -(C_i[6] * t24);
+    jac_phi_geometry[34] = -(C_i[7] * t24);
+    jac_phi_geometry[35] = -(C_i[8] * t24);
+    jac_phi_geometry[39] = -(C_i[6] * t29);
+    jac_phi_geometry[40] = -(C_i[7] * t29);
+    jac_phi_geometry[41] = -(C_i[8] * t29);
 }
 
 static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, const jg_real *A_i, const jg_real *r_j,
@@ -238,7 +234,6 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, cons
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
     const jg_real pitch = geometry[24];
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -254,14 +249,14 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, cons
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_v_velocity[30] = A_ji_1;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[27] = A_ji_0;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[24] = A_ji_1;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[21] = A_ji_0;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[25] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
@@ -275,7 +270,7 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, cons
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[22] = A_ji_3;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -313,634 +308,617 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, cons
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real t42 = A_j[0] * v_3_in_j_0;
-    const jg_real t43 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t44 = A_j[6] * omega_i[0] + omega_i[1] * t43;
-    const jg_real t45 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t46 = A_j[3] * omega_i[0] + omega_i[1] * t45;
-    const jg_real t47 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
-    const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
+    /* v_3_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_2_in_j_0 + v_1_in_j_0;
+    const jg_real t41 = A_j[0] * v_3_in_j_0;
+    const jg_real t42 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    const jg_real t43 = A_j[6] * omega_i[0] + omega_i[1] * t42;
+    const jg_real t44 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t45 = A_j[3] * omega_i[0] + omega_i[1] * t44;
+    const jg_real t46 = e_ij_in_j_1 * t43 - e_ij_in_j_2 * t45;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real t56 = A_j[3] * v_3_in_j_1;
-    const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real v_3_in_j_1 = v_2_in_j_1 + v_1_in_j_1;
+    const jg_real t53 = A_j[3] * v_3_in_j_1;
+    const jg_real t54 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real t55 = A_j[0] * omega_i[0] + omega_i[1] * t54;
+    const jg_real t56 = e_ij_in_j_2 * t55 - t43 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
+    const jg_real v_3_in_j_2 = v_2_in_j_2 + v_1_in_j_2;
+    const jg_real t61 = A_j[6] * v_3_in_j_2;
+    const jg_real t62 = t45 * e_ij_in_j_0 - e_ij_in_j_1 * t55;
+    /* f_i_in_j = f_i, axes of body j */
+    const jg_real f_i_in_j_0 = A_ji_0 * C_i[0] + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
+    const jg_real t64 = C_j[8] * t45 - C_j[7] * t43;
     /* omega_i_cross_h_j_in_j = omega_i x h_j, axes of body j */
     const jg_real omega_i_cross_h_j_in_j_0 = C_j[8] * omega_i_in_j_1 - C_j[7] * omega_i_in_j_2;
-    const jg_real t67 = t47 * C_i[1] + A_j[0] * C_i[0];
-    /* f_i_in_j = f_i, axes of body j */
-    const jg_real f_i_in_j_0 = A_ji_3 * C_i[1] + A_ji_0 * C_i[0] + A_ji_6 * C_i[2];
-    const jg_real t69 = C_j[8] * t46 - t44 * C_j[7];
-    const jg_real omega_i_cross_h_j_in_j_1 = omega_i_in_j_2 * C_j[6] - C_j[8] * omega_i_in_j_0;
-    const jg_real t71 = t45 * C_i[1] + A_j[3] * C_i[0];
-    const jg_real t72 = t44 * C_j[6] - C_j[8] * t57;
-    const jg_real f_i_in_j_1 = A_ji_4 * C_i[1] + A_ji_1 * C_i[0] + A_ji_7 * C_i[2];
-    const jg_real omega_i_cross_h_j_in_j_2 = C_j[7] * omega_i_in_j_0 - C_j[6] * omega_i_in_j_1;
-    const jg_real t75 = t43 * C_i[1] + A_j[6] * C_i[0];
-    const jg_real t76 = C_j[7] * t57 - t46 * C_j[6];
+    const jg_real t66 = A_j[0] * C_i[0] + t54 * C_i[1];
+    const jg_real f_i_in_j_1 = A_ji_1 * C_i[0] + A_ji_4 * C_i[1] + A_ji_7 * C_i[2];
+    const jg_real t68 = C_j[6] * t43 - C_j[8] * t55;
+    const jg_real omega_i_cross_h_j_in_j_1 = C_j[6] * omega_i_in_j_2 - C_j[8] * omega_i_in_j_0;
+    const jg_real t70 = A_j[3] * C_i[0] + t44 * C_i[1];
     const jg_real f_i_in_j_2 = A_ji_5 * C_i[1] + A_ji_2 * C_i[0] + A_ji_8 * C_i[2];
+    const jg_real t72 = C_j[7] * t55 - C_j[6] * t45;
+    const jg_real omega_i_cross_h_j_in_j_2 = C_j[7] * omega_i_in_j_0 - C_j[6] * omega_i_in_j_1;
+    const jg_real t74 = t42 * C_i[1] + A_j[6] * C_i[0];
     /* omega_j_cross_h_j_in_j = omega_j x h_j, axes of body j */
     const jg_real omega_j_cross_h_j_in_j_0 = omega_j[1] * C_j[8] - omega_j[2] * C_j[7];
     const jg_real omega_j_cross_h_j_in_j_1 = omega_j[2] * C_j[6] - omega_j[0] * C_j[8];
     const jg_real omega_j_cross_h_j_in_j_2 = omega_j[0] * C_j[7] - omega_j[1] * C_j[6];
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_0 = A_ji_3 * C_i[4] + A_ji_0 * C_i[3] + A_ji_6 * C_i[5];
-    const jg_real t82 = t47 * C_i[4] + A_j[0] * C_i[3];
+    const jg_real t79 = t54 * C_i[4] + A_j[0] * C_i[3];
     const jg_real g_i_in_j_1 = A_ji_4 * C_i[4] + A_ji_1 * C_i[3] + A_ji_7 * C_i[5];
-    const jg_real t84 = t45 * C_i[4] + A_j[3] * C_i[3];
+    const jg_real t81 = t44 * C_i[4] + A_j[3] * C_i[3];
     const jg_real g_i_in_j_2 = A_ji_5 * C_i[4] + A_ji_2 * C_i[3] + A_ji_8 * C_i[5];
-    const jg_real t86 = t43 * C_i[4] + A_j[6] * C_i[3];
+    const jg_real t83 = t42 * C_i[4] + A_j[6] * C_i[3];
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
-    jac_phi_q_v_A_i[3] = t67 * omega_j_cross_h_j_in_j_0 + t71 * omega_j_cross_h_j_in_j_1 + t75 *
-        omega_j_cross_h_j_in_j_2 - (t67 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t69 + (t71 *
-        omega_i_cross_h_j_in_j_1 + t72 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t75 + t76 * f_i_in_j_2));
-    jac_phi_q_v_A_i[4] = omega_j_cross_h_j_in_j_0 * t82 + omega_j_cross_h_j_in_j_1 * t84 + omega_j_cross_h_j_in_j_2
-        * t86 - (t69 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t82 + (t72 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 *
-        t84) + (t76 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t86));
+    jac_phi_q_v_A_i[0] = t61 + A_ji_2 * t62 + (t41 + A_ji_0 * t46 + (t53 + A_ji_1 * t56));
+    jac_phi_q_v_A_i[1] = t42 * v_3_in_j_2 + A_ji_5 * t62 + (t54 * v_3_in_j_0 + A_ji_3 * t46 + (t44 * v_3_in_j_1 +
+        A_ji_4 * t56));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t46 + A_ji_7 * t56 + A_ji_8 * t62;
+    jac_phi_q_v_A_i[3] = t66 * omega_j_cross_h_j_in_j_0 + t70 * omega_j_cross_h_j_in_j_1 + t74 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t72 + t74 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t64 + t66 *
+        omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t68 + t70 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[4] = omega_j_cross_h_j_in_j_0 * t79 + omega_j_cross_h_j_in_j_1 * t81 + omega_j_cross_h_j_in_j_2
+        * t83 - (t64 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t79 + (t68 * g_i_in_j_1 + omega_i_cross_h_j_in_j_1 *
+        t81) + (t72 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t83));
     /* f_i_cross_f_j_in_j = f_i x f_j, axes of body j */
     const jg_real f_i_cross_f_j_in_j_0 = f_i_in_j_1 * C_j[2] - f_i_in_j_2 * C_j[1];
-    const jg_real t88 = t71 * C_j[2] - t75 * C_j[1];
+    const jg_real t85 = t70 * C_j[2] - t74 * C_j[1];
     const jg_real f_i_cross_f_j_in_j_1 = f_i_in_j_2 * C_j[0] - f_i_in_j_0 * C_j[2];
-    const jg_real t90 = t75 * C_j[0] - t67 * C_j[2];
+    const jg_real t87 = t74 * C_j[0] - t66 * C_j[2];
     const jg_real f_i_cross_f_j_in_j_2 = f_i_in_j_0 * C_j[1] - f_i_in_j_1 * C_j[0];
-    const jg_real t92 = t67 * C_j[1] - t71 * C_j[0];
-    const jg_real t93 = A_j[1] * v_3_in_j_0;
-    const jg_real t94 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t95 = A_j[7] * omega_i[0] + omega_i[1] * t94;
-    const jg_real t96 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t97 = A_j[4] * omega_i[0] + omega_i[1] * t96;
-    const jg_real t98 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t99 = e_ij_in_j_1 * t95 - e_ij_in_j_2 * t97 - (A_j[1] * v_i[0] + v_i[1] * t98);
-    const jg_real t100 = A_j[4] * v_3_in_j_1;
-    const jg_real t101 = A_j[1] * omega_i[0] + omega_i[1] * t98;
-    const jg_real t102 = e_ij_in_j_2 * t101 - t95 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t96);
-    const jg_real t103 = A_j[7] * v_3_in_j_2;
-    const jg_real t104 = t97 * e_ij_in_j_0 - e_ij_in_j_1 * t101 - (v_i[1] * t94 + A_j[7] * v_i[0]);
-    const jg_real t105 = t98 * C_i[1] + A_j[1] * C_i[0];
-    const jg_real t106 = C_j[8] * t97 - t95 * C_j[7];
-    const jg_real t107 = t96 * C_i[1] + A_j[4] * C_i[0];
-    const jg_real t108 = t95 * C_j[6] - C_j[8] * t101;
-    const jg_real t109 = t94 * C_i[1] + A_j[7] * C_i[0];
-    const jg_real t110 = C_j[7] * t101 - t97 * C_j[6];
-    const jg_real t111 = t98 * C_i[4] + A_j[1] * C_i[3];
-    const jg_real t112 = t96 * C_i[4] + A_j[4] * C_i[3];
-    const jg_real t113 = t94 * C_i[4] + A_j[7] * C_i[3];
-    const jg_real t114 = t107 * C_j[2] - t109 * C_j[1];
-    const jg_real t115 = t109 * C_j[0] - t105 * C_j[2];
-    const jg_real t116 = t105 * C_j[1] - t107 * C_j[0];
-    const jg_real t117 = A_j[2] * v_3_in_j_0;
-    const jg_real t118 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t119 = A_j[8] * omega_i[0] + omega_i[1] * t118;
-    const jg_real t120 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t121 = A_j[5] * omega_i[0] + omega_i[1] * t120;
-    const jg_real t122 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t123 = e_ij_in_j_1 * t119 - e_ij_in_j_2 * t121 - (A_j[2] * v_i[0] + v_i[1] * t122);
-    const jg_real t124 = A_j[5] * v_3_in_j_1;
-    const jg_real t125 = A_j[2] * omega_i[0] + omega_i[1] * t122;
-    const jg_real t126 = e_ij_in_j_2 * t125 - t119 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t120);
-    const jg_real t127 = A_j[8] * v_3_in_j_2;
-    const jg_real t128 = t121 * e_ij_in_j_0 - e_ij_in_j_1 * t125 - (v_i[1] * t118 + A_j[8] * v_i[0]);
-    jac_phi_q_v_A_i[5] = t44 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t92 + (t57 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t88 + (t46 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t90)) - (omega_j[0] * t88 + omega_j[1]
-        * t90 + omega_j[2] * t92);
-    jac_phi_q_v_A_i[6] = t103 + A_ji_2 * t104 + (t93 + A_ji_0 * t99 + (t100 + A_ji_1 * t102));
-    jac_phi_q_v_A_i[7] = t94 * v_3_in_j_2 + A_ji_5 * t104 + (t98 * v_3_in_j_0 + A_ji_3 * t99 + (t96 * v_3_in_j_1 +
-        A_ji_4 * t102));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t99 + A_ji_7 * t102 + A_ji_8 * t104;
-    jac_phi_q_v_A_i[9] = t105 * omega_j_cross_h_j_in_j_0 + t107 * omega_j_cross_h_j_in_j_1 + t109 *
-        omega_j_cross_h_j_in_j_2 - (t105 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t106 + (t107 *
-        omega_i_cross_h_j_in_j_1 + t108 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t109 + t110 * f_i_in_j_2));
-    jac_phi_q_v_A_i[10] = omega_j_cross_h_j_in_j_0 * t111 + omega_j_cross_h_j_in_j_1 * t112 +
-        omega_j_cross_h_j_in_j_2 * t113 - (t106 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t111 + (t108 * g_i_in_j_1
-        + omega_i_cross_h_j_in_j_1 * t112) + (t110 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t113));
-    jac_phi_q_v_A_i[11] = t95 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t116 + (t101 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t114 + (t97 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t115)) - (omega_j[0] * t114 +
-        omega_j[1] * t115 + omega_j[2] * t116);
-    jac_phi_q_v_A_i[12] = t127 + A_ji_2 * t128 + (t117 + A_ji_0 * t123 + (t124 + A_ji_1 * t126));
-    const jg_real t129 = t122 * C_i[1] + A_j[2] * C_i[0];
-    const jg_real t130 = C_j[8] * t121 - t119 * C_j[7];
-    const jg_real t131 = t120 * C_i[1] + A_j[5] * C_i[0];
-    const jg_real t132 = t119 * C_j[6] - C_j[8] * t125;
-    const jg_real t133 = t118 * C_i[1] + A_j[8] * C_i[0];
-    const jg_real t134 = C_j[7] * t125 - t121 * C_j[6];
-    const jg_real t135 = t122 * C_i[4] + A_j[2] * C_i[3];
-    const jg_real t136 = t120 * C_i[4] + A_j[5] * C_i[3];
-    const jg_real t137 = t118 * C_i[4] + A_j[8] * C_i[3];
-    const jg_real t138 = t131 * C_j[2] - t133 * C_j[1];
-    const jg_real t139 = t133 * C_j[0] - t129 * C_j[2];
-    const jg_real t140 = t129 * C_j[1] - t131 * C_j[0];
-    const jg_real t141 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t142 = A_j[6] * omega_i[2] + omega_i[1] * t141;
-    const jg_real t143 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t144 = A_j[3] * omega_i[2] + omega_i[1] * t143;
-    const jg_real t145 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t146 = e_ij_in_j_1 * t142 - e_ij_in_j_2 * t144 - (A_j[0] * v_i[2] + v_i[1] * t145);
-    const jg_real t147 = A_j[0] * omega_i[2] + omega_i[1] * t145;
-    const jg_real t148 = e_ij_in_j_2 * t147 - t142 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t143);
-    const jg_real t149 = e_ij_in_j_0 * t144 - e_ij_in_j_1 * t147 - (v_i[1] * t141 + A_j[6] * v_i[2]);
-    jac_phi_q_v_A_i[13] = t118 * v_3_in_j_2 + A_ji_5 * t128 + (t122 * v_3_in_j_0 + A_ji_3 * t123 + (t120 *
-        v_3_in_j_1 + A_ji_4 * t126));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t123 + A_ji_7 * t126 + A_ji_8 * t128;
-    jac_phi_q_v_A_i[15] = t129 * omega_j_cross_h_j_in_j_0 + t131 * omega_j_cross_h_j_in_j_1 + t133 *
-        omega_j_cross_h_j_in_j_2 - (t129 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t130 + (t131 *
-        omega_i_cross_h_j_in_j_1 + t132 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t133 + t134 * f_i_in_j_2));
-    jac_phi_q_v_A_i[16] = omega_j_cross_h_j_in_j_0 * t135 + omega_j_cross_h_j_in_j_1 * t136 +
-        omega_j_cross_h_j_in_j_2 * t137 - (t130 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t135 + (t132 * g_i_in_j_1
-        + omega_i_cross_h_j_in_j_1 * t136) + (t134 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t137));
-    jac_phi_q_v_A_i[17] = t119 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t140 + (t125 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t138 + (t121 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t139)) - (omega_j[0] * t138 +
-        omega_j[1] * t139 + omega_j[2] * t140);
-    jac_phi_q_v_A_i[18] = A_ji_0 * t146 + A_ji_1 * t148 + A_ji_2 * t149;
-    jac_phi_q_v_A_i[19] = t141 * v_3_in_j_2 + A_ji_5 * t149 + (t145 * v_3_in_j_0 + A_ji_3 * t146 + (t143 *
-        v_3_in_j_1 + A_ji_4 * t148));
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t149 + (t42 + A_ji_6 * t146 + (t56 + A_ji_7 * t148));
-    const jg_real t150 = t145 * C_i[1] + A_j[0] * C_i[2];
-    const jg_real t151 = C_j[8] * t144 - C_j[7] * t142;
-    const jg_real t152 = t143 * C_i[1] + A_j[3] * C_i[2];
-    const jg_real t153 = t142 * C_j[6] - C_j[8] * t147;
-    const jg_real t154 = t141 * C_i[1] + A_j[6] * C_i[2];
-    const jg_real t155 = C_j[7] * t147 - C_j[6] * t144;
-    const jg_real t156 = t145 * C_i[4] + A_j[0] * C_i[5];
-    const jg_real t157 = t143 * C_i[4] + A_j[3] * C_i[5];
-    const jg_real t158 = t141 * C_i[4] + A_j[6] * C_i[5];
-    const jg_real t159 = t152 * C_j[2] - t154 * C_j[1];
-    const jg_real t160 = t154 * C_j[0] - t150 * C_j[2];
-    const jg_real t161 = t150 * C_j[1] - t152 * C_j[0];
-    const jg_real t162 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t163 = A_j[7] * omega_i[2] + omega_i[1] * t162;
-    const jg_real t164 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t165 = A_j[4] * omega_i[2] + omega_i[1] * t164;
-    const jg_real t166 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t167 = e_ij_in_j_1 * t163 - e_ij_in_j_2 * t165 - (A_j[1] * v_i[2] + v_i[1] * t166);
-    const jg_real t168 = A_j[1] * omega_i[2] + omega_i[1] * t166;
-    const jg_real t169 = e_ij_in_j_2 * t168 - t163 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t164);
-    const jg_real t170 = e_ij_in_j_0 * t165 - e_ij_in_j_1 * t168 - (v_i[1] * t162 + A_j[7] * v_i[2]);
-    const jg_real t171 = t166 * C_i[1] + A_j[1] * C_i[2];
-    const jg_real t172 = C_j[8] * t165 - C_j[7] * t163;
-    const jg_real t173 = t164 * C_i[1] + A_j[4] * C_i[2];
-    const jg_real t174 = t163 * C_j[6] - C_j[8] * t168;
-    const jg_real t175 = t162 * C_i[1] + A_j[7] * C_i[2];
-    const jg_real t176 = C_j[7] * t168 - C_j[6] * t165;
-    const jg_real t177 = t166 * C_i[4] + A_j[1] * C_i[5];
-    const jg_real t178 = t164 * C_i[4] + A_j[4] * C_i[5];
-    const jg_real t179 = t162 * C_i[4] + A_j[7] * C_i[5];
-    jac_phi_q_v_A_i[21] = t150 * omega_j_cross_h_j_in_j_0 + t152 * omega_j_cross_h_j_in_j_1 + t154 *
-        omega_j_cross_h_j_in_j_2 - (t150 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t151 + (omega_i_cross_h_j_in_j_1
-        * t152 + t153 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t154 + t155 * f_i_in_j_2));
-    jac_phi_q_v_A_i[22] = omega_j_cross_h_j_in_j_0 * t156 + omega_j_cross_h_j_in_j_1 * t157 +
-        omega_j_cross_h_j_in_j_2 * t158 - (t151 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t156 + (t153 * g_i_in_j_1
-        + omega_i_cross_h_j_in_j_1 * t157) + (t155 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t158));
-    jac_phi_q_v_A_i[23] = t142 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t161 + (t147 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t159 + (t144 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t160)) - (omega_j[0] * t159 +
-        omega_j[1] * t160 + omega_j[2] * t161);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t167 + A_ji_1 * t169 + A_ji_2 * t170;
-    jac_phi_q_v_A_i[25] = t162 * v_3_in_j_2 + A_ji_5 * t170 + (t166 * v_3_in_j_0 + A_ji_3 * t167 + (t164 *
-        v_3_in_j_1 + A_ji_4 * t169));
-    jac_phi_q_v_A_i[26] = t103 + A_ji_8 * t170 + (t93 + A_ji_6 * t167 + (t100 + A_ji_7 * t169));
-    jac_phi_q_v_A_i[27] = t171 * omega_j_cross_h_j_in_j_0 + t173 * omega_j_cross_h_j_in_j_1 + t175 *
-        omega_j_cross_h_j_in_j_2 - (t171 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t172 + (omega_i_cross_h_j_in_j_1
-        * t173 + t174 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t175 + t176 * f_i_in_j_2));
-    jac_phi_q_v_A_i[28] = omega_j_cross_h_j_in_j_0 * t177 + omega_j_cross_h_j_in_j_1 * t178 +
-        omega_j_cross_h_j_in_j_2 * t179 - (t172 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t177 + (t174 * g_i_in_j_1
-        + omega_i_cross_h_j_in_j_1 * t178) + (t176 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t179));
-    const jg_real t180 = t173 * C_j[2] - t175 * C_j[1];
-    const jg_real t181 = t175 * C_j[0] - t171 * C_j[2];
-    const jg_real t182 = t171 * C_j[1] - t173 * C_j[0];
-    const jg_real t183 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t184 = A_j[8] * omega_i[2] + omega_i[1] * t183;
-    const jg_real t185 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t186 = A_j[5] * omega_i[2] + omega_i[1] * t185;
-    const jg_real t187 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t188 = e_ij_in_j_1 * t184 - e_ij_in_j_2 * t186 - (A_j[2] * v_i[2] + v_i[1] * t187);
-    const jg_real t189 = A_j[2] * omega_i[2] + omega_i[1] * t187;
-    const jg_real t190 = e_ij_in_j_2 * t189 - t184 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t185);
-    const jg_real t191 = e_ij_in_j_0 * t186 - e_ij_in_j_1 * t189 - (v_i[1] * t183 + A_j[8] * v_i[2]);
-    const jg_real t192 = t187 * C_i[1] + A_j[2] * C_i[2];
-    const jg_real t193 = C_j[8] * t186 - C_j[7] * t184;
-    const jg_real t194 = t185 * C_i[1] + A_j[5] * C_i[2];
-    const jg_real t195 = t184 * C_j[6] - C_j[8] * t189;
-    const jg_real t196 = t183 * C_i[1] + A_j[8] * C_i[2];
-    const jg_real t197 = C_j[7] * t189 - C_j[6] * t186;
-    const jg_real t198 = t187 * C_i[4] + A_j[2] * C_i[5];
-    const jg_real t199 = t185 * C_i[4] + A_j[5] * C_i[5];
-    const jg_real t200 = t183 * C_i[4] + A_j[8] * C_i[5];
-    const jg_real t201 = t194 * C_j[2] - t196 * C_j[1];
-    const jg_real t202 = t196 * C_j[0] - t192 * C_j[2];
-    const jg_real t203 = t192 * C_j[1] - t194 * C_j[0];
-    const jg_real t204 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t89 = t66 * C_j[1] - t70 * C_j[0];
+    const jg_real t90 = A_j[1] * v_3_in_j_0;
+    const jg_real t91 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real t92 = A_j[7] * omega_i[0] + omega_i[1] * t91;
+    const jg_real t93 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t94 = A_j[4] * omega_i[0] + omega_i[1] * t93;
+    const jg_real t95 = e_ij_in_j_1 * t92 - e_ij_in_j_2 * t94;
+    const jg_real t96 = A_j[4] * v_3_in_j_1;
+    const jg_real t97 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t98 = A_j[1] * omega_i[0] + omega_i[1] * t97;
+    const jg_real t99 = e_ij_in_j_2 * t98 - t92 * e_ij_in_j_0;
+    const jg_real t100 = A_j[7] * v_3_in_j_2;
+    const jg_real t101 = t94 * e_ij_in_j_0 - e_ij_in_j_1 * t98;
+    const jg_real t102 = C_j[8] * t94 - C_j[7] * t92;
+    const jg_real t103 = A_j[1] * C_i[0] + t97 * C_i[1];
+    const jg_real t104 = C_j[6] * t92 - C_j[8] * t98;
+    const jg_real t105 = A_j[4] * C_i[0] + t93 * C_i[1];
+    const jg_real t106 = C_j[7] * t98 - C_j[6] * t94;
+    const jg_real t107 = t91 * C_i[1] + A_j[7] * C_i[0];
+    const jg_real t108 = t97 * C_i[4] + A_j[1] * C_i[3];
+    const jg_real t109 = t93 * C_i[4] + A_j[4] * C_i[3];
+    const jg_real t110 = t91 * C_i[4] + A_j[7] * C_i[3];
+    const jg_real t111 = t105 * C_j[2] - t107 * C_j[1];
+    const jg_real t112 = t107 * C_j[0] - t103 * C_j[2];
+    const jg_real t113 = t103 * C_j[1] - t105 * C_j[0];
+    const jg_real t114 = A_j[2] * v_3_in_j_0;
+    const jg_real t115 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real t116 = A_j[8] * omega_i[0] + omega_i[1] * t115;
+    const jg_real t117 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t118 = A_j[5] * omega_i[0] + omega_i[1] * t117;
+    const jg_real t119 = e_ij_in_j_1 * t116 - e_ij_in_j_2 * t118;
+    const jg_real t120 = A_j[5] * v_3_in_j_1;
+    const jg_real t121 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t122 = A_j[2] * omega_i[0] + omega_i[1] * t121;
+    const jg_real t123 = e_ij_in_j_2 * t122 - t116 * e_ij_in_j_0;
+    const jg_real t124 = A_j[8] * v_3_in_j_2;
+    const jg_real t125 = t118 * e_ij_in_j_0 - e_ij_in_j_1 * t122;
+    jac_phi_q_v_A_i[5] = t43 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t89 + (t55 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t85 + (t45 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t87)) - (omega_j[0] * t85 + omega_j[1]
+        * t87 + omega_j[2] * t89);
+    jac_phi_q_v_A_i[6] = t100 + A_ji_2 * t101 + (t90 + A_ji_0 * t95 + (t96 + A_ji_1 * t99));
+    jac_phi_q_v_A_i[7] = t91 * v_3_in_j_2 + A_ji_5 * t101 + (t97 * v_3_in_j_0 + A_ji_3 * t95 + (t93 * v_3_in_j_1 +
+        A_ji_4 * t99));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t95 + A_ji_7 * t99 + A_ji_8 * t101;
+    jac_phi_q_v_A_i[9] = t103 * omega_j_cross_h_j_in_j_0 + t105 * omega_j_cross_h_j_in_j_1 + t107 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t106 + t107 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t102 + t103
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t104 + t105 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[10] = omega_j_cross_h_j_in_j_0 * t108 + omega_j_cross_h_j_in_j_1 * t109 +
+        omega_j_cross_h_j_in_j_2 * t110 - (t102 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t108 + (t104 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t109) + (t106 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t110));
+    jac_phi_q_v_A_i[11] = t92 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t113 + (t98 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t111 + (t94 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t112)) - (omega_j[0] * t111 +
+        omega_j[1] * t112 + omega_j[2] * t113);
+    jac_phi_q_v_A_i[12] = t124 + A_ji_2 * t125 + (t114 + A_ji_0 * t119 + (t120 + A_ji_1 * t123));
+    const jg_real t126 = C_j[8] * t118 - C_j[7] * t116;
+    const jg_real t127 = A_j[2] * C_i[0] + t121 * C_i[1];
+    const jg_real t128 = C_j[6] * t116 - C_j[8] * t122;
+    const jg_real t129 = A_j[5] * C_i[0] + t117 * C_i[1];
+    const jg_real t130 = C_j[7] * t122 - C_j[6] * t118;
+    const jg_real t131 = t115 * C_i[1] + A_j[8] * C_i[0];
+    const jg_real t132 = t121 * C_i[4] + A_j[2] * C_i[3];
+    const jg_real t133 = t117 * C_i[4] + A_j[5] * C_i[3];
+    const jg_real t134 = t115 * C_i[4] + A_j[8] * C_i[3];
+    const jg_real t135 = t129 * C_j[2] - t131 * C_j[1];
+    const jg_real t136 = t131 * C_j[0] - t127 * C_j[2];
+    const jg_real t137 = t127 * C_j[1] - t129 * C_j[0];
+    const jg_real t138 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t139 = A_j[6] * omega_i[2] + omega_i[1] * t138;
+    const jg_real t140 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t141 = A_j[3] * omega_i[2] + omega_i[1] * t140;
+    const jg_real t142 = e_ij_in_j_1 * t139 - e_ij_in_j_2 * t141;
+    const jg_real t143 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t144 = A_j[0] * omega_i[2] + omega_i[1] * t143;
+    const jg_real t145 = e_ij_in_j_2 * t144 - t139 * e_ij_in_j_0;
+    const jg_real t146 = e_ij_in_j_0 * t141 - e_ij_in_j_1 * t144;
+    jac_phi_q_v_A_i[13] = t115 * v_3_in_j_2 + A_ji_5 * t125 + (t121 * v_3_in_j_0 + A_ji_3 * t119 + (t117 *
+        v_3_in_j_1 + A_ji_4 * t123));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t119 + A_ji_7 * t123 + A_ji_8 * t125;
+    jac_phi_q_v_A_i[15] = t127 * omega_j_cross_h_j_in_j_0 + t129 * omega_j_cross_h_j_in_j_1 + t131 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t130 + t131 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t126 + t127
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t128 + t129 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[16] = omega_j_cross_h_j_in_j_0 * t132 + omega_j_cross_h_j_in_j_1 * t133 +
+        omega_j_cross_h_j_in_j_2 * t134 - (t126 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t132 + (t128 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t133) + (t130 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t134));
+    jac_phi_q_v_A_i[17] = t116 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t137 + (t122 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t135 + (t118 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t136)) - (omega_j[0] * t135 +
+        omega_j[1] * t136 + omega_j[2] * t137);
+    jac_phi_q_v_A_i[18] = A_ji_0 * t142 + A_ji_1 * t145 + A_ji_2 * t146;
+    jac_phi_q_v_A_i[19] = t138 * v_3_in_j_2 + A_ji_5 * t146 + (t143 * v_3_in_j_0 + A_ji_3 * t142 + (t140 *
+        v_3_in_j_1 + A_ji_4 * t145));
+    jac_phi_q_v_A_i[20] = t61 + A_ji_8 * t146 + (t41 + A_ji_6 * t142 + (t53 + A_ji_7 * t145));
+    const jg_real t147 = C_j[8] * t141 - C_j[7] * t139;
+    const jg_real t148 = A_j[0] * C_i[2] + t143 * C_i[1];
+    const jg_real t149 = C_j[6] * t139 - C_j[8] * t144;
+    const jg_real t150 = t140 * C_i[1] + A_j[3] * C_i[2];
+    const jg_real t151 = C_j[7] * t144 - C_j[6] * t141;
+    const jg_real t152 = t138 * C_i[1] + A_j[6] * C_i[2];
+    const jg_real t153 = t143 * C_i[4] + A_j[0] * C_i[5];
+    const jg_real t154 = t140 * C_i[4] + A_j[3] * C_i[5];
+    const jg_real t155 = t138 * C_i[4] + A_j[6] * C_i[5];
+    const jg_real t156 = t150 * C_j[2] - t152 * C_j[1];
+    const jg_real t157 = t152 * C_j[0] - t148 * C_j[2];
+    const jg_real t158 = t148 * C_j[1] - t150 * C_j[0];
+    const jg_real t159 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t160 = A_j[7] * omega_i[2] + omega_i[1] * t159;
+    const jg_real t161 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t162 = A_j[4] * omega_i[2] + omega_i[1] * t161;
+    const jg_real t163 = e_ij_in_j_1 * t160 - e_ij_in_j_2 * t162;
+    const jg_real t164 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t165 = A_j[1] * omega_i[2] + omega_i[1] * t164;
+    const jg_real t166 = e_ij_in_j_2 * t165 - t160 * e_ij_in_j_0;
+    const jg_real t167 = e_ij_in_j_0 * t162 - e_ij_in_j_1 * t165;
+    const jg_real t168 = C_j[8] * t162 - C_j[7] * t160;
+    const jg_real t169 = A_j[1] * C_i[2] + t164 * C_i[1];
+    const jg_real t170 = C_j[6] * t160 - C_j[8] * t165;
+    const jg_real t171 = t161 * C_i[1] + A_j[4] * C_i[2];
+    const jg_real t172 = C_j[7] * t165 - C_j[6] * t162;
+    const jg_real t173 = t159 * C_i[1] + A_j[7] * C_i[2];
+    const jg_real t174 = t164 * C_i[4] + A_j[1] * C_i[5];
+    const jg_real t175 = t161 * C_i[4] + A_j[4] * C_i[5];
+    const jg_real t176 = t159 * C_i[4] + A_j[7] * C_i[5];
+    jac_phi_q_v_A_i[21] = t148 * omega_j_cross_h_j_in_j_0 + t150 * omega_j_cross_h_j_in_j_1 + t152 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t151 + t152 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t147 + t148
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t149 + t150 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[22] = omega_j_cross_h_j_in_j_0 * t153 + omega_j_cross_h_j_in_j_1 * t154 +
+        omega_j_cross_h_j_in_j_2 * t155 - (t147 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t153 + (t149 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t154) + (t151 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t155));
+    jac_phi_q_v_A_i[23] = t139 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t158 + (t144 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t156 + (t141 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t157)) - (omega_j[0] * t156 +
+        omega_j[1] * t157 + omega_j[2] * t158);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t163 + A_ji_1 * t166 + A_ji_2 * t167;
+    jac_phi_q_v_A_i[25] = t159 * v_3_in_j_2 + A_ji_5 * t167 + (t164 * v_3_in_j_0 + A_ji_3 * t163 + (t161 *
+        v_3_in_j_1 + A_ji_4 * t166));
+    jac_phi_q_v_A_i[26] = t100 + A_ji_8 * t167 + (t90 + A_ji_6 * t163 + (t96 + A_ji_7 * t166));
+    jac_phi_q_v_A_i[27] = t169 * omega_j_cross_h_j_in_j_0 + t171 * omega_j_cross_h_j_in_j_1 + t173 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t172 + t173 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t168 + t169
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t170 + t171 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[28] = omega_j_cross_h_j_in_j_0 * t174 + omega_j_cross_h_j_in_j_1 * t175 +
+        omega_j_cross_h_j_in_j_2 * t176 - (t168 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t174 + (t170 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t175) + (t172 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t176));
+    const jg_real t177 = t171 * C_j[2] - t173 * C_j[1];
+    const jg_real t178 = t173 * C_j[0] - t169 * C_j[2];
+    const jg_real t179 = t169 * C_j[1] - t171 * C_j[0];
+    const jg_real t180 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t181 = A_j[8] * omega_i[2] + omega_i[1] * t180;
+    const jg_real t182 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t183 = A_j[5] * omega_i[2] + omega_i[1] * t182;
+    const jg_real t184 = e_ij_in_j_1 * t181 - e_ij_in_j_2 * t183;
+    const jg_real t185 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t186 = A_j[2] * omega_i[2] + omega_i[1] * t185;
+    const jg_real t187 = e_ij_in_j_2 * t186 - t181 * e_ij_in_j_0;
+    const jg_real t188 = e_ij_in_j_0 * t183 - e_ij_in_j_1 * t186;
+    const jg_real t189 = C_j[8] * t183 - C_j[7] * t181;
+    const jg_real t190 = A_j[2] * C_i[2] + t185 * C_i[1];
+    const jg_real t191 = C_j[6] * t181 - C_j[8] * t186;
+    const jg_real t192 = t182 * C_i[1] + A_j[5] * C_i[2];
+    const jg_real t193 = C_j[7] * t186 - C_j[6] * t183;
+    const jg_real t194 = t180 * C_i[1] + A_j[8] * C_i[2];
+    const jg_real t195 = t185 * C_i[4] + A_j[2] * C_i[5];
+    const jg_real t196 = t182 * C_i[4] + A_j[5] * C_i[5];
+    const jg_real t197 = t180 * C_i[4] + A_j[8] * C_i[5];
+    const jg_real t198 = t192 * C_j[2] - t194 * C_j[1];
+    const jg_real t199 = t194 * C_j[0] - t190 * C_j[2];
+    const jg_real t200 = t190 * C_j[1] - t192 * C_j[0];
+    const jg_real t201 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t202 = omega_i[1] * t201;
+    const jg_real t203 = t202 * e_ij_in_j_1;
+    const jg_real t204 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t205 = omega_i[1] * t204;
-    const jg_real t206 = t205 * e_ij_in_j_1;
-    const jg_real t207 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
-    const jg_real t208 = omega_i[1] * t207;
-    const jg_real t209 = e_ij_in_j_2 * t208;
-    const jg_real t210 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
-    const jg_real t211 = t206 - t209 - t210;
-    const jg_real t212 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t213 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
-    const jg_real t214 = e_ij_in_j_2 * t213;
-    const jg_real t215 = v_i[1] * t207;
-    const jg_real t216 = t214 - (t212 + t205 * e_ij_in_j_0) - t215;
-    const jg_real t217 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t218 = e_ij_in_j_1 * t213;
-    const jg_real t219 = v_i[1] * t204;
-    const jg_real t220 = t217 + t208 * e_ij_in_j_0 - t218 - t219;
-    jac_phi_q_v_A_i[29] = t163 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t182 + (t168 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t180 + (t165 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t181)) - (omega_j[0] * t180 +
-        omega_j[1] * t181 + omega_j[2] * t182);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t188 + A_ji_1 * t190 + A_ji_2 * t191;
-    jac_phi_q_v_A_i[31] = t183 * v_3_in_j_2 + A_ji_5 * t191 + (t187 * v_3_in_j_0 + A_ji_3 * t188 + (t185 *
-        v_3_in_j_1 + A_ji_4 * t190));
-    jac_phi_q_v_A_i[32] = t127 + A_ji_8 * t191 + (t117 + A_ji_6 * t188 + (t124 + A_ji_7 * t190));
-    jac_phi_q_v_A_i[33] = t192 * omega_j_cross_h_j_in_j_0 + t194 * omega_j_cross_h_j_in_j_1 + t196 *
-        omega_j_cross_h_j_in_j_2 - (t192 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t193 + (omega_i_cross_h_j_in_j_1
-        * t194 + t195 * f_i_in_j_1) + (omega_i_cross_h_j_in_j_2 * t196 + t197 * f_i_in_j_2));
-    jac_phi_q_v_A_i[34] = omega_j_cross_h_j_in_j_0 * t198 + omega_j_cross_h_j_in_j_1 * t199 +
-        omega_j_cross_h_j_in_j_2 * t200 - (t193 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t198 + (t195 * g_i_in_j_1
-        + omega_i_cross_h_j_in_j_1 * t199) + (t197 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t200));
-    jac_phi_q_v_A_i[35] = t184 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t203 + (t189 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t201 + (t186 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t202)) - (omega_j[0] * t201 +
-        omega_j[1] * t202 + omega_j[2] * t203);
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t211 + A_ji_1 * t216 + A_ji_2 * t220;
-    const jg_real t221 = A_i[0] * C_i[0] + A_i[6] * C_i[2];
-    const jg_real t222 = t208 * C_j[8];
-    const jg_real t223 = t205 * C_j[7];
-    const jg_real t224 = t222 - t223;
-    const jg_real t225 = t207 * C_i[1];
-    const jg_real t226 = C_j[8] * t213;
-    const jg_real t227 = t205 * C_j[6] - t226;
-    const jg_real t228 = t204 * C_i[1];
-    const jg_real t229 = C_j[7] * t213;
-    const jg_real t230 = t229 - t208 * C_j[6];
-    const jg_real t231 = A_i[0] * C_i[3] + A_i[6] * C_i[5];
-    const jg_real t232 = t207 * C_i[4];
-    const jg_real t233 = t204 * C_i[4];
-    const jg_real t234 = t225 * C_j[2];
-    const jg_real t235 = t228 * C_j[1];
-    const jg_real t236 = t234 - t235;
-    const jg_real t237 = t221 * C_j[2];
-    const jg_real t238 = t228 * C_j[0] - t237;
-    const jg_real t239 = t221 * C_j[1];
-    const jg_real t240 = t239 - t225 * C_j[0];
-    const jg_real t241 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
-    const jg_real t242 = omega_i[1] * t241;
-    const jg_real t243 = t242 * e_ij_in_j_1;
-    const jg_real t244 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
-    const jg_real t245 = omega_i[1] * t244;
-    const jg_real t246 = e_ij_in_j_2 * t245;
-    const jg_real t247 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
-    const jg_real t248 = t243 - t246 - t247;
-    const jg_real t249 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t250 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
-    const jg_real t251 = e_ij_in_j_2 * t250;
-    const jg_real t252 = v_i[1] * t244;
-    const jg_real t253 = t251 - (t249 + t242 * e_ij_in_j_0) - t252;
-    const jg_real t254 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t255 = e_ij_in_j_1 * t250;
-    const jg_real t256 = v_i[1] * t241;
-    const jg_real t257 = t254 + t245 * e_ij_in_j_0 - t255 - t256;
-    jac_phi_q_v_A_j[1] = t204 * v_3_in_j_2 + A_ji_5 * t220 + (t207 * v_3_in_j_1 + A_ji_4 * t216 + A_ji_3 * t211);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t211 + A_ji_7 * t216 + A_ji_8 * t220;
-    jac_phi_q_v_A_j[3] = t221 * omega_j_cross_h_j_in_j_0 + t225 * omega_j_cross_h_j_in_j_1 + t228 *
-        omega_j_cross_h_j_in_j_2 - (t221 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t224 + (t225 *
-        omega_i_cross_h_j_in_j_1 + t227 * f_i_in_j_1) + (t228 * omega_i_cross_h_j_in_j_2 + t230 * f_i_in_j_2));
-    jac_phi_q_v_A_j[4] = omega_j_cross_h_j_in_j_0 * t231 + t232 * omega_j_cross_h_j_in_j_1 + t233 *
-        omega_j_cross_h_j_in_j_2 - (t224 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t231 + (t227 * g_i_in_j_1 +
-        omega_i_cross_h_j_in_j_1 * t232) + (t230 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t233));
-    jac_phi_q_v_A_j[5] = t205 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t240 + (t213 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t236 + (t208 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t238)) - (omega_j[0] * t236 +
-        omega_j[1] * t238 + omega_j[2] * t240);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t248 + A_ji_1 * t253 + A_ji_2 * t257;
-    jac_phi_q_v_A_j[7] = t241 * v_3_in_j_2 + A_ji_5 * t257 + (t244 * v_3_in_j_1 + A_ji_4 * t253 + A_ji_3 * t248);
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t248 + A_ji_7 * t253 + A_ji_8 * t257;
-    const jg_real t258 = A_i[1] * C_i[0] + A_i[7] * C_i[2];
-    const jg_real t259 = t245 * C_j[8];
-    const jg_real t260 = t242 * C_j[7];
-    const jg_real t261 = t259 - t260;
-    const jg_real t262 = t244 * C_i[1];
-    const jg_real t263 = C_j[8] * t250;
-    const jg_real t264 = t242 * C_j[6] - t263;
-    const jg_real t265 = t241 * C_i[1];
-    const jg_real t266 = C_j[7] * t250;
-    const jg_real t267 = t266 - t245 * C_j[6];
-    const jg_real t268 = A_i[1] * C_i[3] + A_i[7] * C_i[5];
-    const jg_real t269 = t244 * C_i[4];
-    const jg_real t270 = t241 * C_i[4];
-    const jg_real t271 = t262 * C_j[2];
-    const jg_real t272 = t265 * C_j[1];
-    const jg_real t273 = t271 - t272;
-    const jg_real t274 = t258 * C_j[2];
-    const jg_real t275 = t265 * C_j[0] - t274;
-    const jg_real t276 = t258 * C_j[1];
-    const jg_real t277 = t276 - t262 * C_j[0];
-    const jg_real t278 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
-    const jg_real t279 = omega_i[1] * t278;
-    const jg_real t280 = t279 * e_ij_in_j_1;
-    const jg_real t281 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
-    const jg_real t282 = omega_i[1] * t281;
-    const jg_real t283 = e_ij_in_j_2 * t282;
-    const jg_real t284 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
-    const jg_real t285 = t280 - t283 - t284;
-    const jg_real t286 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t287 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
-    const jg_real t288 = e_ij_in_j_2 * t287;
-    const jg_real t289 = v_i[1] * t281;
-    const jg_real t290 = t288 - (t286 + t279 * e_ij_in_j_0) - t289;
-    const jg_real t291 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t292 = e_ij_in_j_1 * t287;
-    const jg_real t293 = v_i[1] * t278;
-    const jg_real t294 = t291 + t282 * e_ij_in_j_0 - t292 - t293;
-    const jg_real t295 = A_i[2] * C_i[0] + A_i[8] * C_i[2];
-    const jg_real t296 = t282 * C_j[8];
-    const jg_real t297 = t279 * C_j[7];
+    const jg_real t206 = e_ij_in_j_2 * t205;
+    const jg_real t207 = t203 - t206;
+    const jg_real t208 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t209 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t210 = e_ij_in_j_2 * t209;
+    const jg_real t211 = t210 - (t208 + t202 * e_ij_in_j_0);
+    const jg_real t212 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t213 = e_ij_in_j_1 * t209;
+    const jg_real t214 = t212 + t205 * e_ij_in_j_0 - t213;
+    jac_phi_q_v_A_i[29] = t160 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t179 + (t165 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t177 + (t162 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t178)) - (omega_j[0] * t177 +
+        omega_j[1] * t178 + omega_j[2] * t179);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t184 + A_ji_1 * t187 + A_ji_2 * t188;
+    jac_phi_q_v_A_i[31] = t180 * v_3_in_j_2 + A_ji_5 * t188 + (t185 * v_3_in_j_0 + A_ji_3 * t184 + (t182 *
+        v_3_in_j_1 + A_ji_4 * t187));
+    jac_phi_q_v_A_i[32] = t124 + A_ji_8 * t188 + (t114 + A_ji_6 * t184 + (t120 + A_ji_7 * t187));
+    jac_phi_q_v_A_i[33] = t190 * omega_j_cross_h_j_in_j_0 + t192 * omega_j_cross_h_j_in_j_1 + t194 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t193 + t194 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t189 + t190
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t191 + t192 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_i[34] = omega_j_cross_h_j_in_j_0 * t195 + omega_j_cross_h_j_in_j_1 * t196 +
+        omega_j_cross_h_j_in_j_2 * t197 - (t189 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t195 + (t191 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t196) + (t193 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t197));
+    jac_phi_q_v_A_i[35] = t181 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t200 + (t186 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t198 + (t183 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t199)) - (omega_j[0] * t198 +
+        omega_j[1] * t199 + omega_j[2] * t200);
+    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t207 + A_ji_1 * t211 + A_ji_2 * t214;
+    const jg_real t215 = C_j[8] * t205;
+    const jg_real t216 = t202 * C_j[7];
+    const jg_real t217 = t215 - t216;
+    const jg_real t218 = A_i[0] * C_i[0] + A_i[6] * C_i[2];
+    const jg_real t219 = t204 * C_i[1];
+    const jg_real t220 = C_j[8] * t209;
+    const jg_real t221 = t202 * C_j[6] - t220;
+    const jg_real t222 = t201 * C_i[1];
+    const jg_real t223 = C_j[7] * t209;
+    const jg_real t224 = t223 - C_j[6] * t205;
+    const jg_real t225 = A_i[0] * C_i[3] + A_i[6] * C_i[5];
+    const jg_real t226 = t204 * C_i[4];
+    const jg_real t227 = t201 * C_i[4];
+    const jg_real t228 = t219 * C_j[2];
+    const jg_real t229 = t222 * C_j[1];
+    const jg_real t230 = t228 - t229;
+    const jg_real t231 = t218 * C_j[2];
+    const jg_real t232 = t222 * C_j[0] - t231;
+    const jg_real t233 = t218 * C_j[1];
+    const jg_real t234 = t233 - t219 * C_j[0];
+    const jg_real t235 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
+    const jg_real t236 = omega_i[1] * t235;
+    const jg_real t237 = t236 * e_ij_in_j_1;
+    const jg_real t238 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
+    const jg_real t239 = omega_i[1] * t238;
+    const jg_real t240 = e_ij_in_j_2 * t239;
+    const jg_real t241 = t237 - t240;
+    const jg_real t242 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t243 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t244 = e_ij_in_j_2 * t243;
+    const jg_real t245 = t244 - (t242 + t236 * e_ij_in_j_0);
+    const jg_real t246 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t247 = e_ij_in_j_1 * t243;
+    const jg_real t248 = t246 + t239 * e_ij_in_j_0 - t247;
+    jac_phi_q_v_A_j[1] = t201 * v_3_in_j_2 + A_ji_5 * t214 + (t204 * v_3_in_j_1 + A_ji_4 * t211 + A_ji_3 * t207);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t207 + A_ji_7 * t211 + A_ji_8 * t214;
+    jac_phi_q_v_A_j[3] = t218 * omega_j_cross_h_j_in_j_0 + t219 * omega_j_cross_h_j_in_j_1 + t222 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t224 + t222 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t217 + t218
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t221 + t219 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[4] = omega_j_cross_h_j_in_j_0 * t225 + t226 * omega_j_cross_h_j_in_j_1 + t227 *
+        omega_j_cross_h_j_in_j_2 - (t217 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t225 + (t221 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t226) + (t224 * g_i_in_j_2 + t227 * omega_i_cross_h_j_in_j_2));
+    jac_phi_q_v_A_j[5] = t202 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t234 + (t209 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t230 + (t205 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t232)) - (omega_j[0] * t230 +
+        omega_j[1] * t232 + omega_j[2] * t234);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t241 + A_ji_1 * t245 + A_ji_2 * t248;
+    jac_phi_q_v_A_j[7] = t235 * v_3_in_j_2 + A_ji_5 * t248 + (t238 * v_3_in_j_1 + A_ji_4 * t245 + A_ji_3 * t241);
+    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t241 + A_ji_7 * t245 + A_ji_8 * t248;
+    const jg_real t249 = C_j[8] * t239;
+    const jg_real t250 = t236 * C_j[7];
+    const jg_real t251 = t249 - t250;
+    const jg_real t252 = A_i[1] * C_i[0] + A_i[7] * C_i[2];
+    const jg_real t253 = t238 * C_i[1];
+    const jg_real t254 = C_j[8] * t243;
+    const jg_real t255 = t236 * C_j[6] - t254;
+    const jg_real t256 = t235 * C_i[1];
+    const jg_real t257 = C_j[7] * t243;
+    const jg_real t258 = t257 - C_j[6] * t239;
+    const jg_real t259 = A_i[1] * C_i[3] + A_i[7] * C_i[5];
+    const jg_real t260 = t238 * C_i[4];
+    const jg_real t261 = t235 * C_i[4];
+    const jg_real t262 = t253 * C_j[2];
+    const jg_real t263 = t256 * C_j[1];
+    const jg_real t264 = t262 - t263;
+    const jg_real t265 = t252 * C_j[2];
+    const jg_real t266 = t256 * C_j[0] - t265;
+    const jg_real t267 = t252 * C_j[1];
+    const jg_real t268 = t267 - t253 * C_j[0];
+    const jg_real t269 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
+    const jg_real t270 = omega_i[1] * t269;
+    const jg_real t271 = t270 * e_ij_in_j_1;
+    const jg_real t272 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
+    const jg_real t273 = omega_i[1] * t272;
+    const jg_real t274 = e_ij_in_j_2 * t273;
+    const jg_real t275 = t271 - t274;
+    const jg_real t276 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t277 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t278 = e_ij_in_j_2 * t277;
+    const jg_real t279 = t278 - (t276 + t270 * e_ij_in_j_0);
+    const jg_real t280 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t281 = e_ij_in_j_1 * t277;
+    const jg_real t282 = t280 + t273 * e_ij_in_j_0 - t281;
+    const jg_real t283 = C_j[8] * t273;
+    const jg_real t284 = t270 * C_j[7];
+    const jg_real t285 = t283 - t284;
+    const jg_real t286 = A_i[2] * C_i[0] + A_i[8] * C_i[2];
+    const jg_real t287 = t272 * C_i[1];
+    const jg_real t288 = C_j[8] * t277;
+    const jg_real t289 = t270 * C_j[6] - t288;
+    const jg_real t290 = t269 * C_i[1];
+    const jg_real t291 = C_j[7] * t277;
+    const jg_real t292 = t291 - C_j[6] * t273;
+    const jg_real t293 = A_i[2] * C_i[3] + A_i[8] * C_i[5];
+    const jg_real t294 = t272 * C_i[4];
+    const jg_real t295 = t269 * C_i[4];
+    jac_phi_q_v_A_j[9] = t252 * omega_j_cross_h_j_in_j_0 + t253 * omega_j_cross_h_j_in_j_1 + t256 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t258 + t256 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t251 + t252
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t255 + t253 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[10] = omega_j_cross_h_j_in_j_0 * t259 + t260 * omega_j_cross_h_j_in_j_1 + t261 *
+        omega_j_cross_h_j_in_j_2 - (t251 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t259 + (t255 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t260) + (t258 * g_i_in_j_2 + t261 * omega_i_cross_h_j_in_j_2));
+    jac_phi_q_v_A_j[11] = t236 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t268 + (t243 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t264 + (t239 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t266)) - (omega_j[0] * t264 +
+        omega_j[1] * t266 + omega_j[2] * t268);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t275 + A_ji_1 * t279 + A_ji_2 * t282;
+    jac_phi_q_v_A_j[13] = t269 * v_3_in_j_2 + A_ji_5 * t282 + (t272 * v_3_in_j_1 + A_ji_4 * t279 + A_ji_3 * t275);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t275 + A_ji_7 * t279 + A_ji_8 * t282;
+    jac_phi_q_v_A_j[15] = t286 * omega_j_cross_h_j_in_j_0 + t287 * omega_j_cross_h_j_in_j_1 + t290 *
+        omega_j_cross_h_j_in_j_2 - (f_i_in_j_2 * t292 + t290 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_0 * t285 + t286
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t289 + t287 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[16] = omega_j_cross_h_j_in_j_0 * t293 + t294 * omega_j_cross_h_j_in_j_1 + t295 *
+        omega_j_cross_h_j_in_j_2 - (t285 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t293 + (t289 * g_i_in_j_1 +
+        omega_i_cross_h_j_in_j_1 * t294) + (t292 * g_i_in_j_2 + t295 * omega_i_cross_h_j_in_j_2));
+    const jg_real t296 = t287 * C_j[2];
+    const jg_real t297 = t290 * C_j[1];
     const jg_real t298 = t296 - t297;
-    const jg_real t299 = t281 * C_i[1];
-    const jg_real t300 = C_j[8] * t287;
-    const jg_real t301 = t279 * C_j[6] - t300;
-    const jg_real t302 = t278 * C_i[1];
-    const jg_real t303 = C_j[7] * t287;
-    const jg_real t304 = t303 - t282 * C_j[6];
-    const jg_real t305 = A_i[2] * C_i[3] + A_i[8] * C_i[5];
-    const jg_real t306 = t281 * C_i[4];
-    const jg_real t307 = t278 * C_i[4];
-    jac_phi_q_v_A_j[9] = t258 * omega_j_cross_h_j_in_j_0 + t262 * omega_j_cross_h_j_in_j_1 + t265 *
-        omega_j_cross_h_j_in_j_2 - (t258 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t261 + (t262 *
-        omega_i_cross_h_j_in_j_1 + t264 * f_i_in_j_1) + (t265 * omega_i_cross_h_j_in_j_2 + t267 * f_i_in_j_2));
-    jac_phi_q_v_A_j[10] = omega_j_cross_h_j_in_j_0 * t268 + t269 * omega_j_cross_h_j_in_j_1 + t270 *
-        omega_j_cross_h_j_in_j_2 - (t261 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t268 + (t264 * g_i_in_j_1 +
-        omega_i_cross_h_j_in_j_1 * t269) + (t267 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t270));
-    jac_phi_q_v_A_j[11] = t242 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t277 + (t250 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t273 + (t245 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t275)) - (omega_j[0] * t273 +
-        omega_j[1] * t275 + omega_j[2] * t277);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t285 + A_ji_1 * t290 + A_ji_2 * t294;
-    jac_phi_q_v_A_j[13] = t278 * v_3_in_j_2 + A_ji_5 * t294 + (t281 * v_3_in_j_1 + A_ji_4 * t290 + A_ji_3 * t285);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t285 + A_ji_7 * t290 + A_ji_8 * t294;
-    jac_phi_q_v_A_j[15] = t295 * omega_j_cross_h_j_in_j_0 + t299 * omega_j_cross_h_j_in_j_1 + t302 *
-        omega_j_cross_h_j_in_j_2 - (t295 * omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t298 + (t299 *
-        omega_i_cross_h_j_in_j_1 + t301 * f_i_in_j_1) + (t302 * omega_i_cross_h_j_in_j_2 + t304 * f_i_in_j_2));
-    jac_phi_q_v_A_j[16] = omega_j_cross_h_j_in_j_0 * t305 + t306 * omega_j_cross_h_j_in_j_1 + t307 *
-        omega_j_cross_h_j_in_j_2 - (t298 * g_i_in_j_0 + omega_i_cross_h_j_in_j_0 * t305 + (t301 * g_i_in_j_1 +
-        omega_i_cross_h_j_in_j_1 * t306) + (t304 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t307));
-    const jg_real t308 = t299 * C_j[2];
-    const jg_real t309 = t302 * C_j[1];
-    const jg_real t310 = t308 - t309;
-    const jg_real t311 = t295 * C_j[2];
-    const jg_real t312 = t302 * C_j[0] - t311;
-    const jg_real t313 = t295 * C_j[1];
-    const jg_real t314 = t313 - t299 * C_j[0];
-    const jg_real t315 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
-    const jg_real t316 = omega_i[1] * t315;
-    const jg_real t317 = t316 * e_ij_in_j_0;
-    const jg_real t318 = t317 + t209 + t210;
-    const jg_real t319 = t316 * e_ij_in_j_1 + t212 - t214 + t215;
-    const jg_real t320 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t321 = t213 * e_ij_in_j_0;
-    const jg_real t322 = v_i[1] * t315;
-    const jg_real t323 = t321 - (t320 - e_ij_in_j_1 * t208) - t322;
-    const jg_real t324 = t316 * C_j[6];
-    const jg_real t325 = t324 + t222;
-    const jg_real t326 = t226 - t316 * C_j[7];
-    const jg_real t327 = t315 * C_i[1];
-    const jg_real t328 = t213 * C_j[6];
-    const jg_real t329 = t328 + t208 * C_j[7];
-    const jg_real t330 = t315 * C_i[4];
-    const jg_real t331 = t327 * C_j[0];
-    const jg_real t332 = t234 + t331;
-    const jg_real t333 = t237 - t327 * C_j[1];
-    const jg_real t334 = t221 * C_j[0];
-    const jg_real t335 = t334 + t225 * C_j[1];
-    const jg_real t336 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
-    const jg_real t337 = omega_i[1] * t336;
-    const jg_real t338 = t337 * e_ij_in_j_0;
-    const jg_real t339 = t338 + t246 + t247;
-    const jg_real t340 = t337 * e_ij_in_j_1 + t249 - t251 + t252;
-    const jg_real t341 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t342 = t250 * e_ij_in_j_0;
-    const jg_real t343 = v_i[1] * t336;
-    const jg_real t344 = t342 - (t341 - e_ij_in_j_1 * t245) - t343;
-    jac_phi_q_v_A_j[17] = t279 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t314 + (t287 * f_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t310 + (t282 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t312)) - (omega_j[0] * t310 +
-        omega_j[1] * t312 + omega_j[2] * t314);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t318 + A_ji_0 * t319 + A_ji_2 * t323;
-    jac_phi_q_v_A_j[19] = t315 * v_3_in_j_2 + A_ji_5 * t323 + (A_ji_3 * t319 - t207 * v_3_in_j_0 - A_ji_4 * t318);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t318 + A_ji_6 * t319 + A_ji_8 * t323;
-    jac_phi_q_v_A_j[21] = t221 * omega_j_cross_h_j_in_j_1 - t225 * omega_j_cross_h_j_in_j_0 + t327 *
-        omega_j_cross_h_j_in_j_2 - (f_i_in_j_0 * t326 - t225 * omega_i_cross_h_j_in_j_0 + (t221 *
-        omega_i_cross_h_j_in_j_1 + t325 * f_i_in_j_1) + (t327 * omega_i_cross_h_j_in_j_2 - t329 * f_i_in_j_2));
-    jac_phi_q_v_A_j[22] = omega_j_cross_h_j_in_j_1 * t231 - omega_j_cross_h_j_in_j_0 * t232 + t330 *
-        omega_j_cross_h_j_in_j_2 - (t326 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t232 + (t325 * g_i_in_j_1 +
-        omega_i_cross_h_j_in_j_1 * t231) + (omega_i_cross_h_j_in_j_2 * t330 - t329 * g_i_in_j_2));
-    jac_phi_q_v_A_j[23] = t316 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t335 + (omega_i_in_j_0 * t333 - t208 *
-        f_i_cross_f_j_in_j_0 + (t213 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t332)) - (omega_j[0] * t333 +
-        omega_j[1] * t332 - omega_j[2] * t335);
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t339 + A_ji_0 * t340 + A_ji_2 * t344;
-    const jg_real t345 = t337 * C_j[6];
-    const jg_real t346 = t345 + t259;
-    const jg_real t347 = t263 - t337 * C_j[7];
-    const jg_real t348 = t336 * C_i[1];
-    const jg_real t349 = t250 * C_j[6];
-    const jg_real t350 = t349 + t245 * C_j[7];
-    const jg_real t351 = t336 * C_i[4];
-    const jg_real t352 = t348 * C_j[0];
-    const jg_real t353 = t271 + t352;
-    const jg_real t354 = t274 - t348 * C_j[1];
-    const jg_real t355 = t258 * C_j[0];
-    const jg_real t356 = t355 + t262 * C_j[1];
-    const jg_real t357 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t358 = omega_i[1] * t357;
-    const jg_real t359 = t358 * e_ij_in_j_0;
-    const jg_real t360 = t359 + t283 + t284;
-    const jg_real t361 = t358 * e_ij_in_j_1 + t286 - t288 + t289;
-    const jg_real t362 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t363 = t287 * e_ij_in_j_0;
-    const jg_real t364 = v_i[1] * t357;
-    const jg_real t365 = t363 - (t362 - e_ij_in_j_1 * t282) - t364;
-    jac_phi_q_v_A_j[25] = t336 * v_3_in_j_2 + A_ji_5 * t344 + (A_ji_3 * t340 - t244 * v_3_in_j_0 - A_ji_4 * t339);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t339 + A_ji_6 * t340 + A_ji_8 * t344;
-    jac_phi_q_v_A_j[27] = t258 * omega_j_cross_h_j_in_j_1 - t262 * omega_j_cross_h_j_in_j_0 + t348 *
-        omega_j_cross_h_j_in_j_2 - (f_i_in_j_0 * t347 - t262 * omega_i_cross_h_j_in_j_0 + (t258 *
-        omega_i_cross_h_j_in_j_1 + t346 * f_i_in_j_1) + (t348 * omega_i_cross_h_j_in_j_2 - t350 * f_i_in_j_2));
-    jac_phi_q_v_A_j[28] = omega_j_cross_h_j_in_j_1 * t268 - omega_j_cross_h_j_in_j_0 * t269 + t351 *
-        omega_j_cross_h_j_in_j_2 - (t347 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t269 + (t346 * g_i_in_j_1 +
-        omega_i_cross_h_j_in_j_1 * t268) + (omega_i_cross_h_j_in_j_2 * t351 - t350 * g_i_in_j_2));
-    jac_phi_q_v_A_j[29] = t337 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t356 + (omega_i_in_j_0 * t354 - t245 *
-        f_i_cross_f_j_in_j_0 + (t250 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t353)) - (omega_j[0] * t354 +
-        omega_j[1] * t353 - omega_j[2] * t356);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t360 + A_ji_0 * t361 + A_ji_2 * t365;
-    jac_phi_q_v_A_j[31] = t357 * v_3_in_j_2 + A_ji_5 * t365 + (A_ji_3 * t361 - t281 * v_3_in_j_0 - A_ji_4 * t360);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t360 + A_ji_6 * t361 + A_ji_8 * t365;
-    const jg_real t366 = t358 * C_j[6];
-    const jg_real t367 = t366 + t296;
-    const jg_real t368 = t300 - t358 * C_j[7];
-    const jg_real t369 = t357 * C_i[1];
-    const jg_real t370 = t287 * C_j[6];
-    const jg_real t371 = t370 + t282 * C_j[7];
-    const jg_real t372 = t357 * C_i[4];
-    const jg_real t373 = t369 * C_j[0];
-    const jg_real t374 = t308 + t373;
-    const jg_real t375 = t311 - t369 * C_j[1];
-    const jg_real t376 = t295 * C_j[0];
-    const jg_real t377 = t376 + t299 * C_j[1];
-    const jg_real t378 = t206 - t317 - t210;
-    const jg_real t379 = t218 - (t217 - t316 * e_ij_in_j_2) + t219;
-    const jg_real t380 = t320 - t205 * e_ij_in_j_2 - t321 + t322;
-    const jg_real t381 = t328 + t205 * C_j[8];
-    const jg_real t382 = t229 + t316 * C_j[8];
-    const jg_real t383 = t324 - t223;
-    jac_phi_q_v_A_j[33] = t295 * omega_j_cross_h_j_in_j_1 - t299 * omega_j_cross_h_j_in_j_0 + t369 *
-        omega_j_cross_h_j_in_j_2 - (f_i_in_j_0 * t368 - t299 * omega_i_cross_h_j_in_j_0 + (t295 *
-        omega_i_cross_h_j_in_j_1 + t367 * f_i_in_j_1) + (t369 * omega_i_cross_h_j_in_j_2 - t371 * f_i_in_j_2));
-    jac_phi_q_v_A_j[34] = omega_j_cross_h_j_in_j_1 * t305 - omega_j_cross_h_j_in_j_0 * t306 + t372 *
-        omega_j_cross_h_j_in_j_2 - (t368 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t306 + (t367 * g_i_in_j_1 +
-        omega_i_cross_h_j_in_j_1 * t305) + (omega_i_cross_h_j_in_j_2 * t372 - t371 * g_i_in_j_2));
-    jac_phi_q_v_A_j[35] = t358 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t377 + (omega_i_in_j_0 * t375 - t282 *
-        f_i_cross_f_j_in_j_0 + (t287 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t374)) - (omega_j[0] * t375 +
-        omega_j[1] * t374 - omega_j[2] * t377);
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t378 + (A_ji_0 * t379 + A_ji_1 * t380);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t379 - t204 * v_3_in_j_0 + (A_ji_4 * t380 - t315 * v_3_in_j_1) + A_ji_5 * t378;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t378 + (A_ji_6 * t379 + A_ji_7 * t380);
-    jac_phi_q_v_A_j[39] = t221 * omega_j_cross_h_j_in_j_2 - (t228 * omega_j_cross_h_j_in_j_0 + t327 *
-        omega_j_cross_h_j_in_j_1) - (t381 * f_i_in_j_1 - t327 * omega_i_cross_h_j_in_j_1 - (t228 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t382) + (t221 * omega_i_cross_h_j_in_j_2 + t383 * f_i_in_j_2));
-    jac_phi_q_v_A_j[40] = omega_j_cross_h_j_in_j_2 * t231 - (omega_j_cross_h_j_in_j_0 * t233 +
-        omega_j_cross_h_j_in_j_1 * t330) - (t381 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t330 - (t382 * g_i_in_j_0
-        + omega_i_cross_h_j_in_j_0 * t233) + (t383 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t231));
-    const jg_real t384 = t331 - t235;
-    const jg_real t385 = t334 + t228 * C_j[2];
-    const jg_real t386 = t327 * C_j[2] + t239;
-    const jg_real t387 = t243 - t338 - t247;
-    const jg_real t388 = t255 - (t254 - t337 * e_ij_in_j_2) + t256;
-    const jg_real t389 = t341 - t242 * e_ij_in_j_2 - t342 + t343;
-    const jg_real t390 = t349 + t242 * C_j[8];
-    const jg_real t391 = t266 + t337 * C_j[8];
-    const jg_real t392 = t345 - t260;
-    const jg_real t393 = t352 - t272;
-    const jg_real t394 = t355 + t265 * C_j[2];
-    const jg_real t395 = t348 * C_j[2] + t276;
-    const jg_real t396 = t280 - t359 - t284;
-    const jg_real t397 = t292 - (t291 - t358 * e_ij_in_j_2) + t293;
-    const jg_real t398 = t362 - t279 * e_ij_in_j_2 - t363 + t364;
-    jac_phi_q_v_A_j[41] = t213 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t384 + (omega_i_in_j_1 * t385 - t316 *
-        f_i_cross_f_j_in_j_1 - (t205 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t386)) - (omega_j[1] * t385 -
-        omega_j[0] * t386 + omega_j[2] * t384);
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t387 + (A_ji_0 * t388 + A_ji_1 * t389);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t388 - t241 * v_3_in_j_0 + (A_ji_4 * t389 - t336 * v_3_in_j_1) + A_ji_5 * t387;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t387 + (A_ji_6 * t388 + A_ji_7 * t389);
-    jac_phi_q_v_A_j[45] = t258 * omega_j_cross_h_j_in_j_2 - (t265 * omega_j_cross_h_j_in_j_0 + t348 *
-        omega_j_cross_h_j_in_j_1) - (t390 * f_i_in_j_1 - t348 * omega_i_cross_h_j_in_j_1 - (t265 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t391) + (t258 * omega_i_cross_h_j_in_j_2 + t392 * f_i_in_j_2));
-    jac_phi_q_v_A_j[46] = omega_j_cross_h_j_in_j_2 * t268 - (omega_j_cross_h_j_in_j_0 * t270 +
-        omega_j_cross_h_j_in_j_1 * t351) - (t390 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t351 - (t391 * g_i_in_j_0
-        + omega_i_cross_h_j_in_j_0 * t270) + (t392 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t268));
-    jac_phi_q_v_A_j[47] = t250 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t393 + (omega_i_in_j_1 * t394 - t337 *
-        f_i_cross_f_j_in_j_1 - (t242 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t395)) - (omega_j[1] * t394 -
-        omega_j[0] * t395 + omega_j[2] * t393);
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t396 + (A_ji_0 * t397 + A_ji_1 * t398);
-    const jg_real t399 = t370 + t279 * C_j[8];
-    const jg_real t400 = t303 + t358 * C_j[8];
-    const jg_real t401 = t366 - t297;
-    const jg_real t402 = t373 - t309;
-    const jg_real t403 = t376 + t302 * C_j[2];
-    const jg_real t404 = t369 * C_j[2] + t313;
+    const jg_real t299 = t286 * C_j[2];
+    const jg_real t300 = t290 * C_j[0] - t299;
+    const jg_real t301 = t286 * C_j[1];
+    const jg_real t302 = t301 - t287 * C_j[0];
+    const jg_real t303 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
+    const jg_real t304 = omega_i[1] * t303;
+    const jg_real t305 = t304 * e_ij_in_j_0;
+    const jg_real t306 = t305 + t206;
+    const jg_real t307 = t304 * e_ij_in_j_1 + t208 - t210;
+    const jg_real t308 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t309 = t209 * e_ij_in_j_0;
+    const jg_real t310 = t309 - (t308 - e_ij_in_j_1 * t205);
+    const jg_real t311 = t304 * C_j[6];
+    const jg_real t312 = t311 + t215;
+    const jg_real t313 = t220 - t304 * C_j[7];
+    const jg_real t314 = t303 * C_i[1];
+    const jg_real t315 = C_j[6] * t209;
+    const jg_real t316 = t315 + C_j[7] * t205;
+    const jg_real t317 = t303 * C_i[4];
+    const jg_real t318 = t314 * C_j[0];
+    const jg_real t319 = t228 + t318;
+    const jg_real t320 = t231 - t314 * C_j[1];
+    const jg_real t321 = t218 * C_j[0];
+    const jg_real t322 = t321 + t219 * C_j[1];
+    const jg_real t323 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
+    const jg_real t324 = omega_i[1] * t323;
+    const jg_real t325 = t324 * e_ij_in_j_0;
+    const jg_real t326 = t325 + t240;
+    const jg_real t327 = t324 * e_ij_in_j_1 + t242 - t244;
+    const jg_real t328 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t329 = t243 * e_ij_in_j_0;
+    const jg_real t330 = t329 - (t328 - e_ij_in_j_1 * t239);
+    jac_phi_q_v_A_j[17] = t270 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t302 + (t277 * f_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t298 + (t273 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t300)) - (omega_j[0] * t298 +
+        omega_j[1] * t300 + omega_j[2] * t302);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t306 + A_ji_0 * t307 + A_ji_2 * t310;
+    jac_phi_q_v_A_j[19] = t303 * v_3_in_j_2 + A_ji_5 * t310 + (A_ji_3 * t307 - t204 * v_3_in_j_0 - A_ji_4 * t306);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t306 + A_ji_6 * t307 + A_ji_8 * t310;
+    jac_phi_q_v_A_j[21] = t218 * omega_j_cross_h_j_in_j_1 - t219 * omega_j_cross_h_j_in_j_0 + t314 *
+        omega_j_cross_h_j_in_j_2 - (t314 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t316 + (f_i_in_j_0 * t313 - t219
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t312 + t218 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[22] = omega_j_cross_h_j_in_j_1 * t225 - omega_j_cross_h_j_in_j_0 * t226 +
+        omega_j_cross_h_j_in_j_2 * t317 - (t313 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t226 + (t312 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t225) + (omega_i_cross_h_j_in_j_2 * t317 - t316 * g_i_in_j_2));
+    jac_phi_q_v_A_j[23] = t304 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t322 + (omega_i_in_j_0 * t320 - t205 *
+        f_i_cross_f_j_in_j_0 + (t209 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t319)) - (omega_j[0] * t320 +
+        omega_j[1] * t319 - omega_j[2] * t322);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t326 + A_ji_0 * t327 + A_ji_2 * t330;
+    const jg_real t331 = t324 * C_j[6];
+    const jg_real t332 = t331 + t249;
+    const jg_real t333 = t254 - t324 * C_j[7];
+    const jg_real t334 = t323 * C_i[1];
+    const jg_real t335 = C_j[6] * t243;
+    const jg_real t336 = t335 + C_j[7] * t239;
+    const jg_real t337 = t323 * C_i[4];
+    const jg_real t338 = t334 * C_j[0];
+    const jg_real t339 = t262 + t338;
+    const jg_real t340 = t265 - t334 * C_j[1];
+    const jg_real t341 = t252 * C_j[0];
+    const jg_real t342 = t341 + t253 * C_j[1];
+    const jg_real t343 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t344 = omega_i[1] * t343;
+    const jg_real t345 = t344 * e_ij_in_j_0;
+    const jg_real t346 = t345 + t274;
+    const jg_real t347 = t344 * e_ij_in_j_1 + t276 - t278;
+    const jg_real t348 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t349 = t277 * e_ij_in_j_0;
+    const jg_real t350 = t349 - (t348 - e_ij_in_j_1 * t273);
+    jac_phi_q_v_A_j[25] = t323 * v_3_in_j_2 + A_ji_5 * t330 + (A_ji_3 * t327 - t238 * v_3_in_j_0 - A_ji_4 * t326);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t326 + A_ji_6 * t327 + A_ji_8 * t330;
+    jac_phi_q_v_A_j[27] = t252 * omega_j_cross_h_j_in_j_1 - t253 * omega_j_cross_h_j_in_j_0 + t334 *
+        omega_j_cross_h_j_in_j_2 - (t334 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t336 + (f_i_in_j_0 * t333 - t253
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t332 + t252 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[28] = omega_j_cross_h_j_in_j_1 * t259 - omega_j_cross_h_j_in_j_0 * t260 +
+        omega_j_cross_h_j_in_j_2 * t337 - (t333 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t260 + (t332 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t259) + (omega_i_cross_h_j_in_j_2 * t337 - t336 * g_i_in_j_2));
+    jac_phi_q_v_A_j[29] = t324 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t342 + (omega_i_in_j_0 * t340 - t239 *
+        f_i_cross_f_j_in_j_0 + (t243 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t339)) - (omega_j[0] * t340 +
+        omega_j[1] * t339 - omega_j[2] * t342);
+    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t346 + A_ji_0 * t347 + A_ji_2 * t350;
+    jac_phi_q_v_A_j[31] = t343 * v_3_in_j_2 + A_ji_5 * t350 + (A_ji_3 * t347 - t272 * v_3_in_j_0 - A_ji_4 * t346);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t346 + A_ji_6 * t347 + A_ji_8 * t350;
+    const jg_real t351 = t344 * C_j[6];
+    const jg_real t352 = t351 + t283;
+    const jg_real t353 = t288 - t344 * C_j[7];
+    const jg_real t354 = t343 * C_i[1];
+    const jg_real t355 = C_j[6] * t277;
+    const jg_real t356 = t355 + C_j[7] * t273;
+    const jg_real t357 = t343 * C_i[4];
+    const jg_real t358 = t354 * C_j[0];
+    const jg_real t359 = t296 + t358;
+    const jg_real t360 = t299 - t354 * C_j[1];
+    const jg_real t361 = t286 * C_j[0];
+    const jg_real t362 = t361 + t287 * C_j[1];
+    const jg_real t363 = t203 - t305;
+    const jg_real t364 = t213 - (t212 - t304 * e_ij_in_j_2);
+    const jg_real t365 = t308 - t202 * e_ij_in_j_2 - t309;
+    const jg_real t366 = t311 - t216;
+    const jg_real t367 = t315 + t202 * C_j[8];
+    const jg_real t368 = t223 + t304 * C_j[8];
+    jac_phi_q_v_A_j[33] = t286 * omega_j_cross_h_j_in_j_1 - t287 * omega_j_cross_h_j_in_j_0 + t354 *
+        omega_j_cross_h_j_in_j_2 - (t354 * omega_i_cross_h_j_in_j_2 - f_i_in_j_2 * t356 + (f_i_in_j_0 * t353 - t287
+        * omega_i_cross_h_j_in_j_0 + (f_i_in_j_1 * t352 + t286 * omega_i_cross_h_j_in_j_1)));
+    jac_phi_q_v_A_j[34] = omega_j_cross_h_j_in_j_1 * t293 - omega_j_cross_h_j_in_j_0 * t294 +
+        omega_j_cross_h_j_in_j_2 * t357 - (t353 * g_i_in_j_0 - omega_i_cross_h_j_in_j_0 * t294 + (t352 * g_i_in_j_1
+        + omega_i_cross_h_j_in_j_1 * t293) + (omega_i_cross_h_j_in_j_2 * t357 - t356 * g_i_in_j_2));
+    jac_phi_q_v_A_j[35] = t344 * f_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t362 + (omega_i_in_j_0 * t360 - t273 *
+        f_i_cross_f_j_in_j_0 + (t277 * f_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t359)) - (omega_j[0] * t360 +
+        omega_j[1] * t359 - omega_j[2] * t362);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t363 + (A_ji_0 * t364 + A_ji_1 * t365);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t364 - t201 * v_3_in_j_0 + (A_ji_4 * t365 - t303 * v_3_in_j_1) + A_ji_5 * t363;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t363 + (A_ji_6 * t364 + A_ji_7 * t365);
+    jac_phi_q_v_A_j[39] = t218 * omega_j_cross_h_j_in_j_2 - (t222 * omega_j_cross_h_j_in_j_0 + t314 *
+        omega_j_cross_h_j_in_j_1) - (f_i_in_j_2 * t366 + t218 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_1 * t367 - t314
+        * omega_i_cross_h_j_in_j_1 - (f_i_in_j_0 * t368 + t222 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[40] = omega_j_cross_h_j_in_j_2 * t225 - (omega_j_cross_h_j_in_j_0 * t227 +
+        omega_j_cross_h_j_in_j_1 * t317) - (t367 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t317 - (t368 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t227) + (t366 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t225));
+    const jg_real t369 = t318 - t229;
+    const jg_real t370 = t321 + t222 * C_j[2];
+    const jg_real t371 = t314 * C_j[2] + t233;
+    const jg_real t372 = t237 - t325;
+    const jg_real t373 = t247 - (t246 - t324 * e_ij_in_j_2);
+    const jg_real t374 = t328 - t236 * e_ij_in_j_2 - t329;
+    const jg_real t375 = t331 - t250;
+    const jg_real t376 = t335 + t236 * C_j[8];
+    const jg_real t377 = t257 + t324 * C_j[8];
+    const jg_real t378 = t338 - t263;
+    const jg_real t379 = t341 + t256 * C_j[2];
+    const jg_real t380 = t334 * C_j[2] + t267;
+    const jg_real t381 = t271 - t345;
+    const jg_real t382 = t281 - (t280 - t344 * e_ij_in_j_2);
+    const jg_real t383 = t348 - t270 * e_ij_in_j_2 - t349;
+    jac_phi_q_v_A_j[41] = t209 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t369 + (omega_i_in_j_1 * t370 - t304 *
+        f_i_cross_f_j_in_j_1 - (t202 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t371)) - (omega_j[1] * t370 -
+        omega_j[0] * t371 + omega_j[2] * t369);
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t372 + (A_ji_0 * t373 + A_ji_1 * t374);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t373 - t235 * v_3_in_j_0 + (A_ji_4 * t374 - t323 * v_3_in_j_1) + A_ji_5 * t372;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t372 + (A_ji_6 * t373 + A_ji_7 * t374);
+    jac_phi_q_v_A_j[45] = t252 * omega_j_cross_h_j_in_j_2 - (t256 * omega_j_cross_h_j_in_j_0 + t334 *
+        omega_j_cross_h_j_in_j_1) - (f_i_in_j_2 * t375 + t252 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_1 * t376 - t334
+        * omega_i_cross_h_j_in_j_1 - (f_i_in_j_0 * t377 + t256 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[46] = omega_j_cross_h_j_in_j_2 * t259 - (omega_j_cross_h_j_in_j_0 * t261 +
+        omega_j_cross_h_j_in_j_1 * t337) - (t376 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t337 - (t377 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t261) + (t375 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t259));
+    jac_phi_q_v_A_j[47] = t243 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t378 + (omega_i_in_j_1 * t379 - t324 *
+        f_i_cross_f_j_in_j_1 - (t236 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t380)) - (omega_j[1] * t379 -
+        omega_j[0] * t380 + omega_j[2] * t378);
+    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t381 + (A_ji_0 * t382 + A_ji_1 * t383);
+    const jg_real t384 = t351 - t284;
+    const jg_real t385 = t355 + t270 * C_j[8];
+    const jg_real t386 = t291 + t344 * C_j[8];
+    const jg_real t387 = t358 - t297;
+    const jg_real t388 = t361 + t290 * C_j[2];
+    const jg_real t389 = t354 * C_j[2] + t301;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
-    const jg_real t407 = A_ji_0 * omega_j_cross_h_j_in_j_0 + A_ji_1 * omega_j_cross_h_j_in_j_1 + A_ji_2 *
+    const jg_real t392 = A_ji_0 * omega_j_cross_h_j_in_j_0 + A_ji_1 * omega_j_cross_h_j_in_j_1 + A_ji_2 *
         omega_j_cross_h_j_in_j_2 - (A_ji_0 * omega_i_cross_h_j_in_j_0 + A_ji_1 * omega_i_cross_h_j_in_j_1 + A_ji_2 *
         omega_i_cross_h_j_in_j_2);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t397 - t278 * v_3_in_j_0 + (A_ji_4 * t398 - t357 * v_3_in_j_1) + A_ji_5 * t396;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t396 + (A_ji_6 * t397 + A_ji_7 * t398);
-    jac_phi_q_v_A_j[51] = t295 * omega_j_cross_h_j_in_j_2 - (t302 * omega_j_cross_h_j_in_j_0 + t369 *
-        omega_j_cross_h_j_in_j_1) - (t399 * f_i_in_j_1 - t369 * omega_i_cross_h_j_in_j_1 - (t302 *
-        omega_i_cross_h_j_in_j_0 + f_i_in_j_0 * t400) + (t295 * omega_i_cross_h_j_in_j_2 + t401 * f_i_in_j_2));
-    jac_phi_q_v_A_j[52] = omega_j_cross_h_j_in_j_2 * t305 - (omega_j_cross_h_j_in_j_0 * t307 +
-        omega_j_cross_h_j_in_j_1 * t372) - (t399 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t372 - (t400 * g_i_in_j_0
-        + omega_i_cross_h_j_in_j_0 * t307) + (t401 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t305));
-    jac_phi_q_v_A_j[53] = t287 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t402 + (omega_i_in_j_1 * t403 - t358 *
-        f_i_cross_f_j_in_j_1 - (t279 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t404)) - (omega_j[1] * t403 -
-        omega_j[0] * t404 + omega_j[2] * t402);
+    jac_phi_q_v_A_j[49] = A_ji_3 * t382 - t269 * v_3_in_j_0 + (A_ji_4 * t383 - t343 * v_3_in_j_1) + A_ji_5 * t381;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t381 + (A_ji_6 * t382 + A_ji_7 * t383);
+    jac_phi_q_v_A_j[51] = t286 * omega_j_cross_h_j_in_j_2 - (t290 * omega_j_cross_h_j_in_j_0 + t354 *
+        omega_j_cross_h_j_in_j_1) - (f_i_in_j_2 * t384 + t286 * omega_i_cross_h_j_in_j_2 + (f_i_in_j_1 * t385 - t354
+        * omega_i_cross_h_j_in_j_1 - (f_i_in_j_0 * t386 + t290 * omega_i_cross_h_j_in_j_0)));
+    jac_phi_q_v_A_j[52] = omega_j_cross_h_j_in_j_2 * t293 - (omega_j_cross_h_j_in_j_0 * t295 +
+        omega_j_cross_h_j_in_j_1 * t357) - (t385 * g_i_in_j_1 - omega_i_cross_h_j_in_j_1 * t357 - (t386 * g_i_in_j_0
+        + omega_i_cross_h_j_in_j_0 * t295) + (t384 * g_i_in_j_2 + omega_i_cross_h_j_in_j_2 * t293));
+    jac_phi_q_v_A_j[53] = t277 * f_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t387 + (omega_i_in_j_1 * t388 - t344 *
+        f_i_cross_f_j_in_j_1 - (t270 * f_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t389)) - (omega_j[1] * t388 -
+        omega_j[0] * t389 + omega_j[2] * t387);
     jac_phi_q_v_alpha[0] = alphadot * cosine_0;
-    jac_phi_q_v_geometry[0] = t407;
-    jac_phi_q_v_geometry[6] = t407;
-    const jg_real t408 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
-    const jg_real t409 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
-    const jg_real t410 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    const jg_real t411 = A_ji_3 * omega_j_cross_h_j_in_j_0 + A_ji_4 * omega_j_cross_h_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_geometry[0] = t392;
+    jac_phi_q_v_geometry[6] = t392;
+    const jg_real t393 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
+    const jg_real t394 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
+    const jg_real t395 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    const jg_real t396 = A_ji_3 * omega_j_cross_h_j_in_j_0 + A_ji_4 * omega_j_cross_h_j_in_j_1 + A_ji_5 *
         omega_j_cross_h_j_in_j_2 - (A_ji_3 * omega_i_cross_h_j_in_j_0 + A_ji_4 * omega_i_cross_h_j_in_j_1 + A_ji_5 *
         omega_i_cross_h_j_in_j_2);
-    const jg_real t412 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
-    const jg_real t413 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
-    const jg_real t414 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    const jg_real t415 = A_ji_6 * omega_j_cross_h_j_in_j_0 + A_ji_7 * omega_j_cross_h_j_in_j_1 + A_ji_8 *
+    const jg_real t397 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
+    const jg_real t398 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
+    const jg_real t399 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
+    const jg_real t400 = A_ji_6 * omega_j_cross_h_j_in_j_0 + A_ji_7 * omega_j_cross_h_j_in_j_1 + A_ji_8 *
         omega_j_cross_h_j_in_j_2 - (A_ji_6 * omega_i_cross_h_j_in_j_0 + A_ji_7 * omega_i_cross_h_j_in_j_1 + A_ji_8 *
         omega_i_cross_h_j_in_j_2);
-    const jg_real t416 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
-    const jg_real t417 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
-    const jg_real t418 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    const jg_real t419 = -(alphadot * pitch);
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t408 + omega_i_in_j_1 * t409 + omega_i_in_j_2 * t410 - (omega_j[0] *
-        t408 + omega_j[1] * t409 + omega_j[2] * t410);
-    jac_phi_q_v_geometry[2] = t411;
-    jac_phi_q_v_geometry[7] = t411;
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t412 + omega_i_in_j_1 * t413 + omega_i_in_j_2 * t414 - (omega_j[0] *
-        t412 + omega_j[1] * t413 + omega_j[2] * t414);
-    jac_phi_q_v_geometry[4] = t415;
-    jac_phi_q_v_geometry[8] = t415;
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t416 + omega_i_in_j_1 * t417 + omega_i_in_j_2 * t418 - (omega_j[0] *
-        t416 + omega_j[1] * t417 + omega_j[2] * t418);
-    jac_phi_q_v_geometry[9] = t419;
-    jac_phi_q_v_geometry[10] = t419;
-    jac_phi_q_v_geometry[11] = t419;
-    const jg_real t420 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t421 = omega_j[1] - omega_i_in_j_1;
-    const jg_real t422 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[12] = -(A_ji_1 * t420 + A_ji_2 * t421);
-    jac_phi_q_v_geometry[13] = -(A_ji_4 * t420 + A_ji_5 * t421);
-    jac_phi_q_v_geometry[14] = -(A_ji_7 * t420 + A_ji_8 * t421);
-    jac_phi_q_v_geometry[15] = A_ji_0 * t420 - A_ji_2 * t422;
-    jac_phi_q_v_geometry[16] = A_ji_3 * t420 - A_ji_5 * t422;
-    jac_phi_q_v_geometry[17] = A_ji_6 * t420 - A_ji_8 * t422;
-    jac_phi_q_v_geometry[18] = A_ji_0 * t421 + A_ji_1 * t422;
-    jac_phi_q_v_geometry[19] = A_ji_3 * t421 + A_ji_4 * t422;
-    const jg_real t423 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2 - (omega_i_in_j_2 * f_i_in_j_1 -
+    const jg_real t401 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
+    const jg_real t402 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
+    const jg_real t403 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
+    const jg_real t404 = -(alphadot * pitch);
+    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t393 + omega_i_in_j_1 * t394 + omega_i_in_j_2 * t395 - (omega_j[0] *
+        t393 + omega_j[1] * t394 + omega_j[2] * t395);
+    jac_phi_q_v_geometry[2] = t396;
+    jac_phi_q_v_geometry[7] = t396;
+    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t397 + omega_i_in_j_1 * t398 + omega_i_in_j_2 * t399 - (omega_j[0] *
+        t397 + omega_j[1] * t398 + omega_j[2] * t399);
+    jac_phi_q_v_geometry[4] = t400;
+    jac_phi_q_v_geometry[8] = t400;
+    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t401 + omega_i_in_j_1 * t402 + omega_i_in_j_2 * t403 - (omega_j[0] *
+        t401 + omega_j[1] * t402 + omega_j[2] * t403);
+    jac_phi_q_v_geometry[9] = t404;
+    jac_phi_q_v_geometry[10] = t404;
+    jac_phi_q_v_geometry[11] = t404;
+    const jg_real t405 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t406 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t407 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[12] = -(A_ji_1 * t405 + A_ji_2 * t406);
+    jac_phi_q_v_geometry[13] = -(A_ji_4 * t405 + A_ji_5 * t406);
+    jac_phi_q_v_geometry[14] = -(A_ji_7 * t405 + A_ji_8 * t406);
+    jac_phi_q_v_geometry[15] = A_ji_0 * t405 - A_ji_2 * t407;
+    jac_phi_q_v_geometry[16] = A_ji_3 * t405 - A_ji_5 * t407;
+    jac_phi_q_v_geometry[17] = A_ji_6 * t405 - A_ji_8 * t407;
+    jac_phi_q_v_geometry[18] = A_ji_0 * t406 + A_ji_1 * t407;
+    jac_phi_q_v_geometry[19] = A_ji_3 * t406 + A_ji_4 * t407;
+    const jg_real t408 = omega_j[2] * f_i_in_j_1 - omega_j[1] * f_i_in_j_2 - (omega_i_in_j_2 * f_i_in_j_1 -
         omega_i_in_j_1 * f_i_in_j_2);
-    const jg_real t424 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (omega_i_in_j_0 * f_i_in_j_2 -
+    const jg_real t409 = omega_j[0] * f_i_in_j_2 - omega_j[2] * f_i_in_j_0 - (omega_i_in_j_0 * f_i_in_j_2 -
         omega_i_in_j_2 * f_i_in_j_0);
-    const jg_real t425 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1 - (omega_i_in_j_1 * f_i_in_j_0 -
+    const jg_real t410 = omega_j[1] * f_i_in_j_0 - omega_j[0] * f_i_in_j_1 - (omega_i_in_j_1 * f_i_in_j_0 -
         omega_i_in_j_0 * f_i_in_j_1);
-    jac_phi_q_v_geometry[20] = A_ji_6 * t421 + A_ji_7 * t422;
-    jac_phi_q_v_geometry[21] = t423;
-    jac_phi_q_v_geometry[24] = t423;
-    jac_phi_q_v_geometry[22] = t424;
-    jac_phi_q_v_geometry[26] = t424;
-    jac_phi_q_v_geometry[23] = t425;
-    jac_phi_q_v_geometry[28] = t425;
+    jac_phi_q_v_geometry[20] = A_ji_6 * t406 + A_ji_7 * t407;
+    jac_phi_q_v_geometry[21] = t408;
+    jac_phi_q_v_geometry[24] = t408;
+    jac_phi_q_v_geometry[22] = t409;
+    jac_phi_q_v_geometry[26] = t409;
+    jac_phi_q_v_geometry[23] = t410;
+    jac_phi_q_v_geometry[28] = t410;
     jac_phi_q_v_geometry[25] = omega_j[2] * g_i_in_j_1 - omega_j[1] * g_i_in_j_2 - (omega_i_in_j_2 * g_i_in_j_1 -
         omega_i_in_j_1 * g_i_in_j_2);
-    const jg_real t426 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
     jac_phi_q_v_geometry[27] = omega_j[0] * g_i_in_j_2 - omega_j[2] * g_i_in_j_0 - (omega_i_in_j_0 * g_i_in_j_2 -
         omega_i_in_j_2 * g_i_in_j_0);
     jac_phi_q_v_geometry[29] = omega_j[1] * g_i_in_j_0 - omega_j[0] * g_i_in_j_1 - (omega_i_in_j_1 * g_i_in_j_0 -
@@ -948,78 +926,70 @@ static void jg_screw_parametric_table4_phi_q_v_jacobian(const jg_real *r_i, cons
     jac_phi_q_v_geometry[30] = -(alphadot * C_i[6]);
     jac_phi_q_v_geometry[31] = -(alphadot * C_i[7]);
     jac_phi_q_v_geometry[32] = -(alphadot * C_i[8]);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t426;
-    jac_phi_q_v_velocity[3] = t426;
-    const jg_real t427 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
-    const jg_real t428 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    const jg_real t429 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t430 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t431 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[2] = t427;
-    jac_phi_q_v_velocity[6] = t427;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t428;
-    jac_phi_q_v_velocity[7] = t428;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t429 + A_ji_1 * t430 + A_ji_2 * t431;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t429 + A_ji_4 * t430 + A_ji_5 * t431;
-    const jg_real t432 = A_ji_1 * C_j[8] - A_ji_2 * C_j[7];
-    const jg_real t433 = A_ji_2 * C_j[6] - A_ji_0 * C_j[8];
-    const jg_real t434 = A_ji_0 * C_j[7] - A_ji_1 * C_j[6];
-    const jg_real t435 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t436 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t437 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    const jg_real t438 = A_ji_4 * C_j[8] - A_ji_5 * C_j[7];
-    const jg_real t439 = A_ji_5 * C_j[6] - A_ji_3 * C_j[8];
-    const jg_real t440 = A_ji_3 * C_j[7] - A_ji_4 * C_j[6];
-    jac_phi_q_v_velocity[11] = A_ji_6 * t429 + A_ji_7 * t430 + A_ji_8 * t431;
-    jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t432 + t433 * f_i_in_j_1 + t434 * f_i_in_j_2);
-    jac_phi_q_v_velocity[13] = -(t432 * g_i_in_j_0 + t433 * g_i_in_j_1 + t434 * g_i_in_j_2);
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    const jg_real t411 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t412 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t413 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t414 = A_ji_1 * C_j[8] - A_ji_2 * C_j[7];
+    const jg_real t415 = A_ji_2 * C_j[6] - A_ji_0 * C_j[8];
+    const jg_real t416 = A_ji_0 * C_j[7] - A_ji_1 * C_j[6];
+    const jg_real t417 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t418 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t419 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[3] = A_ji_0 * t411 + A_ji_1 * t412 + A_ji_2 * t413;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t411 + A_ji_4 * t412 + A_ji_5 * t413;
+    jac_phi_q_v_velocity[5] = A_ji_6 * t411 + A_ji_7 * t412 + A_ji_8 * t413;
+    jac_phi_q_v_velocity[6] = -(f_i_in_j_0 * t414 + f_i_in_j_1 * t415 + f_i_in_j_2 * t416);
+    jac_phi_q_v_velocity[7] = -(t414 * g_i_in_j_0 + t415 * g_i_in_j_1 + t416 * g_i_in_j_2);
+    jac_phi_q_v_velocity[8] = A_ji_0 * f_i_cross_f_j_in_j_0 + A_ji_1 * f_i_cross_f_j_in_j_1 + A_ji_2 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t435 + A_ji_1 * t436 + A_ji_2 * t437;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t435 + A_ji_4 * t436 + A_ji_5 * t437;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t435 + A_ji_7 * t436 + A_ji_8 * t437;
-    jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t438 + t439 * f_i_in_j_1 + t440 * f_i_in_j_2);
-    const jg_real t441 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t442 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t443 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    const jg_real t444 = A_ji_7 * C_j[8] - A_ji_8 * C_j[7];
-    const jg_real t445 = A_ji_8 * C_j[6] - A_ji_6 * C_j[8];
-    const jg_real t446 = A_ji_6 * C_j[7] - A_ji_7 * C_j[6];
-    jac_phi_q_v_velocity[19] = -(t438 * g_i_in_j_0 + t439 * g_i_in_j_1 + t440 * g_i_in_j_2);
-    jac_phi_q_v_velocity[20] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[9] = A_ji_0 * t417 + A_ji_1 * t418 + A_ji_2 * t419;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t417 + A_ji_4 * t418 + A_ji_5 * t419;
+    const jg_real t420 = A_ji_4 * C_j[8] - A_ji_5 * C_j[7];
+    const jg_real t421 = A_ji_5 * C_j[6] - A_ji_3 * C_j[8];
+    const jg_real t422 = A_ji_3 * C_j[7] - A_ji_4 * C_j[6];
+    const jg_real t423 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t424 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t425 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    const jg_real t426 = A_ji_7 * C_j[8] - A_ji_8 * C_j[7];
+    const jg_real t427 = A_ji_8 * C_j[6] - A_ji_6 * C_j[8];
+    const jg_real t428 = A_ji_6 * C_j[7] - A_ji_7 * C_j[6];
+    jac_phi_q_v_velocity[11] = A_ji_6 * t417 + A_ji_7 * t418 + A_ji_8 * t419;
+    jac_phi_q_v_velocity[12] = -(f_i_in_j_0 * t420 + f_i_in_j_1 * t421 + f_i_in_j_2 * t422);
+    jac_phi_q_v_velocity[13] = -(t420 * g_i_in_j_0 + t421 * g_i_in_j_1 + t422 * g_i_in_j_2);
+    jac_phi_q_v_velocity[14] = A_ji_3 * f_i_cross_f_j_in_j_0 + A_ji_4 * f_i_cross_f_j_in_j_1 + A_ji_5 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t441 + A_ji_1 * t442 + A_ji_2 * t443;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t441 + A_ji_4 * t442 + A_ji_5 * t443;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t441 + A_ji_7 * t442 + A_ji_8 * t443;
-    jac_phi_q_v_velocity[24] = -(f_i_in_j_0 * t444 + t445 * f_i_in_j_1 + t446 * f_i_in_j_2);
-    jac_phi_q_v_velocity[25] = -(t444 * g_i_in_j_0 + t445 * g_i_in_j_1 + t446 * g_i_in_j_2);
-    jac_phi_q_v_velocity[26] = A_ji_6 * f_i_cross_f_j_in_j_0 + A_ji_7 * f_i_cross_f_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[15] = A_ji_0 * t423 + A_ji_1 * t424 + A_ji_2 * t425;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t423 + A_ji_4 * t424 + A_ji_5 * t425;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t423 + A_ji_7 * t424 + A_ji_8 * t425;
+    jac_phi_q_v_velocity[18] = -(f_i_in_j_0 * t426 + f_i_in_j_1 * t427 + f_i_in_j_2 * t428);
+    jac_phi_q_v_velocity[19] = -(t426 * g_i_in_j_0 + t427 * g_i_in_j_1 + t428 * g_i_in_j_2);
+    jac_phi_q_v_velocity[20] = A_ji_6 * f_i_cross_f_j_in_j_0 + A_ji_7 * f_i_cross_f_j_in_j_1 + A_ji_8 *
         f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
-    jac_phi_q_v_velocity[40] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
-    jac_phi_q_v_velocity[41] = -f_i_cross_f_j_in_j_0;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
-    jac_phi_q_v_velocity[46] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
-    jac_phi_q_v_velocity[47] = -f_i_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
-    jac_phi_q_v_velocity[52] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
-    jac_phi_q_v_velocity[53] = -f_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[54] = -(pitch * C_i[6]);
-    jac_phi_q_v_velocity[55] = -(pitch * C_i[7]);
-    jac_phi_q_v_velocity[56] = -(pitch * C_i[8]);
-    jac_phi_q_v_velocity[57] = sine_0;
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = C_j[7] * f_i_in_j_2 - C_j[8] * f_i_in_j_1;
+    jac_phi_q_v_velocity[34] = C_j[7] * g_i_in_j_2 - C_j[8] * g_i_in_j_1;
+    jac_phi_q_v_velocity[35] = -f_i_cross_f_j_in_j_0;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = C_j[8] * f_i_in_j_0 - C_j[6] * f_i_in_j_2;
+    jac_phi_q_v_velocity[40] = C_j[8] * g_i_in_j_0 - C_j[6] * g_i_in_j_2;
+    jac_phi_q_v_velocity[41] = -f_i_cross_f_j_in_j_1;
+    jac_phi_q_v_velocity[42] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_v_velocity[44] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[45] = C_j[6] * f_i_in_j_1 - C_j[7] * f_i_in_j_0;
+    jac_phi_q_v_velocity[46] = C_j[6] * g_i_in_j_1 - C_j[7] * g_i_in_j_0;
+    jac_phi_q_v_velocity[47] = -f_i_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[48] = -(pitch * C_i[6]);
+    jac_phi_q_v_velocity[49] = -(pitch * C_i[7]);
+    jac_phi_q_v_velocity[50] = -(pitch * C_i[8]);
+    jac_phi_q_v_velocity[51] = sine_0;
 }
 
 static void jg_screw_parametric_table4_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -2058,7 +2028,7 @@ int jac_jg_screw_parametric_table4_phi_q_v_external(const double **arg, double *
     double unwanted_3[54];
     double unwanted_4[1];
     double unwanted_5[33];
-    double unwanted_6[58];
+    double unwanted_6[52];
     (void)iw;
     (void)w;
     (void)mem;
@@ -2166,9 +2136,8 @@ const casadi_int *jac_jg_screw_parametric_table4_phi_q_v_external_sparsity_out(c
         3, 5, 3, 5, 3, 5, 4, 4, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 5, 5, 5, 3, 4, 3, 4, 3, 4, 0, 1, 2
     };
     static const casadi_int pattern_6[] = {
-        6, 13, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 58, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0,
-        1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3,
-        4, 5, 0, 1, 2, 5
+        6, 13, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 52, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
+        2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 5
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

@@ -316,7 +316,6 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *r_i, con
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -332,14 +331,14 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *r_i, con
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[1] * A_ji_5 + omega_i[0] * A_ji_2 + omega_i[2] * A_ji_8;
     const jg_real A_ji_1 = A_ji_6 * A_ji_5 - A_ji_3 * A_ji_8;
-    jac_phi_q_v_velocity[28] = A_ji_3;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[31] = A_ji_4;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[30] = A_ji_1;
+    jac_phi_q_v_velocity[22] = A_ji_3;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[25] = A_ji_4;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[24] = A_ji_1;
     const jg_real omega_i_in_j_1 = omega_i[1] * A_ji_4 + omega_i[0] * A_ji_1 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_0 = A_ji_4 * A_ji_8 - A_ji_7 * A_ji_5;
@@ -353,7 +352,7 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *r_i, con
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[27] = A_ji_0;
+    jac_phi_q_v_velocity[21] = A_ji_0;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -391,925 +390,851 @@ static void jg_translational_parametric_phi_q_v_jacobian(const jg_real *r_i, con
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_3 * v_i[1] + v_i[0] * A_ji_0 + v_i[2] * A_ji_6;
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    /* h_i_in_j = h_i, axes of body j */
-    const jg_real h_i_in_j_0 = A_ji_3 * C_i[7] + C_i[6] * A_ji_0 + C_i[8] * A_ji_6;
-    /* v_4_in_j = v_j - v_i - alphadot_0 h_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, ... */
-    const jg_real v_4_in_j_0 = v_3_in_j_0 - alphadot * h_i_in_j_0;
-    const jg_real t44 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
-    const jg_real t45 = A_j[0] * A_ji_7 - A_j[3] * A_ji_6;
-    const jg_real t46 = A_j[6] * omega_i[1] + omega_i[0] * t45;
-    const jg_real t47 = A_j[6] * A_ji_6 - A_j[0] * A_ji_8;
-    const jg_real t48 = A_j[3] * omega_i[1] + omega_i[0] * t47;
-    const jg_real t49 = A_j[0] * C_i[7] + C_i[6] * t44;
-    const jg_real t50 = e_ij_in_j_1 * t46 - e_ij_in_j_2 * t48 - (A_j[0] * v_i[1] + v_i[0] * t44) - alphadot * t49;
+    /* v_2_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_j[0];
+    const jg_real t40 = A_j[3] * A_ji_8 - A_j[6] * A_ji_7;
+    const jg_real t41 = A_j[0] * A_ji_7 - A_j[3] * A_ji_6;
+    const jg_real t42 = A_j[6] * omega_i[1] + omega_i[0] * t41;
+    const jg_real t43 = A_j[6] * A_ji_6 - A_j[0] * A_ji_8;
+    const jg_real t44 = A_j[3] * omega_i[1] + omega_i[0] * t43;
+    const jg_real t45 = e_ij_in_j_1 * t42 - e_ij_in_j_2 * t44;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_4 * v_i[1] + v_i[0] * A_ji_1 + A_ji_7 * v_i[2];
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real h_i_in_j_1 = A_ji_4 * C_i[7] + C_i[6] * A_ji_1 + A_ji_7 * C_i[8];
-    const jg_real v_4_in_j_1 = v_3_in_j_1 - alphadot * h_i_in_j_1;
-    const jg_real t60 = A_j[0] * omega_i[1] + omega_i[0] * t44;
-    const jg_real t61 = A_j[3] * C_i[7] + C_i[6] * t47;
-    const jg_real t62 = e_ij_in_j_2 * t60 - t46 * e_ij_in_j_0 - (A_j[3] * v_i[1] + v_i[0] * t47) - alphadot * t61;
+    const jg_real v_2_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_j[1];
+    const jg_real t51 = A_j[0] * omega_i[1] + omega_i[0] * t40;
+    const jg_real t52 = e_ij_in_j_2 * t51 - t42 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[0] * A_ji_2 + v_i[1] * A_ji_5 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real h_i_in_j_2 = C_i[6] * A_ji_2 + C_i[7] * A_ji_5 + C_i[8] * A_ji_8;
-    const jg_real v_4_in_j_2 = v_3_in_j_2 - alphadot * h_i_in_j_2;
-    const jg_real t70 = C_i[6] * t45 + A_j[6] * C_i[7];
-    const jg_real t71 = t48 * e_ij_in_j_0 - e_ij_in_j_1 * t60 - (v_i[0] * t45 + A_j[6] * v_i[1]) - alphadot * t70;
-    const jg_real t72 = A_j[0] * v_4_in_j_0;
-    const jg_real t73 = A_j[3] * v_4_in_j_1;
-    const jg_real t74 = A_j[6] * v_4_in_j_2;
+    const jg_real v_2_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_j[2];
+    const jg_real t56 = t44 * e_ij_in_j_0 - e_ij_in_j_1 * t51;
+    const jg_real t57 = A_j[0] * v_2_in_j_0;
+    const jg_real t58 = A_j[3] * v_2_in_j_1;
+    const jg_real t59 = A_j[6] * v_2_in_j_2;
+    /* h_i_in_j = h_i, axes of body j */
+    const jg_real h_i_in_j_2 = A_ji_2 * C_i[6] + A_ji_5 * C_i[7] + A_ji_8 * C_i[8];
     /* f_i_in_j = f_i, axes of body j */
     const jg_real f_i_in_j_0 = A_ji_0 * C_i[0] + A_ji_3 * C_i[1] + A_ji_6 * C_i[2];
+    const jg_real h_i_in_j_0 = C_i[6] * A_ji_0 + A_ji_3 * C_i[7] + A_ji_6 * C_i[8];
     const jg_real f_i_in_j_2 = A_ji_2 * C_i[0] + A_ji_5 * C_i[1] + A_ji_8 * C_i[2];
     /* g_i_in_j = g_i, axes of body j */
     const jg_real g_i_in_j_1 = h_i_in_j_2 * f_i_in_j_0 - h_i_in_j_0 * f_i_in_j_2;
     const jg_real f_i_in_j_1 = A_ji_1 * C_i[0] + A_ji_4 * C_i[1] + A_ji_7 * C_i[2];
-    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - h_i_in_j_1 * f_i_in_j_0;
+    const jg_real h_i_in_j_1 = C_i[6] * A_ji_1 + A_ji_4 * C_i[7] + A_ji_7 * C_i[8];
+    const jg_real g_i_in_j_2 = h_i_in_j_0 * f_i_in_j_1 - f_i_in_j_0 * h_i_in_j_1;
     /* g_i_cross_h_j_in_j = g_i x h_j, axes of body j */
     const jg_real g_i_cross_h_j_in_j_0 = C_j[8] * g_i_in_j_1 - C_j[7] * g_i_in_j_2;
-    const jg_real t81 = t44 * C_i[0] + A_j[0] * C_i[1];
-    const jg_real t82 = t45 * C_i[0] + A_j[6] * C_i[1];
-    const jg_real t83 = t70 * f_i_in_j_0 + h_i_in_j_2 * t81 - (t49 * f_i_in_j_2 + h_i_in_j_0 * t82);
-    const jg_real t84 = t47 * C_i[0] + A_j[3] * C_i[1];
-    const jg_real t85 = t49 * f_i_in_j_1 + h_i_in_j_0 * t84 - (t61 * f_i_in_j_0 + h_i_in_j_1 * t81);
-    const jg_real t86 = C_j[8] * t83 - C_j[7] * t85;
-    const jg_real g_i_in_j_0 = h_i_in_j_1 * f_i_in_j_2 - h_i_in_j_2 * f_i_in_j_1;
+    const jg_real t69 = t41 * C_i[6] + A_j[6] * C_i[7];
+    const jg_real t70 = t40 * C_i[0] + A_j[0] * C_i[1];
+    const jg_real t71 = C_i[6] * t40 + A_j[0] * C_i[7];
+    const jg_real t72 = t41 * C_i[0] + A_j[6] * C_i[1];
+    const jg_real t73 = t69 * f_i_in_j_0 + t70 * h_i_in_j_2 - (t71 * f_i_in_j_2 + t72 * h_i_in_j_0);
+    const jg_real t74 = t43 * C_i[0] + A_j[3] * C_i[1];
+    const jg_real t75 = C_i[6] * t43 + A_j[3] * C_i[7];
+    const jg_real t76 = t71 * f_i_in_j_1 + h_i_in_j_0 * t74 - (f_i_in_j_0 * t75 + t70 * h_i_in_j_1);
+    const jg_real t77 = C_j[8] * t73 - C_j[7] * t76;
+    const jg_real g_i_in_j_0 = f_i_in_j_2 * h_i_in_j_1 - h_i_in_j_2 * f_i_in_j_1;
     const jg_real g_i_cross_h_j_in_j_1 = C_j[6] * g_i_in_j_2 - C_j[8] * g_i_in_j_0;
-    const jg_real t89 = t61 * f_i_in_j_2 + h_i_in_j_1 * t82 - (t70 * f_i_in_j_1 + h_i_in_j_2 * t84);
-    const jg_real t90 = C_j[6] * t85 - C_j[8] * t89;
+    const jg_real t80 = f_i_in_j_2 * t75 + t72 * h_i_in_j_1 - (t69 * f_i_in_j_1 + h_i_in_j_2 * t74);
+    const jg_real t81 = C_j[6] * t76 - C_j[8] * t80;
     const jg_real g_i_cross_h_j_in_j_2 = C_j[7] * g_i_in_j_0 - C_j[6] * g_i_in_j_1;
-    const jg_real t92 = C_j[7] * t89 - C_j[6] * t83;
+    const jg_real t83 = C_j[7] * t80 - C_j[6] * t73;
     /* h_i_cross_f_j_in_j = h_i x f_j, axes of body j */
-    const jg_real h_i_cross_f_j_in_j_0 = h_i_in_j_1 * C_j[2] - h_i_in_j_2 * C_j[1];
-    const jg_real t94 = t61 * C_j[2] - t70 * C_j[1];
     const jg_real h_i_cross_f_j_in_j_1 = h_i_in_j_2 * C_j[0] - h_i_in_j_0 * C_j[2];
-    const jg_real t96 = t70 * C_j[0] - t49 * C_j[2];
-    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - h_i_in_j_1 * C_j[0];
-    const jg_real t98 = t49 * C_j[1] - t61 * C_j[0];
+    const jg_real t85 = t69 * C_j[0] - t71 * C_j[2];
+    const jg_real h_i_cross_f_j_in_j_0 = C_j[2] * h_i_in_j_1 - h_i_in_j_2 * C_j[1];
+    const jg_real t87 = C_j[2] * t75 - t69 * C_j[1];
+    const jg_real h_i_cross_f_j_in_j_2 = h_i_in_j_0 * C_j[1] - C_j[0] * h_i_in_j_1;
+    const jg_real t89 = t71 * C_j[1] - C_j[0] * t75;
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t45 * v_4_in_j_2 + A_ji_2 * t71 + (t44 * v_4_in_j_0 + A_ji_0 * t50 + (t47 * v_4_in_j_1 +
-        A_ji_1 * t62));
-    jac_phi_q_v_A_i[1] = t74 + A_ji_5 * t71 + (t72 + A_ji_3 * t50 + (t73 + A_ji_4 * t62));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t50 + A_ji_7 * t62 + A_ji_8 * t71;
-    jac_phi_q_v_A_i[3] = t46 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t92 + (t60 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t86 + (t48 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t90)) - (omega_j[0] * t86 + omega_j[1]
-        * t90 + omega_j[2] * t92);
-    jac_phi_q_v_A_i[4] = t46 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t98 + (t60 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t94 + (t48 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t96)) - (omega_j[0] * t94 + omega_j[1]
-        * t96 + omega_j[2] * t98);
+    jac_phi_q_v_A_i[0] = t41 * v_2_in_j_2 + A_ji_2 * t56 + (t40 * v_2_in_j_0 + A_ji_0 * t45 + (t43 * v_2_in_j_1 +
+        A_ji_1 * t52));
+    jac_phi_q_v_A_i[1] = t59 + A_ji_5 * t56 + (t57 + A_ji_3 * t45 + (t58 + A_ji_4 * t52));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t45 + A_ji_7 * t52 + A_ji_8 * t56;
+    jac_phi_q_v_A_i[3] = t42 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t83 + (t51 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t77 + (t44 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t81)) - (omega_j[0] * t77 + omega_j[1]
+        * t81 + omega_j[2] * t83);
+    jac_phi_q_v_A_i[4] = t44 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t85 + (t51 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t87) + (t42 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t89) - (omega_j[1] * t85 + omega_j[0]
+        * t87 + omega_j[2] * t89);
     /* f_i_cross_g_j_in_j = f_i x g_j, axes of body j */
-    const jg_real f_i_cross_g_j_in_j_0 = C_j[5] * f_i_in_j_1 - C_j[4] * f_i_in_j_2;
-    const jg_real t100 = t84 * C_j[5] - t82 * C_j[4];
-    const jg_real f_i_cross_g_j_in_j_1 = C_j[3] * f_i_in_j_2 - f_i_in_j_0 * C_j[5];
-    const jg_real t102 = t82 * C_j[3] - t81 * C_j[5];
-    const jg_real f_i_cross_g_j_in_j_2 = f_i_in_j_0 * C_j[4] - C_j[3] * f_i_in_j_1;
-    const jg_real t104 = t81 * C_j[4] - t84 * C_j[3];
-    const jg_real t105 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
-    const jg_real t106 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
-    const jg_real t107 = A_j[7] * omega_i[1] + omega_i[0] * t106;
-    const jg_real t108 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
-    const jg_real t109 = A_j[4] * omega_i[1] + omega_i[0] * t108;
-    const jg_real t110 = A_j[1] * C_i[7] + C_i[6] * t105;
-    const jg_real t111 = e_ij_in_j_1 * t107 - e_ij_in_j_2 * t109 - (A_j[1] * v_i[1] + v_i[0] * t105) - alphadot *
-        t110;
-    const jg_real t112 = A_j[1] * omega_i[1] + omega_i[0] * t105;
-    const jg_real t113 = A_j[4] * C_i[7] + C_i[6] * t108;
-    const jg_real t114 = e_ij_in_j_2 * t112 - t107 * e_ij_in_j_0 - (A_j[4] * v_i[1] + v_i[0] * t108) - alphadot *
-        t113;
-    const jg_real t115 = C_i[6] * t106 + A_j[7] * C_i[7];
-    const jg_real t116 = t109 * e_ij_in_j_0 - e_ij_in_j_1 * t112 - (v_i[0] * t106 + A_j[7] * v_i[1]) - alphadot *
-        t115;
-    const jg_real t117 = A_j[1] * v_4_in_j_0;
-    const jg_real t118 = A_j[4] * v_4_in_j_1;
-    const jg_real t119 = A_j[7] * v_4_in_j_2;
-    const jg_real t120 = t105 * C_i[0] + A_j[1] * C_i[1];
-    const jg_real t121 = t106 * C_i[0] + A_j[7] * C_i[1];
-    const jg_real t122 = t115 * f_i_in_j_0 + h_i_in_j_2 * t120 - (t110 * f_i_in_j_2 + h_i_in_j_0 * t121);
-    const jg_real t123 = t108 * C_i[0] + A_j[4] * C_i[1];
-    const jg_real t124 = t110 * f_i_in_j_1 + h_i_in_j_0 * t123 - (t113 * f_i_in_j_0 + h_i_in_j_1 * t120);
-    const jg_real t125 = C_j[8] * t122 - C_j[7] * t124;
-    const jg_real t126 = t113 * f_i_in_j_2 + h_i_in_j_1 * t121 - (t115 * f_i_in_j_1 + h_i_in_j_2 * t123);
-    const jg_real t127 = C_j[6] * t124 - C_j[8] * t126;
-    const jg_real t128 = C_j[7] * t126 - C_j[6] * t122;
-    const jg_real t129 = t113 * C_j[2] - t115 * C_j[1];
-    const jg_real t130 = t115 * C_j[0] - t110 * C_j[2];
-    const jg_real t131 = t110 * C_j[1] - t113 * C_j[0];
-    const jg_real t132 = t123 * C_j[5] - t121 * C_j[4];
-    const jg_real t133 = t121 * C_j[3] - t120 * C_j[5];
-    const jg_real t134 = t120 * C_j[4] - t123 * C_j[3];
-    const jg_real t135 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
-    const jg_real t136 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
-    const jg_real t137 = A_j[8] * omega_i[1] + omega_i[0] * t136;
-    const jg_real t138 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
-    const jg_real t139 = A_j[5] * omega_i[1] + omega_i[0] * t138;
-    const jg_real t140 = A_j[2] * C_i[7] + C_i[6] * t135;
-    const jg_real t141 = e_ij_in_j_1 * t137 - e_ij_in_j_2 * t139 - (A_j[2] * v_i[1] + v_i[0] * t135) - alphadot *
-        t140;
-    const jg_real t142 = A_j[2] * omega_i[1] + omega_i[0] * t135;
-    const jg_real t143 = A_j[5] * C_i[7] + C_i[6] * t138;
-    const jg_real t144 = e_ij_in_j_2 * t142 - t137 * e_ij_in_j_0 - (A_j[5] * v_i[1] + v_i[0] * t138) - alphadot *
-        t143;
-    const jg_real t145 = C_i[6] * t136 + A_j[8] * C_i[7];
-    const jg_real t146 = t139 * e_ij_in_j_0 - e_ij_in_j_1 * t142 - (v_i[0] * t136 + A_j[8] * v_i[1]) - alphadot *
-        t145;
-    jac_phi_q_v_A_i[5] = t60 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t100 + (t48 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t102) + (t46 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t104) - (omega_j[0] * t100 +
-        omega_j[1] * t102 + omega_j[2] * t104);
-    jac_phi_q_v_A_i[6] = t106 * v_4_in_j_2 + A_ji_2 * t116 + (t105 * v_4_in_j_0 + A_ji_0 * t111 + (t108 * v_4_in_j_1
-        + A_ji_1 * t114));
-    jac_phi_q_v_A_i[7] = t119 + A_ji_5 * t116 + (t117 + A_ji_3 * t111 + (t118 + A_ji_4 * t114));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t111 + A_ji_7 * t114 + A_ji_8 * t116;
-    jac_phi_q_v_A_i[9] = t107 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t128 + (t112 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t125 + (t109 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t127)) - (omega_j[0] * t125 +
-        omega_j[1] * t127 + omega_j[2] * t128);
-    jac_phi_q_v_A_i[10] = t107 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t131 + (t112 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t129 + (t109 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t130)) - (omega_j[0] * t129 +
-        omega_j[1] * t130 + omega_j[2] * t131);
-    jac_phi_q_v_A_i[11] = t112 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t132 + (t109 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t133) + (t107 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t134) - (omega_j[0] * t132 +
-        omega_j[1] * t133 + omega_j[2] * t134);
-    jac_phi_q_v_A_i[12] = t136 * v_4_in_j_2 + A_ji_2 * t146 + (t135 * v_4_in_j_0 + A_ji_0 * t141 + (t138 *
-        v_4_in_j_1 + A_ji_1 * t144));
-    const jg_real t147 = A_j[2] * v_4_in_j_0;
-    const jg_real t148 = A_j[5] * v_4_in_j_1;
-    const jg_real t149 = A_j[8] * v_4_in_j_2;
-    const jg_real t150 = t135 * C_i[0] + A_j[2] * C_i[1];
-    const jg_real t151 = t136 * C_i[0] + A_j[8] * C_i[1];
-    const jg_real t152 = t145 * f_i_in_j_0 + h_i_in_j_2 * t150 - (t140 * f_i_in_j_2 + h_i_in_j_0 * t151);
-    const jg_real t153 = t138 * C_i[0] + A_j[5] * C_i[1];
-    const jg_real t154 = t140 * f_i_in_j_1 + h_i_in_j_0 * t153 - (t143 * f_i_in_j_0 + h_i_in_j_1 * t150);
-    const jg_real t155 = C_j[8] * t152 - C_j[7] * t154;
-    const jg_real t156 = t143 * f_i_in_j_2 + h_i_in_j_1 * t151 - (t145 * f_i_in_j_1 + h_i_in_j_2 * t153);
-    const jg_real t157 = C_j[6] * t154 - C_j[8] * t156;
-    const jg_real t158 = C_j[7] * t156 - C_j[6] * t152;
-    const jg_real t159 = t143 * C_j[2] - t145 * C_j[1];
-    const jg_real t160 = t145 * C_j[0] - t140 * C_j[2];
-    const jg_real t161 = t140 * C_j[1] - t143 * C_j[0];
-    const jg_real t162 = t153 * C_j[5] - t151 * C_j[4];
-    const jg_real t163 = t151 * C_j[3] - t150 * C_j[5];
-    const jg_real t164 = t150 * C_j[4] - t153 * C_j[3];
-    const jg_real t165 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
-    const jg_real t166 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
-    const jg_real t167 = A_j[6] * omega_i[2] + omega_i[0] * t166;
-    const jg_real t168 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
-    const jg_real t169 = A_j[3] * omega_i[2] + omega_i[0] * t168;
-    const jg_real t170 = A_j[0] * C_i[8] + C_i[6] * t165;
-    const jg_real t171 = e_ij_in_j_1 * t167 - e_ij_in_j_2 * t169 - (A_j[0] * v_i[2] + v_i[0] * t165) - alphadot *
-        t170;
-    const jg_real t172 = A_j[0] * omega_i[2] + omega_i[0] * t165;
-    const jg_real t173 = A_j[3] * C_i[8] + C_i[6] * t168;
-    const jg_real t174 = e_ij_in_j_2 * t172 - t167 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[0] * t168) - alphadot *
-        t173;
-    const jg_real t175 = C_i[6] * t166 + A_j[6] * C_i[8];
-    const jg_real t176 = e_ij_in_j_0 * t169 - e_ij_in_j_1 * t172 - (v_i[0] * t166 + A_j[6] * v_i[2]) - alphadot *
-        t175;
-    jac_phi_q_v_A_i[13] = t149 + A_ji_5 * t146 + (t147 + A_ji_3 * t141 + (t148 + A_ji_4 * t144));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t141 + A_ji_7 * t144 + A_ji_8 * t146;
-    jac_phi_q_v_A_i[15] = t137 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t158 + (t142 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t155 + (t139 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t157)) - (omega_j[0] * t155 +
-        omega_j[1] * t157 + omega_j[2] * t158);
-    jac_phi_q_v_A_i[16] = t137 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t161 + (t142 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t159 + (t139 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t160)) - (omega_j[0] * t159 +
-        omega_j[1] * t160 + omega_j[2] * t161);
-    jac_phi_q_v_A_i[17] = t142 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t162 + (t139 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t163) + (t137 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t164) - (omega_j[0] * t162 +
-        omega_j[1] * t163 + omega_j[2] * t164);
-    jac_phi_q_v_A_i[18] = t166 * v_4_in_j_2 + A_ji_2 * t176 + (t165 * v_4_in_j_0 + A_ji_0 * t171 + (t168 *
-        v_4_in_j_1 + A_ji_1 * t174));
-    jac_phi_q_v_A_i[19] = A_ji_3 * t171 + A_ji_4 * t174 + A_ji_5 * t176;
-    jac_phi_q_v_A_i[20] = t74 + A_ji_8 * t176 + (t72 + A_ji_6 * t171 + (t73 + A_ji_7 * t174));
-    const jg_real t177 = t165 * C_i[0] + A_j[0] * C_i[2];
-    const jg_real t178 = t166 * C_i[0] + A_j[6] * C_i[2];
-    const jg_real t179 = t175 * f_i_in_j_0 + h_i_in_j_2 * t177 - (t170 * f_i_in_j_2 + h_i_in_j_0 * t178);
-    const jg_real t180 = t168 * C_i[0] + A_j[3] * C_i[2];
-    const jg_real t181 = t170 * f_i_in_j_1 + h_i_in_j_0 * t180 - (t173 * f_i_in_j_0 + h_i_in_j_1 * t177);
-    const jg_real t182 = C_j[8] * t179 - C_j[7] * t181;
-    const jg_real t183 = t173 * f_i_in_j_2 + h_i_in_j_1 * t178 - (t175 * f_i_in_j_1 + h_i_in_j_2 * t180);
-    const jg_real t184 = C_j[6] * t181 - C_j[8] * t183;
-    const jg_real t185 = C_j[7] * t183 - C_j[6] * t179;
-    const jg_real t186 = t173 * C_j[2] - t175 * C_j[1];
-    const jg_real t187 = t175 * C_j[0] - t170 * C_j[2];
-    const jg_real t188 = t170 * C_j[1] - t173 * C_j[0];
-    const jg_real t189 = C_j[5] * t180 - C_j[4] * t178;
-    const jg_real t190 = C_j[3] * t178 - t177 * C_j[5];
-    const jg_real t191 = t177 * C_j[4] - C_j[3] * t180;
-    const jg_real t192 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
-    const jg_real t193 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
-    const jg_real t194 = A_j[7] * omega_i[2] + omega_i[0] * t193;
-    const jg_real t195 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
-    const jg_real t196 = A_j[4] * omega_i[2] + omega_i[0] * t195;
-    const jg_real t197 = A_j[1] * C_i[8] + C_i[6] * t192;
-    const jg_real t198 = e_ij_in_j_1 * t194 - e_ij_in_j_2 * t196 - (A_j[1] * v_i[2] + v_i[0] * t192) - alphadot *
-        t197;
-    const jg_real t199 = A_j[1] * omega_i[2] + omega_i[0] * t192;
-    const jg_real t200 = A_j[4] * C_i[8] + C_i[6] * t195;
-    const jg_real t201 = e_ij_in_j_2 * t199 - t194 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[0] * t195) - alphadot *
-        t200;
-    const jg_real t202 = C_i[6] * t193 + A_j[7] * C_i[8];
-    const jg_real t203 = e_ij_in_j_0 * t196 - e_ij_in_j_1 * t199 - (v_i[0] * t193 + A_j[7] * v_i[2]) - alphadot *
-        t202;
-    const jg_real t204 = t192 * C_i[0] + A_j[1] * C_i[2];
-    const jg_real t205 = t193 * C_i[0] + A_j[7] * C_i[2];
-    const jg_real t206 = t202 * f_i_in_j_0 + h_i_in_j_2 * t204 - (t197 * f_i_in_j_2 + h_i_in_j_0 * t205);
-    const jg_real t207 = t195 * C_i[0] + A_j[4] * C_i[2];
-    const jg_real t208 = t197 * f_i_in_j_1 + h_i_in_j_0 * t207 - (t200 * f_i_in_j_0 + h_i_in_j_1 * t204);
-    const jg_real t209 = C_j[8] * t206 - C_j[7] * t208;
-    const jg_real t210 = t200 * f_i_in_j_2 + h_i_in_j_1 * t205 - (t202 * f_i_in_j_1 + h_i_in_j_2 * t207);
-    const jg_real t211 = C_j[6] * t208 - C_j[8] * t210;
-    const jg_real t212 = C_j[7] * t210 - C_j[6] * t206;
-    const jg_real t213 = t200 * C_j[2] - t202 * C_j[1];
-    const jg_real t214 = t202 * C_j[0] - t197 * C_j[2];
-    const jg_real t215 = t197 * C_j[1] - t200 * C_j[0];
-    jac_phi_q_v_A_i[21] = t167 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t185 + (t172 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t182 + (t169 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t184)) - (omega_j[0] * t182 +
-        omega_j[1] * t184 + omega_j[2] * t185);
-    jac_phi_q_v_A_i[22] = t167 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t188 + (t172 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t186 + (t169 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t187)) - (omega_j[0] * t186 +
-        omega_j[1] * t187 + omega_j[2] * t188);
-    jac_phi_q_v_A_i[23] = t172 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t189 + (t169 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t190) + (t167 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t191) - (omega_j[0] * t189 +
-        omega_j[1] * t190 + omega_j[2] * t191);
-    jac_phi_q_v_A_i[24] = t193 * v_4_in_j_2 + A_ji_2 * t203 + (t192 * v_4_in_j_0 + A_ji_0 * t198 + (t195 *
-        v_4_in_j_1 + A_ji_1 * t201));
-    jac_phi_q_v_A_i[25] = A_ji_3 * t198 + A_ji_4 * t201 + A_ji_5 * t203;
-    jac_phi_q_v_A_i[26] = t119 + A_ji_8 * t203 + (t117 + A_ji_6 * t198 + (t118 + A_ji_7 * t201));
-    jac_phi_q_v_A_i[27] = t194 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t212 + (t199 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t209 + (t196 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t211)) - (omega_j[0] * t209 +
-        omega_j[1] * t211 + omega_j[2] * t212);
-    jac_phi_q_v_A_i[28] = t194 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t215 + (t199 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t213 + (t196 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t214)) - (omega_j[0] * t213 +
-        omega_j[1] * t214 + omega_j[2] * t215);
-    const jg_real t216 = C_j[5] * t207 - C_j[4] * t205;
-    const jg_real t217 = C_j[3] * t205 - t204 * C_j[5];
-    const jg_real t218 = t204 * C_j[4] - C_j[3] * t207;
-    const jg_real t219 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
-    const jg_real t220 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
-    const jg_real t221 = A_j[8] * omega_i[2] + omega_i[0] * t220;
-    const jg_real t222 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
-    const jg_real t223 = A_j[5] * omega_i[2] + omega_i[0] * t222;
-    const jg_real t224 = A_j[2] * C_i[8] + C_i[6] * t219;
-    const jg_real t225 = e_ij_in_j_1 * t221 - e_ij_in_j_2 * t223 - (A_j[2] * v_i[2] + v_i[0] * t219) - alphadot *
-        t224;
-    const jg_real t226 = A_j[2] * omega_i[2] + omega_i[0] * t219;
-    const jg_real t227 = A_j[5] * C_i[8] + C_i[6] * t222;
-    const jg_real t228 = e_ij_in_j_2 * t226 - t221 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[0] * t222) - alphadot *
-        t227;
-    const jg_real t229 = C_i[6] * t220 + A_j[8] * C_i[8];
-    const jg_real t230 = e_ij_in_j_0 * t223 - e_ij_in_j_1 * t226 - (v_i[0] * t220 + A_j[8] * v_i[2]) - alphadot *
-        t229;
-    const jg_real t231 = t219 * C_i[0] + A_j[2] * C_i[2];
-    const jg_real t232 = t220 * C_i[0] + A_j[8] * C_i[2];
-    const jg_real t233 = t229 * f_i_in_j_0 + h_i_in_j_2 * t231 - (t224 * f_i_in_j_2 + h_i_in_j_0 * t232);
-    const jg_real t234 = t222 * C_i[0] + A_j[5] * C_i[2];
-    const jg_real t235 = t224 * f_i_in_j_1 + h_i_in_j_0 * t234 - (t227 * f_i_in_j_0 + h_i_in_j_1 * t231);
-    const jg_real t236 = C_j[8] * t233 - C_j[7] * t235;
-    const jg_real t237 = t227 * f_i_in_j_2 + h_i_in_j_1 * t232 - (t229 * f_i_in_j_1 + h_i_in_j_2 * t234);
-    const jg_real t238 = C_j[6] * t235 - C_j[8] * t237;
-    const jg_real t239 = C_j[7] * t237 - C_j[6] * t233;
-    const jg_real t240 = t227 * C_j[2] - t229 * C_j[1];
-    const jg_real t241 = t229 * C_j[0] - t224 * C_j[2];
-    const jg_real t242 = t224 * C_j[1] - t227 * C_j[0];
-    const jg_real t243 = C_j[5] * t234 - C_j[4] * t232;
-    const jg_real t244 = C_j[3] * t232 - t231 * C_j[5];
-    const jg_real t245 = t231 * C_j[4] - C_j[3] * t234;
-    const jg_real t246 = A_i[3] * A_ji_7 - A_i[6] * A_ji_4;
-    const jg_real t247 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t248 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
-    const jg_real t249 = omega_i[0] * t248;
-    const jg_real t250 = A_i[6] * omega_i[2] + A_i[3] * omega_i[1];
-    const jg_real t251 = e_ij_in_j_1 * t250;
-    const jg_real t252 = v_i[0] * t246;
-    const jg_real t253 = C_i[6] * t246;
-    const jg_real t254 = alphadot * t253;
-    const jg_real t255 = t247 + t249 * e_ij_in_j_0 - t251 - t252 - t254;
-    const jg_real t256 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t257 = omega_i[0] * t246;
-    const jg_real t258 = e_ij_in_j_2 * t250;
-    const jg_real t259 = v_i[0] * t248;
-    const jg_real t260 = C_i[6] * t248;
-    const jg_real t261 = alphadot * t260;
-    const jg_real t262 = t258 - (t256 + t257 * e_ij_in_j_0) - t259 - t261;
-    const jg_real t263 = t257 * e_ij_in_j_1;
-    const jg_real t264 = e_ij_in_j_2 * t249;
-    const jg_real t265 = A_i[3] * v_i[1] + A_i[6] * v_i[2];
-    const jg_real t266 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
-    const jg_real t267 = alphadot * t266;
-    const jg_real t268 = t263 - t264 - t265 - t267;
-    jac_phi_q_v_A_i[29] = t199 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t216 + (t196 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t217) + (t194 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t218) - (omega_j[0] * t216 +
-        omega_j[1] * t217 + omega_j[2] * t218);
-    jac_phi_q_v_A_i[30] = t220 * v_4_in_j_2 + A_ji_2 * t230 + (t219 * v_4_in_j_0 + A_ji_0 * t225 + (t222 *
-        v_4_in_j_1 + A_ji_1 * t228));
-    jac_phi_q_v_A_i[31] = A_ji_3 * t225 + A_ji_4 * t228 + A_ji_5 * t230;
-    jac_phi_q_v_A_i[32] = t149 + A_ji_8 * t230 + (t147 + A_ji_6 * t225 + (t148 + A_ji_7 * t228));
-    jac_phi_q_v_A_i[33] = t221 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t239 + (t226 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t236 + (t223 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t238)) - (omega_j[0] * t236 +
-        omega_j[1] * t238 + omega_j[2] * t239);
-    jac_phi_q_v_A_i[34] = t221 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t242 + (t226 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t240 + (t223 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t241)) - (omega_j[0] * t240 +
-        omega_j[1] * t241 + omega_j[2] * t242);
-    jac_phi_q_v_A_i[35] = t226 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t243 + (t223 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t244) + (t221 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t245) - (omega_j[0] * t243 +
-        omega_j[1] * t244 + omega_j[2] * t245);
-    jac_phi_q_v_A_j[0] = t246 * v_4_in_j_2 + A_ji_2 * t255 + (t248 * v_4_in_j_1 + A_ji_1 * t262 + A_ji_0 * t268);
-    const jg_real t269 = A_i[3] * C_i[1] + A_i[6] * C_i[2];
-    const jg_real t270 = h_i_in_j_2 * t269;
-    const jg_real t271 = t266 * f_i_in_j_2;
-    const jg_real t272 = t246 * C_i[0];
-    const jg_real t273 = t253 * f_i_in_j_0 + t270 - (t271 + h_i_in_j_0 * t272);
-    const jg_real t274 = t266 * f_i_in_j_1;
-    const jg_real t275 = t248 * C_i[0];
-    const jg_real t276 = h_i_in_j_1 * t269;
-    const jg_real t277 = t274 + h_i_in_j_0 * t275 - (t260 * f_i_in_j_0 + t276);
-    const jg_real t278 = C_j[8] * t273 - C_j[7] * t277;
-    const jg_real t279 = h_i_in_j_1 * t272;
-    const jg_real t280 = t260 * f_i_in_j_2;
-    const jg_real t281 = t275 * h_i_in_j_2;
-    const jg_real t282 = t253 * f_i_in_j_1;
-    const jg_real t283 = t279 + t280 - (t281 + t282);
-    const jg_real t284 = C_j[6] * t277 - C_j[8] * t283;
-    const jg_real t285 = C_j[7] * t283 - C_j[6] * t273;
-    const jg_real t286 = t260 * C_j[2];
-    const jg_real t287 = t253 * C_j[1];
-    const jg_real t288 = t286 - t287;
-    const jg_real t289 = t266 * C_j[2];
-    const jg_real t290 = t253 * C_j[0] - t289;
-    const jg_real t291 = t266 * C_j[1];
-    const jg_real t292 = t291 - t260 * C_j[0];
-    const jg_real t293 = t275 * C_j[5];
-    const jg_real t294 = t272 * C_j[4];
-    const jg_real t295 = t293 - t294;
-    const jg_real t296 = t269 * C_j[5];
-    const jg_real t297 = t272 * C_j[3] - t296;
-    const jg_real t298 = t269 * C_j[4];
-    const jg_real t299 = t298 - t275 * C_j[3];
-    const jg_real t300 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
-    const jg_real t301 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t302 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
-    const jg_real t303 = omega_i[0] * t302;
-    const jg_real t304 = A_i[7] * omega_i[2] + A_i[4] * omega_i[1];
-    const jg_real t305 = e_ij_in_j_1 * t304;
-    const jg_real t306 = v_i[0] * t300;
-    const jg_real t307 = C_i[6] * t300;
-    const jg_real t308 = alphadot * t307;
-    const jg_real t309 = t301 + t303 * e_ij_in_j_0 - t305 - t306 - t308;
-    const jg_real t310 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t311 = omega_i[0] * t300;
-    const jg_real t312 = e_ij_in_j_2 * t304;
-    const jg_real t313 = v_i[0] * t302;
-    const jg_real t314 = C_i[6] * t302;
-    const jg_real t315 = alphadot * t314;
-    const jg_real t316 = t312 - (t310 + t311 * e_ij_in_j_0) - t313 - t315;
-    const jg_real t317 = t311 * e_ij_in_j_1;
-    const jg_real t318 = e_ij_in_j_2 * t303;
-    const jg_real t319 = A_i[4] * v_i[1] + A_i[7] * v_i[2];
-    const jg_real t320 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
-    const jg_real t321 = alphadot * t320;
-    const jg_real t322 = t317 - t318 - t319 - t321;
-    jac_phi_q_v_A_j[1] = A_i[3] * v_4_in_j_0 + A_ji_3 * t268 + A_ji_4 * t262 + A_ji_5 * t255;
-    jac_phi_q_v_A_j[2] = A_i[6] * v_4_in_j_0 + A_ji_6 * t268 + A_ji_7 * t262 + A_ji_8 * t255;
-    jac_phi_q_v_A_j[3] = t257 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t285 + (t250 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t278 + (t249 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t284)) - (omega_j[0] * t278 +
-        omega_j[1] * t284 + omega_j[2] * t285);
-    jac_phi_q_v_A_j[4] = t257 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t292 + (t250 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t288 + (t249 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t290)) - (omega_j[0] * t288 +
-        omega_j[1] * t290 + omega_j[2] * t292);
-    jac_phi_q_v_A_j[5] = t250 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t295 + (t249 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t297) + (t257 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t299) - (omega_j[0] * t295 +
-        omega_j[1] * t297 + omega_j[2] * t299);
-    jac_phi_q_v_A_j[6] = t300 * v_4_in_j_2 + A_ji_2 * t309 + (t302 * v_4_in_j_1 + A_ji_1 * t316 + A_ji_0 * t322);
-    jac_phi_q_v_A_j[7] = A_i[4] * v_4_in_j_0 + A_ji_3 * t322 + A_ji_4 * t316 + A_ji_5 * t309;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_4_in_j_0 + A_ji_6 * t322 + A_ji_7 * t316 + A_ji_8 * t309;
-    const jg_real t323 = A_i[4] * C_i[1] + A_i[7] * C_i[2];
-    const jg_real t324 = h_i_in_j_2 * t323;
-    const jg_real t325 = t320 * f_i_in_j_2;
-    const jg_real t326 = t300 * C_i[0];
-    const jg_real t327 = t307 * f_i_in_j_0 + t324 - (t325 + h_i_in_j_0 * t326);
-    const jg_real t328 = t320 * f_i_in_j_1;
-    const jg_real t329 = t302 * C_i[0];
-    const jg_real t330 = h_i_in_j_1 * t323;
-    const jg_real t331 = t328 + h_i_in_j_0 * t329 - (t314 * f_i_in_j_0 + t330);
-    const jg_real t332 = C_j[8] * t327 - C_j[7] * t331;
-    const jg_real t333 = h_i_in_j_1 * t326;
-    const jg_real t334 = t314 * f_i_in_j_2;
-    const jg_real t335 = t329 * h_i_in_j_2;
-    const jg_real t336 = t307 * f_i_in_j_1;
-    const jg_real t337 = t333 + t334 - (t335 + t336);
-    const jg_real t338 = C_j[6] * t331 - C_j[8] * t337;
-    const jg_real t339 = C_j[7] * t337 - C_j[6] * t327;
-    const jg_real t340 = t314 * C_j[2];
-    const jg_real t341 = t307 * C_j[1];
-    const jg_real t342 = t340 - t341;
-    const jg_real t343 = t320 * C_j[2];
-    const jg_real t344 = t307 * C_j[0] - t343;
-    const jg_real t345 = t320 * C_j[1];
-    const jg_real t346 = t345 - t314 * C_j[0];
-    const jg_real t347 = t329 * C_j[5];
-    const jg_real t348 = t326 * C_j[4];
-    const jg_real t349 = t347 - t348;
-    const jg_real t350 = t323 * C_j[5];
-    const jg_real t351 = t326 * C_j[3] - t350;
-    const jg_real t352 = t323 * C_j[4];
-    const jg_real t353 = t352 - t329 * C_j[3];
-    const jg_real t354 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
-    const jg_real t355 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t356 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
-    const jg_real t357 = omega_i[0] * t356;
-    const jg_real t358 = A_i[8] * omega_i[2] + A_i[5] * omega_i[1];
-    const jg_real t359 = e_ij_in_j_1 * t358;
-    const jg_real t360 = v_i[0] * t354;
-    const jg_real t361 = C_i[6] * t354;
-    const jg_real t362 = alphadot * t361;
-    const jg_real t363 = t355 + t357 * e_ij_in_j_0 - t359 - t360 - t362;
-    const jg_real t364 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t365 = omega_i[0] * t354;
-    const jg_real t366 = e_ij_in_j_2 * t358;
-    const jg_real t367 = v_i[0] * t356;
-    const jg_real t368 = C_i[6] * t356;
-    const jg_real t369 = alphadot * t368;
-    const jg_real t370 = t366 - (t364 + t365 * e_ij_in_j_0) - t367 - t369;
-    const jg_real t371 = t365 * e_ij_in_j_1;
-    const jg_real t372 = e_ij_in_j_2 * t357;
-    const jg_real t373 = A_i[5] * v_i[1] + A_i[8] * v_i[2];
-    const jg_real t374 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
-    const jg_real t375 = alphadot * t374;
-    const jg_real t376 = t371 - t372 - t373 - t375;
-    const jg_real t377 = A_i[5] * C_i[1] + A_i[8] * C_i[2];
-    const jg_real t378 = h_i_in_j_2 * t377;
-    const jg_real t379 = t374 * f_i_in_j_2;
-    const jg_real t380 = t354 * C_i[0];
-    const jg_real t381 = t361 * f_i_in_j_0 + t378 - (t379 + h_i_in_j_0 * t380);
-    const jg_real t382 = t374 * f_i_in_j_1;
-    const jg_real t383 = t356 * C_i[0];
-    const jg_real t384 = h_i_in_j_1 * t377;
-    const jg_real t385 = t382 + h_i_in_j_0 * t383 - (t368 * f_i_in_j_0 + t384);
-    const jg_real t386 = C_j[8] * t381 - C_j[7] * t385;
-    const jg_real t387 = h_i_in_j_1 * t380;
-    const jg_real t388 = t368 * f_i_in_j_2;
-    const jg_real t389 = t383 * h_i_in_j_2;
-    const jg_real t390 = t361 * f_i_in_j_1;
-    const jg_real t391 = t387 + t388 - (t389 + t390);
-    const jg_real t392 = C_j[6] * t385 - C_j[8] * t391;
-    const jg_real t393 = C_j[7] * t391 - C_j[6] * t381;
-    const jg_real t394 = t368 * C_j[2];
-    const jg_real t395 = t361 * C_j[1];
-    const jg_real t396 = t394 - t395;
-    const jg_real t397 = t374 * C_j[2];
-    const jg_real t398 = t361 * C_j[0] - t397;
-    const jg_real t399 = t374 * C_j[1];
-    const jg_real t400 = t399 - t368 * C_j[0];
-    jac_phi_q_v_A_j[9] = t311 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t339 + (t304 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t332 + (t303 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t338)) - (omega_j[0] * t332 +
-        omega_j[1] * t338 + omega_j[2] * t339);
-    jac_phi_q_v_A_j[10] = t311 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t346 + (t304 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t342 + (t303 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t344)) - (omega_j[0] * t342 +
-        omega_j[1] * t344 + omega_j[2] * t346);
-    jac_phi_q_v_A_j[11] = t304 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t349 + (t303 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t351) + (t311 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t353) - (omega_j[0] * t349 +
-        omega_j[1] * t351 + omega_j[2] * t353);
-    jac_phi_q_v_A_j[12] = t354 * v_4_in_j_2 + A_ji_2 * t363 + (t356 * v_4_in_j_1 + A_ji_1 * t370 + A_ji_0 * t376);
-    jac_phi_q_v_A_j[13] = A_i[5] * v_4_in_j_0 + A_ji_3 * t376 + A_ji_4 * t370 + A_ji_5 * t363;
-    jac_phi_q_v_A_j[14] = A_i[8] * v_4_in_j_0 + A_ji_6 * t376 + A_ji_7 * t370 + A_ji_8 * t363;
-    jac_phi_q_v_A_j[15] = t365 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t393 + (t358 * g_i_cross_h_j_in_j_0 +
-        omega_i_in_j_0 * t386 + (t357 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t392)) - (omega_j[0] * t386 +
-        omega_j[1] * t392 + omega_j[2] * t393);
-    jac_phi_q_v_A_j[16] = t365 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t400 + (t358 * h_i_cross_f_j_in_j_0 +
-        omega_i_in_j_0 * t396 + (t357 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t398)) - (omega_j[0] * t396 +
-        omega_j[1] * t398 + omega_j[2] * t400);
-    const jg_real t401 = t383 * C_j[5];
-    const jg_real t402 = t380 * C_j[4];
-    const jg_real t403 = t401 - t402;
-    const jg_real t404 = t377 * C_j[5];
-    const jg_real t405 = t380 * C_j[3] - t404;
-    const jg_real t406 = t377 * C_j[4];
-    const jg_real t407 = t406 - t383 * C_j[3];
-    const jg_real t408 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
-    const jg_real t409 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t410 = t250 * e_ij_in_j_0;
-    const jg_real t411 = v_i[0] * t408;
-    const jg_real t412 = C_i[6] * t408;
-    const jg_real t413 = alphadot * t412;
-    const jg_real t414 = t410 - (t409 - e_ij_in_j_1 * t249) - t411 - t413;
-    const jg_real t415 = omega_i[0] * t408;
-    const jg_real t416 = t415 * e_ij_in_j_1 + t256 - t258 + t259 + t261;
+    const jg_real f_i_cross_g_j_in_j_1 = f_i_in_j_2 * C_j[3] - f_i_in_j_0 * C_j[5];
+    const jg_real t91 = t72 * C_j[3] - t70 * C_j[5];
+    const jg_real f_i_cross_g_j_in_j_0 = f_i_in_j_1 * C_j[5] - f_i_in_j_2 * C_j[4];
+    const jg_real t93 = t74 * C_j[5] - t72 * C_j[4];
+    const jg_real f_i_cross_g_j_in_j_2 = f_i_in_j_0 * C_j[4] - f_i_in_j_1 * C_j[3];
+    const jg_real t95 = t70 * C_j[4] - t74 * C_j[3];
+    const jg_real t96 = A_j[4] * A_ji_8 - A_j[7] * A_ji_7;
+    const jg_real t97 = A_j[1] * A_ji_7 - A_j[4] * A_ji_6;
+    const jg_real t98 = A_j[7] * omega_i[1] + omega_i[0] * t97;
+    const jg_real t99 = A_j[7] * A_ji_6 - A_j[1] * A_ji_8;
+    const jg_real t100 = A_j[4] * omega_i[1] + omega_i[0] * t99;
+    const jg_real t101 = e_ij_in_j_1 * t98 - e_ij_in_j_2 * t100;
+    const jg_real t102 = A_j[1] * omega_i[1] + omega_i[0] * t96;
+    const jg_real t103 = e_ij_in_j_2 * t102 - t98 * e_ij_in_j_0;
+    const jg_real t104 = t100 * e_ij_in_j_0 - e_ij_in_j_1 * t102;
+    const jg_real t105 = A_j[1] * v_2_in_j_0;
+    const jg_real t106 = A_j[4] * v_2_in_j_1;
+    const jg_real t107 = A_j[7] * v_2_in_j_2;
+    const jg_real t108 = t97 * C_i[6] + A_j[7] * C_i[7];
+    const jg_real t109 = t96 * C_i[0] + A_j[1] * C_i[1];
+    const jg_real t110 = C_i[6] * t96 + A_j[1] * C_i[7];
+    const jg_real t111 = t97 * C_i[0] + A_j[7] * C_i[1];
+    const jg_real t112 = t108 * f_i_in_j_0 + t109 * h_i_in_j_2 - (t110 * f_i_in_j_2 + t111 * h_i_in_j_0);
+    const jg_real t113 = t99 * C_i[0] + A_j[4] * C_i[1];
+    const jg_real t114 = C_i[6] * t99 + A_j[4] * C_i[7];
+    const jg_real t115 = t110 * f_i_in_j_1 + h_i_in_j_0 * t113 - (f_i_in_j_0 * t114 + t109 * h_i_in_j_1);
+    const jg_real t116 = C_j[8] * t112 - C_j[7] * t115;
+    const jg_real t117 = f_i_in_j_2 * t114 + t111 * h_i_in_j_1 - (t108 * f_i_in_j_1 + h_i_in_j_2 * t113);
+    const jg_real t118 = C_j[6] * t115 - C_j[8] * t117;
+    const jg_real t119 = C_j[7] * t117 - C_j[6] * t112;
+    const jg_real t120 = t108 * C_j[0] - t110 * C_j[2];
+    const jg_real t121 = C_j[2] * t114 - t108 * C_j[1];
+    const jg_real t122 = t110 * C_j[1] - C_j[0] * t114;
+    const jg_real t123 = t111 * C_j[3] - t109 * C_j[5];
+    const jg_real t124 = t113 * C_j[5] - t111 * C_j[4];
+    const jg_real t125 = t109 * C_j[4] - t113 * C_j[3];
+    const jg_real t126 = A_j[5] * A_ji_8 - A_j[8] * A_ji_7;
+    const jg_real t127 = A_j[2] * A_ji_7 - A_j[5] * A_ji_6;
+    const jg_real t128 = A_j[8] * omega_i[1] + omega_i[0] * t127;
+    const jg_real t129 = A_j[8] * A_ji_6 - A_j[2] * A_ji_8;
+    const jg_real t130 = A_j[5] * omega_i[1] + omega_i[0] * t129;
+    const jg_real t131 = e_ij_in_j_1 * t128 - e_ij_in_j_2 * t130;
+    const jg_real t132 = A_j[2] * omega_i[1] + omega_i[0] * t126;
+    const jg_real t133 = e_ij_in_j_2 * t132 - t128 * e_ij_in_j_0;
+    const jg_real t134 = t130 * e_ij_in_j_0 - e_ij_in_j_1 * t132;
+    jac_phi_q_v_A_i[5] = t44 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t91 + (t51 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t93) + (t42 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t95) - (omega_j[0] * t93 + omega_j[1]
+        * t91 + omega_j[2] * t95);
+    jac_phi_q_v_A_i[6] = t97 * v_2_in_j_2 + A_ji_2 * t104 + (t96 * v_2_in_j_0 + A_ji_0 * t101 + (t99 * v_2_in_j_1 +
+        A_ji_1 * t103));
+    jac_phi_q_v_A_i[7] = t107 + A_ji_5 * t104 + (t105 + A_ji_3 * t101 + (t106 + A_ji_4 * t103));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t101 + A_ji_7 * t103 + A_ji_8 * t104;
+    jac_phi_q_v_A_i[9] = t98 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t119 + (t102 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t116 + (t100 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t118)) - (omega_j[0] * t116 +
+        omega_j[1] * t118 + omega_j[2] * t119);
+    jac_phi_q_v_A_i[10] = t100 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t120 + (t102 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t121) + (t98 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t122) - (omega_j[1] * t120 +
+        omega_j[0] * t121 + omega_j[2] * t122);
+    jac_phi_q_v_A_i[11] = t100 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t123 + (t102 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t124) + (t98 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t125) - (omega_j[0] * t124 +
+        omega_j[1] * t123 + omega_j[2] * t125);
+    jac_phi_q_v_A_i[12] = t127 * v_2_in_j_2 + A_ji_2 * t134 + (t126 * v_2_in_j_0 + A_ji_0 * t131 + (t129 *
+        v_2_in_j_1 + A_ji_1 * t133));
+    const jg_real t135 = A_j[2] * v_2_in_j_0;
+    const jg_real t136 = A_j[5] * v_2_in_j_1;
+    const jg_real t137 = A_j[8] * v_2_in_j_2;
+    const jg_real t138 = t127 * C_i[6] + A_j[8] * C_i[7];
+    const jg_real t139 = t126 * C_i[0] + A_j[2] * C_i[1];
+    const jg_real t140 = C_i[6] * t126 + A_j[2] * C_i[7];
+    const jg_real t141 = t127 * C_i[0] + A_j[8] * C_i[1];
+    const jg_real t142 = t138 * f_i_in_j_0 + t139 * h_i_in_j_2 - (t140 * f_i_in_j_2 + t141 * h_i_in_j_0);
+    const jg_real t143 = t129 * C_i[0] + A_j[5] * C_i[1];
+    const jg_real t144 = C_i[6] * t129 + A_j[5] * C_i[7];
+    const jg_real t145 = t140 * f_i_in_j_1 + h_i_in_j_0 * t143 - (f_i_in_j_0 * t144 + t139 * h_i_in_j_1);
+    const jg_real t146 = C_j[8] * t142 - C_j[7] * t145;
+    const jg_real t147 = f_i_in_j_2 * t144 + t141 * h_i_in_j_1 - (t138 * f_i_in_j_1 + h_i_in_j_2 * t143);
+    const jg_real t148 = C_j[6] * t145 - C_j[8] * t147;
+    const jg_real t149 = C_j[7] * t147 - C_j[6] * t142;
+    const jg_real t150 = t138 * C_j[0] - t140 * C_j[2];
+    const jg_real t151 = C_j[2] * t144 - t138 * C_j[1];
+    const jg_real t152 = t140 * C_j[1] - C_j[0] * t144;
+    const jg_real t153 = t141 * C_j[3] - t139 * C_j[5];
+    const jg_real t154 = t143 * C_j[5] - t141 * C_j[4];
+    const jg_real t155 = t139 * C_j[4] - t143 * C_j[3];
+    const jg_real t156 = A_j[6] * A_ji_4 - A_j[3] * A_ji_5;
+    const jg_real t157 = A_j[3] * A_ji_3 - A_j[0] * A_ji_4;
+    const jg_real t158 = A_j[6] * omega_i[2] + omega_i[0] * t157;
+    const jg_real t159 = A_j[0] * A_ji_5 - A_j[6] * A_ji_3;
+    const jg_real t160 = A_j[3] * omega_i[2] + omega_i[0] * t159;
+    const jg_real t161 = e_ij_in_j_1 * t158 - e_ij_in_j_2 * t160;
+    const jg_real t162 = A_j[0] * omega_i[2] + omega_i[0] * t156;
+    const jg_real t163 = e_ij_in_j_2 * t162 - t158 * e_ij_in_j_0;
+    const jg_real t164 = e_ij_in_j_0 * t160 - e_ij_in_j_1 * t162;
+    jac_phi_q_v_A_i[13] = t137 + A_ji_5 * t134 + (t135 + A_ji_3 * t131 + (t136 + A_ji_4 * t133));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t131 + A_ji_7 * t133 + A_ji_8 * t134;
+    jac_phi_q_v_A_i[15] = t128 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t149 + (t132 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t146 + (t130 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t148)) - (omega_j[0] * t146 +
+        omega_j[1] * t148 + omega_j[2] * t149);
+    jac_phi_q_v_A_i[16] = t130 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t150 + (t132 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t151) + (t128 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t152) - (omega_j[1] * t150 +
+        omega_j[0] * t151 + omega_j[2] * t152);
+    jac_phi_q_v_A_i[17] = t130 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t153 + (t132 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t154) + (t128 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t155) - (omega_j[0] * t154 +
+        omega_j[1] * t153 + omega_j[2] * t155);
+    jac_phi_q_v_A_i[18] = t157 * v_2_in_j_2 + A_ji_2 * t164 + (t156 * v_2_in_j_0 + A_ji_0 * t161 + (t159 *
+        v_2_in_j_1 + A_ji_1 * t163));
+    jac_phi_q_v_A_i[19] = A_ji_3 * t161 + A_ji_4 * t163 + A_ji_5 * t164;
+    jac_phi_q_v_A_i[20] = t59 + A_ji_8 * t164 + (t57 + A_ji_6 * t161 + (t58 + A_ji_7 * t163));
+    const jg_real t165 = t157 * C_i[6] + A_j[6] * C_i[8];
+    const jg_real t166 = t156 * C_i[0] + A_j[0] * C_i[2];
+    const jg_real t167 = C_i[6] * t156 + A_j[0] * C_i[8];
+    const jg_real t168 = t157 * C_i[0] + A_j[6] * C_i[2];
+    const jg_real t169 = t165 * f_i_in_j_0 + h_i_in_j_2 * t166 - (t167 * f_i_in_j_2 + h_i_in_j_0 * t168);
+    const jg_real t170 = t159 * C_i[0] + A_j[3] * C_i[2];
+    const jg_real t171 = C_i[6] * t159 + A_j[3] * C_i[8];
+    const jg_real t172 = t167 * f_i_in_j_1 + h_i_in_j_0 * t170 - (f_i_in_j_0 * t171 + t166 * h_i_in_j_1);
+    const jg_real t173 = C_j[8] * t169 - C_j[7] * t172;
+    const jg_real t174 = f_i_in_j_2 * t171 + t168 * h_i_in_j_1 - (t165 * f_i_in_j_1 + h_i_in_j_2 * t170);
+    const jg_real t175 = C_j[6] * t172 - C_j[8] * t174;
+    const jg_real t176 = C_j[7] * t174 - C_j[6] * t169;
+    const jg_real t177 = t165 * C_j[0] - t167 * C_j[2];
+    const jg_real t178 = C_j[2] * t171 - t165 * C_j[1];
+    const jg_real t179 = t167 * C_j[1] - C_j[0] * t171;
+    const jg_real t180 = t168 * C_j[3] - t166 * C_j[5];
+    const jg_real t181 = t170 * C_j[5] - t168 * C_j[4];
+    const jg_real t182 = t166 * C_j[4] - t170 * C_j[3];
+    const jg_real t183 = A_j[7] * A_ji_4 - A_j[4] * A_ji_5;
+    const jg_real t184 = A_j[4] * A_ji_3 - A_j[1] * A_ji_4;
+    const jg_real t185 = A_j[7] * omega_i[2] + omega_i[0] * t184;
+    const jg_real t186 = A_j[1] * A_ji_5 - A_j[7] * A_ji_3;
+    const jg_real t187 = A_j[4] * omega_i[2] + omega_i[0] * t186;
+    const jg_real t188 = e_ij_in_j_1 * t185 - e_ij_in_j_2 * t187;
+    const jg_real t189 = A_j[1] * omega_i[2] + omega_i[0] * t183;
+    const jg_real t190 = e_ij_in_j_2 * t189 - t185 * e_ij_in_j_0;
+    const jg_real t191 = e_ij_in_j_0 * t187 - e_ij_in_j_1 * t189;
+    const jg_real t192 = t184 * C_i[6] + A_j[7] * C_i[8];
+    const jg_real t193 = t183 * C_i[0] + A_j[1] * C_i[2];
+    const jg_real t194 = C_i[6] * t183 + A_j[1] * C_i[8];
+    const jg_real t195 = t184 * C_i[0] + A_j[7] * C_i[2];
+    const jg_real t196 = t192 * f_i_in_j_0 + h_i_in_j_2 * t193 - (t194 * f_i_in_j_2 + h_i_in_j_0 * t195);
+    const jg_real t197 = t186 * C_i[0] + A_j[4] * C_i[2];
+    const jg_real t198 = C_i[6] * t186 + A_j[4] * C_i[8];
+    const jg_real t199 = t194 * f_i_in_j_1 + h_i_in_j_0 * t197 - (f_i_in_j_0 * t198 + t193 * h_i_in_j_1);
+    const jg_real t200 = C_j[8] * t196 - C_j[7] * t199;
+    const jg_real t201 = f_i_in_j_2 * t198 + t195 * h_i_in_j_1 - (t192 * f_i_in_j_1 + h_i_in_j_2 * t197);
+    const jg_real t202 = C_j[6] * t199 - C_j[8] * t201;
+    const jg_real t203 = C_j[7] * t201 - C_j[6] * t196;
+    const jg_real t204 = t192 * C_j[0] - t194 * C_j[2];
+    const jg_real t205 = C_j[2] * t198 - t192 * C_j[1];
+    const jg_real t206 = t194 * C_j[1] - C_j[0] * t198;
+    jac_phi_q_v_A_i[21] = t158 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t176 + (t162 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t173 + (t160 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t175)) - (omega_j[0] * t173 +
+        omega_j[1] * t175 + omega_j[2] * t176);
+    jac_phi_q_v_A_i[22] = t160 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t177 + (t162 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t178) + (t158 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t179) - (omega_j[1] * t177 +
+        omega_j[0] * t178 + omega_j[2] * t179);
+    jac_phi_q_v_A_i[23] = t160 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t180 + (t162 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t181) + (t158 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t182) - (omega_j[0] * t181 +
+        omega_j[1] * t180 + omega_j[2] * t182);
+    jac_phi_q_v_A_i[24] = t184 * v_2_in_j_2 + A_ji_2 * t191 + (t183 * v_2_in_j_0 + A_ji_0 * t188 + (t186 *
+        v_2_in_j_1 + A_ji_1 * t190));
+    jac_phi_q_v_A_i[25] = A_ji_3 * t188 + A_ji_4 * t190 + A_ji_5 * t191;
+    jac_phi_q_v_A_i[26] = t107 + A_ji_8 * t191 + (t105 + A_ji_6 * t188 + (t106 + A_ji_7 * t190));
+    jac_phi_q_v_A_i[27] = t185 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t203 + (t189 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t200 + (t187 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t202)) - (omega_j[0] * t200 +
+        omega_j[1] * t202 + omega_j[2] * t203);
+    jac_phi_q_v_A_i[28] = t187 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t204 + (t189 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t205) + (t185 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t206) - (omega_j[1] * t204 +
+        omega_j[0] * t205 + omega_j[2] * t206);
+    const jg_real t207 = t195 * C_j[3] - t193 * C_j[5];
+    const jg_real t208 = t197 * C_j[5] - t195 * C_j[4];
+    const jg_real t209 = t193 * C_j[4] - t197 * C_j[3];
+    const jg_real t210 = A_j[8] * A_ji_4 - A_j[5] * A_ji_5;
+    const jg_real t211 = A_j[5] * A_ji_3 - A_j[2] * A_ji_4;
+    const jg_real t212 = A_j[8] * omega_i[2] + omega_i[0] * t211;
+    const jg_real t213 = A_j[2] * A_ji_5 - A_j[8] * A_ji_3;
+    const jg_real t214 = A_j[5] * omega_i[2] + omega_i[0] * t213;
+    const jg_real t215 = e_ij_in_j_1 * t212 - e_ij_in_j_2 * t214;
+    const jg_real t216 = A_j[2] * omega_i[2] + omega_i[0] * t210;
+    const jg_real t217 = e_ij_in_j_2 * t216 - t212 * e_ij_in_j_0;
+    const jg_real t218 = e_ij_in_j_0 * t214 - e_ij_in_j_1 * t216;
+    const jg_real t219 = t211 * C_i[6] + A_j[8] * C_i[8];
+    const jg_real t220 = t210 * C_i[0] + A_j[2] * C_i[2];
+    const jg_real t221 = C_i[6] * t210 + A_j[2] * C_i[8];
+    const jg_real t222 = t211 * C_i[0] + A_j[8] * C_i[2];
+    const jg_real t223 = t219 * f_i_in_j_0 + h_i_in_j_2 * t220 - (t221 * f_i_in_j_2 + h_i_in_j_0 * t222);
+    const jg_real t224 = t213 * C_i[0] + A_j[5] * C_i[2];
+    const jg_real t225 = C_i[6] * t213 + A_j[5] * C_i[8];
+    const jg_real t226 = t221 * f_i_in_j_1 + h_i_in_j_0 * t224 - (f_i_in_j_0 * t225 + t220 * h_i_in_j_1);
+    const jg_real t227 = C_j[8] * t223 - C_j[7] * t226;
+    const jg_real t228 = f_i_in_j_2 * t225 + t222 * h_i_in_j_1 - (t219 * f_i_in_j_1 + h_i_in_j_2 * t224);
+    const jg_real t229 = C_j[6] * t226 - C_j[8] * t228;
+    const jg_real t230 = C_j[7] * t228 - C_j[6] * t223;
+    const jg_real t231 = t219 * C_j[0] - t221 * C_j[2];
+    const jg_real t232 = C_j[2] * t225 - t219 * C_j[1];
+    const jg_real t233 = t221 * C_j[1] - C_j[0] * t225;
+    const jg_real t234 = t222 * C_j[3] - t220 * C_j[5];
+    const jg_real t235 = t224 * C_j[5] - t222 * C_j[4];
+    const jg_real t236 = t220 * C_j[4] - t224 * C_j[3];
+    const jg_real t237 = A_i[3] * A_ji_7 - A_i[6] * A_ji_4;
+    const jg_real t238 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t239 = A_i[6] * A_ji_5 - A_i[3] * A_ji_8;
+    const jg_real t240 = omega_i[0] * t239;
+    const jg_real t241 = A_i[6] * omega_i[2] + A_i[3] * omega_i[1];
+    const jg_real t242 = e_ij_in_j_1 * t241;
+    const jg_real t243 = t238 + t240 * e_ij_in_j_0 - t242;
+    const jg_real t244 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t245 = omega_i[0] * t237;
+    const jg_real t246 = e_ij_in_j_2 * t241;
+    const jg_real t247 = t246 - (t244 + t245 * e_ij_in_j_0);
+    const jg_real t248 = t245 * e_ij_in_j_1;
+    const jg_real t249 = e_ij_in_j_2 * t240;
+    const jg_real t250 = t248 - t249;
+    jac_phi_q_v_A_i[29] = t187 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t207 + (t189 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t208) + (t185 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t209) - (omega_j[0] * t208 +
+        omega_j[1] * t207 + omega_j[2] * t209);
+    jac_phi_q_v_A_i[30] = t211 * v_2_in_j_2 + A_ji_2 * t218 + (t210 * v_2_in_j_0 + A_ji_0 * t215 + (t213 *
+        v_2_in_j_1 + A_ji_1 * t217));
+    jac_phi_q_v_A_i[31] = A_ji_3 * t215 + A_ji_4 * t217 + A_ji_5 * t218;
+    jac_phi_q_v_A_i[32] = t137 + A_ji_8 * t218 + (t135 + A_ji_6 * t215 + (t136 + A_ji_7 * t217));
+    jac_phi_q_v_A_i[33] = t212 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t230 + (t216 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t227 + (t214 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t229)) - (omega_j[0] * t227 +
+        omega_j[1] * t229 + omega_j[2] * t230);
+    jac_phi_q_v_A_i[34] = t214 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t231 + (t216 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t232) + (t212 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t233) - (omega_j[1] * t231 +
+        omega_j[0] * t232 + omega_j[2] * t233);
+    jac_phi_q_v_A_i[35] = t214 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t234 + (t216 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t235) + (t212 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t236) - (omega_j[0] * t235 +
+        omega_j[1] * t234 + omega_j[2] * t236);
+    jac_phi_q_v_A_j[0] = t237 * v_2_in_j_2 + A_ji_2 * t243 + (t239 * v_2_in_j_1 + A_ji_1 * t247 + A_ji_0 * t250);
+    const jg_real t251 = t237 * C_i[6];
+    const jg_real t252 = A_i[3] * C_i[1] + A_i[6] * C_i[2];
+    const jg_real t253 = h_i_in_j_2 * t252;
+    const jg_real t254 = A_i[3] * C_i[7] + A_i[6] * C_i[8];
+    const jg_real t255 = t254 * f_i_in_j_2;
+    const jg_real t256 = t237 * C_i[0];
+    const jg_real t257 = t251 * f_i_in_j_0 + t253 - (t255 + t256 * h_i_in_j_0);
+    const jg_real t258 = t254 * f_i_in_j_1;
+    const jg_real t259 = t239 * C_i[0];
+    const jg_real t260 = C_i[6] * t239;
+    const jg_real t261 = t252 * h_i_in_j_1;
+    const jg_real t262 = t258 + t259 * h_i_in_j_0 - (t260 * f_i_in_j_0 + t261);
+    const jg_real t263 = C_j[8] * t257 - C_j[7] * t262;
+    const jg_real t264 = t260 * f_i_in_j_2;
+    const jg_real t265 = t256 * h_i_in_j_1;
+    const jg_real t266 = t259 * h_i_in_j_2;
+    const jg_real t267 = t251 * f_i_in_j_1;
+    const jg_real t268 = t264 + t265 - (t266 + t267);
+    const jg_real t269 = C_j[6] * t262 - C_j[8] * t268;
+    const jg_real t270 = C_j[7] * t268 - C_j[6] * t257;
+    const jg_real t271 = t260 * C_j[2];
+    const jg_real t272 = t251 * C_j[1];
+    const jg_real t273 = t271 - t272;
+    const jg_real t274 = t254 * C_j[2];
+    const jg_real t275 = t251 * C_j[0] - t274;
+    const jg_real t276 = t254 * C_j[1];
+    const jg_real t277 = t276 - t260 * C_j[0];
+    const jg_real t278 = t259 * C_j[5];
+    const jg_real t279 = t256 * C_j[4];
+    const jg_real t280 = t278 - t279;
+    const jg_real t281 = t252 * C_j[5];
+    const jg_real t282 = t256 * C_j[3] - t281;
+    const jg_real t283 = t252 * C_j[4];
+    const jg_real t284 = t283 - t259 * C_j[3];
+    const jg_real t285 = A_i[4] * A_ji_7 - A_i[7] * A_ji_4;
+    const jg_real t286 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t287 = A_i[7] * A_ji_5 - A_i[4] * A_ji_8;
+    const jg_real t288 = omega_i[0] * t287;
+    const jg_real t289 = A_i[7] * omega_i[2] + A_i[4] * omega_i[1];
+    const jg_real t290 = e_ij_in_j_1 * t289;
+    const jg_real t291 = t286 + t288 * e_ij_in_j_0 - t290;
+    const jg_real t292 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t293 = omega_i[0] * t285;
+    const jg_real t294 = e_ij_in_j_2 * t289;
+    const jg_real t295 = t294 - (t292 + t293 * e_ij_in_j_0);
+    const jg_real t296 = t293 * e_ij_in_j_1;
+    const jg_real t297 = e_ij_in_j_2 * t288;
+    const jg_real t298 = t296 - t297;
+    jac_phi_q_v_A_j[1] = A_i[3] * v_2_in_j_0 + A_ji_3 * t250 + A_ji_4 * t247 + A_ji_5 * t243;
+    jac_phi_q_v_A_j[2] = A_i[6] * v_2_in_j_0 + A_ji_6 * t250 + A_ji_7 * t247 + A_ji_8 * t243;
+    jac_phi_q_v_A_j[3] = t245 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t270 + (t241 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t263 + (t240 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t269)) - (omega_j[0] * t263 +
+        omega_j[1] * t269 + omega_j[2] * t270);
+    jac_phi_q_v_A_j[4] = t240 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t275 + (t241 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t273) + (t245 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t277) - (omega_j[1] * t275 +
+        omega_j[0] * t273 + omega_j[2] * t277);
+    jac_phi_q_v_A_j[5] = t240 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t282 + (t241 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t280) + (t245 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t284) - (omega_j[0] * t280 +
+        omega_j[1] * t282 + omega_j[2] * t284);
+    jac_phi_q_v_A_j[6] = t285 * v_2_in_j_2 + A_ji_2 * t291 + (t287 * v_2_in_j_1 + A_ji_1 * t295 + A_ji_0 * t298);
+    jac_phi_q_v_A_j[7] = A_i[4] * v_2_in_j_0 + A_ji_3 * t298 + A_ji_4 * t295 + A_ji_5 * t291;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_2_in_j_0 + A_ji_6 * t298 + A_ji_7 * t295 + A_ji_8 * t291;
+    const jg_real t299 = t285 * C_i[6];
+    const jg_real t300 = A_i[4] * C_i[1] + A_i[7] * C_i[2];
+    const jg_real t301 = h_i_in_j_2 * t300;
+    const jg_real t302 = A_i[4] * C_i[7] + A_i[7] * C_i[8];
+    const jg_real t303 = t302 * f_i_in_j_2;
+    const jg_real t304 = t285 * C_i[0];
+    const jg_real t305 = t299 * f_i_in_j_0 + t301 - (t303 + t304 * h_i_in_j_0);
+    const jg_real t306 = t302 * f_i_in_j_1;
+    const jg_real t307 = t287 * C_i[0];
+    const jg_real t308 = C_i[6] * t287;
+    const jg_real t309 = t300 * h_i_in_j_1;
+    const jg_real t310 = t306 + t307 * h_i_in_j_0 - (t308 * f_i_in_j_0 + t309);
+    const jg_real t311 = C_j[8] * t305 - C_j[7] * t310;
+    const jg_real t312 = t308 * f_i_in_j_2;
+    const jg_real t313 = t304 * h_i_in_j_1;
+    const jg_real t314 = t307 * h_i_in_j_2;
+    const jg_real t315 = t299 * f_i_in_j_1;
+    const jg_real t316 = t312 + t313 - (t314 + t315);
+    const jg_real t317 = C_j[6] * t310 - C_j[8] * t316;
+    const jg_real t318 = C_j[7] * t316 - C_j[6] * t305;
+    const jg_real t319 = t308 * C_j[2];
+    const jg_real t320 = t299 * C_j[1];
+    const jg_real t321 = t319 - t320;
+    const jg_real t322 = t302 * C_j[2];
+    const jg_real t323 = t299 * C_j[0] - t322;
+    const jg_real t324 = t302 * C_j[1];
+    const jg_real t325 = t324 - t308 * C_j[0];
+    const jg_real t326 = t307 * C_j[5];
+    const jg_real t327 = t304 * C_j[4];
+    const jg_real t328 = t326 - t327;
+    const jg_real t329 = t300 * C_j[5];
+    const jg_real t330 = t304 * C_j[3] - t329;
+    const jg_real t331 = t300 * C_j[4];
+    const jg_real t332 = t331 - t307 * C_j[3];
+    const jg_real t333 = A_i[5] * A_ji_7 - A_i[8] * A_ji_4;
+    const jg_real t334 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t335 = A_i[8] * A_ji_5 - A_i[5] * A_ji_8;
+    const jg_real t336 = omega_i[0] * t335;
+    const jg_real t337 = A_i[8] * omega_i[2] + A_i[5] * omega_i[1];
+    const jg_real t338 = e_ij_in_j_1 * t337;
+    const jg_real t339 = t334 + t336 * e_ij_in_j_0 - t338;
+    const jg_real t340 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t341 = omega_i[0] * t333;
+    const jg_real t342 = e_ij_in_j_2 * t337;
+    const jg_real t343 = t342 - (t340 + t341 * e_ij_in_j_0);
+    const jg_real t344 = t341 * e_ij_in_j_1;
+    const jg_real t345 = e_ij_in_j_2 * t336;
+    const jg_real t346 = t344 - t345;
+    const jg_real t347 = t333 * C_i[6];
+    const jg_real t348 = A_i[5] * C_i[1] + A_i[8] * C_i[2];
+    const jg_real t349 = h_i_in_j_2 * t348;
+    const jg_real t350 = A_i[5] * C_i[7] + A_i[8] * C_i[8];
+    const jg_real t351 = t350 * f_i_in_j_2;
+    const jg_real t352 = t333 * C_i[0];
+    const jg_real t353 = t347 * f_i_in_j_0 + t349 - (t351 + t352 * h_i_in_j_0);
+    const jg_real t354 = t350 * f_i_in_j_1;
+    const jg_real t355 = t335 * C_i[0];
+    const jg_real t356 = C_i[6] * t335;
+    const jg_real t357 = t348 * h_i_in_j_1;
+    const jg_real t358 = t354 + t355 * h_i_in_j_0 - (t356 * f_i_in_j_0 + t357);
+    const jg_real t359 = C_j[8] * t353 - C_j[7] * t358;
+    const jg_real t360 = t356 * f_i_in_j_2;
+    const jg_real t361 = t352 * h_i_in_j_1;
+    const jg_real t362 = t355 * h_i_in_j_2;
+    const jg_real t363 = t347 * f_i_in_j_1;
+    const jg_real t364 = t360 + t361 - (t362 + t363);
+    const jg_real t365 = C_j[6] * t358 - C_j[8] * t364;
+    const jg_real t366 = C_j[7] * t364 - C_j[6] * t353;
+    const jg_real t367 = t356 * C_j[2];
+    const jg_real t368 = t347 * C_j[1];
+    const jg_real t369 = t367 - t368;
+    const jg_real t370 = t350 * C_j[2];
+    const jg_real t371 = t347 * C_j[0] - t370;
+    const jg_real t372 = t350 * C_j[1];
+    const jg_real t373 = t372 - t356 * C_j[0];
+    jac_phi_q_v_A_j[9] = t293 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t318 + (t289 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t311 + (t288 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t317)) - (omega_j[0] * t311 +
+        omega_j[1] * t317 + omega_j[2] * t318);
+    jac_phi_q_v_A_j[10] = t288 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t323 + (t289 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t321) + (t293 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t325) - (omega_j[1] * t323 +
+        omega_j[0] * t321 + omega_j[2] * t325);
+    jac_phi_q_v_A_j[11] = t288 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t330 + (t289 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t328) + (t293 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t332) - (omega_j[0] * t328 +
+        omega_j[1] * t330 + omega_j[2] * t332);
+    jac_phi_q_v_A_j[12] = t333 * v_2_in_j_2 + A_ji_2 * t339 + (t335 * v_2_in_j_1 + A_ji_1 * t343 + A_ji_0 * t346);
+    jac_phi_q_v_A_j[13] = A_i[5] * v_2_in_j_0 + A_ji_3 * t346 + A_ji_4 * t343 + A_ji_5 * t339;
+    jac_phi_q_v_A_j[14] = A_i[8] * v_2_in_j_0 + A_ji_6 * t346 + A_ji_7 * t343 + A_ji_8 * t339;
+    jac_phi_q_v_A_j[15] = t341 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t366 + (t337 * g_i_cross_h_j_in_j_0 +
+        omega_i_in_j_0 * t359 + (t336 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t365)) - (omega_j[0] * t359 +
+        omega_j[1] * t365 + omega_j[2] * t366);
+    jac_phi_q_v_A_j[16] = t336 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t371 + (t337 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t369) + (t341 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t373) - (omega_j[1] * t371 +
+        omega_j[0] * t369 + omega_j[2] * t373);
+    const jg_real t374 = t355 * C_j[5];
+    const jg_real t375 = t352 * C_j[4];
+    const jg_real t376 = t374 - t375;
+    const jg_real t377 = t348 * C_j[5];
+    const jg_real t378 = t352 * C_j[3] - t377;
+    const jg_real t379 = t348 * C_j[4];
+    const jg_real t380 = t379 - t355 * C_j[3];
+    const jg_real t381 = A_i[6] * A_ji_3 - A_i[3] * A_ji_6;
+    const jg_real t382 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t383 = t241 * e_ij_in_j_0;
+    const jg_real t384 = t383 - (t382 - e_ij_in_j_1 * t240);
+    const jg_real t385 = omega_i[0] * t381;
+    const jg_real t386 = t385 * e_ij_in_j_1 + t244 - t246;
+    const jg_real t387 = t385 * e_ij_in_j_0;
+    const jg_real t388 = t387 + t249;
+    const jg_real t389 = t381 * C_i[6];
+    const jg_real t390 = t389 * f_i_in_j_0;
+    const jg_real t391 = t381 * C_i[0];
+    const jg_real t392 = t391 * h_i_in_j_0;
+    const jg_real t393 = t390 - t266 - (t392 - t264);
+    const jg_real t394 = t252 * h_i_in_j_0;
+    const jg_real t395 = t254 * f_i_in_j_0;
+    const jg_real t396 = t394 - t260 * f_i_in_j_1 - (t395 - t259 * h_i_in_j_1);
+    const jg_real t397 = C_j[8] * t393 - C_j[7] * t396;
+    const jg_real t398 = t255 + t391 * h_i_in_j_1 - (t253 + t389 * f_i_in_j_1);
+    const jg_real t399 = C_j[6] * t396 - C_j[8] * t398;
+    const jg_real t400 = C_j[7] * t398 - C_j[6] * t393;
+    const jg_real t401 = t389 * C_j[0];
+    const jg_real t402 = t401 + t271;
+    const jg_real t403 = t274 - t389 * C_j[1];
+    const jg_real t404 = t254 * C_j[0];
+    const jg_real t405 = t404 + t260 * C_j[1];
+    const jg_real t406 = t391 * C_j[3];
+    const jg_real t407 = t278 + t406;
+    const jg_real t408 = t281 - t391 * C_j[4];
+    const jg_real t409 = t252 * C_j[3];
+    const jg_real t410 = t409 + t259 * C_j[4];
+    const jg_real t411 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
+    const jg_real t412 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t413 = t289 * e_ij_in_j_0;
+    const jg_real t414 = t413 - (t412 - e_ij_in_j_1 * t288);
+    const jg_real t415 = omega_i[0] * t411;
+    const jg_real t416 = t415 * e_ij_in_j_1 + t292 - t294;
     const jg_real t417 = t415 * e_ij_in_j_0;
-    const jg_real t418 = t417 + t264 + t265 + t267;
-    const jg_real t419 = t412 * f_i_in_j_0;
-    const jg_real t420 = t408 * C_i[0];
-    const jg_real t421 = h_i_in_j_0 * t420;
-    const jg_real t422 = t419 - t281 - (t421 - t280);
-    const jg_real t423 = h_i_in_j_0 * t269;
-    const jg_real t424 = t266 * f_i_in_j_0;
-    const jg_real t425 = t423 - t260 * f_i_in_j_1 - (t424 - h_i_in_j_1 * t275);
-    const jg_real t426 = C_j[8] * t422 - C_j[7] * t425;
-    const jg_real t427 = t271 + h_i_in_j_1 * t420 - (t270 + t412 * f_i_in_j_1);
-    const jg_real t428 = C_j[6] * t425 - C_j[8] * t427;
-    const jg_real t429 = C_j[7] * t427 - C_j[6] * t422;
-    const jg_real t430 = t412 * C_j[0];
-    const jg_real t431 = t286 + t430;
-    const jg_real t432 = t289 - t412 * C_j[1];
-    const jg_real t433 = t266 * C_j[0];
-    const jg_real t434 = t260 * C_j[1] + t433;
-    const jg_real t435 = t420 * C_j[3];
-    const jg_real t436 = t293 + t435;
-    const jg_real t437 = t296 - t420 * C_j[4];
-    const jg_real t438 = t269 * C_j[3];
-    const jg_real t439 = t438 + t275 * C_j[4];
-    const jg_real t440 = A_i[7] * A_ji_3 - A_i[4] * A_ji_6;
-    const jg_real t441 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t442 = t304 * e_ij_in_j_0;
-    const jg_real t443 = v_i[0] * t440;
-    const jg_real t444 = C_i[6] * t440;
-    const jg_real t445 = alphadot * t444;
-    const jg_real t446 = t442 - (t441 - e_ij_in_j_1 * t303) - t443 - t445;
-    const jg_real t447 = omega_i[0] * t440;
-    const jg_real t448 = t447 * e_ij_in_j_1 + t310 - t312 + t313 + t315;
-    const jg_real t449 = t447 * e_ij_in_j_0;
-    const jg_real t450 = t449 + t318 + t319 + t321;
-    jac_phi_q_v_A_j[17] = t358 * f_i_cross_g_j_in_j_0 + omega_i_in_j_0 * t403 + (t357 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t405) + (t365 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t407) - (omega_j[0] * t403 +
-        omega_j[1] * t405 + omega_j[2] * t407);
-    jac_phi_q_v_A_j[18] = t408 * v_4_in_j_2 + A_ji_2 * t414 + (A_ji_0 * t416 - t248 * v_4_in_j_0 - A_ji_1 * t418);
-    jac_phi_q_v_A_j[19] = A_i[3] * v_4_in_j_1 - A_ji_4 * t418 + A_ji_3 * t416 + A_ji_5 * t414;
-    jac_phi_q_v_A_j[20] = A_i[6] * v_4_in_j_1 - A_ji_7 * t418 + A_ji_6 * t416 + A_ji_8 * t414;
-    jac_phi_q_v_A_j[21] = t415 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t429 + (omega_i_in_j_0 * t426 - t249 *
-        g_i_cross_h_j_in_j_0 + (t250 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t428)) - (omega_j[0] * t426 +
-        omega_j[1] * t428 + omega_j[2] * t429);
-    jac_phi_q_v_A_j[22] = t415 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t434 + (omega_i_in_j_0 * t432 - t249 *
-        h_i_cross_f_j_in_j_0 + (t250 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t431)) - (omega_j[0] * t432 +
-        omega_j[1] * t431 - omega_j[2] * t434);
-    jac_phi_q_v_A_j[23] = omega_i_in_j_0 * t437 - t249 * f_i_cross_g_j_in_j_0 + (t250 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t436) + (t415 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t439) - (omega_j[0] * t437 +
-        omega_j[1] * t436 - omega_j[2] * t439);
-    jac_phi_q_v_A_j[24] = t440 * v_4_in_j_2 + A_ji_2 * t446 + (A_ji_0 * t448 - t302 * v_4_in_j_0 - A_ji_1 * t450);
-    const jg_real t451 = t444 * f_i_in_j_0;
-    const jg_real t452 = t440 * C_i[0];
-    const jg_real t453 = h_i_in_j_0 * t452;
-    const jg_real t454 = t451 - t335 - (t453 - t334);
-    const jg_real t455 = h_i_in_j_0 * t323;
-    const jg_real t456 = t320 * f_i_in_j_0;
-    const jg_real t457 = t455 - t314 * f_i_in_j_1 - (t456 - h_i_in_j_1 * t329);
-    const jg_real t458 = C_j[8] * t454 - C_j[7] * t457;
-    const jg_real t459 = t325 + h_i_in_j_1 * t452 - (t324 + t444 * f_i_in_j_1);
-    const jg_real t460 = C_j[6] * t457 - C_j[8] * t459;
-    const jg_real t461 = C_j[7] * t459 - C_j[6] * t454;
-    const jg_real t462 = t444 * C_j[0];
-    const jg_real t463 = t340 + t462;
-    const jg_real t464 = t343 - t444 * C_j[1];
-    const jg_real t465 = t320 * C_j[0];
-    const jg_real t466 = t314 * C_j[1] + t465;
-    const jg_real t467 = t452 * C_j[3];
-    const jg_real t468 = t347 + t467;
-    const jg_real t469 = t350 - t452 * C_j[4];
-    const jg_real t470 = t323 * C_j[3];
-    const jg_real t471 = t470 + t329 * C_j[4];
-    const jg_real t472 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
-    const jg_real t473 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t474 = t358 * e_ij_in_j_0;
-    const jg_real t475 = v_i[0] * t472;
-    const jg_real t476 = C_i[6] * t472;
-    const jg_real t477 = alphadot * t476;
-    const jg_real t478 = t474 - (t473 - e_ij_in_j_1 * t357) - t475 - t477;
-    const jg_real t479 = omega_i[0] * t472;
-    const jg_real t480 = t479 * e_ij_in_j_1 + t364 - t366 + t367 + t369;
-    const jg_real t481 = t479 * e_ij_in_j_0;
-    const jg_real t482 = t481 + t372 + t373 + t375;
-    jac_phi_q_v_A_j[25] = A_i[4] * v_4_in_j_1 - A_ji_4 * t450 + A_ji_3 * t448 + A_ji_5 * t446;
-    jac_phi_q_v_A_j[26] = A_i[7] * v_4_in_j_1 - A_ji_7 * t450 + A_ji_6 * t448 + A_ji_8 * t446;
-    jac_phi_q_v_A_j[27] = t447 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t461 + (omega_i_in_j_0 * t458 - t303 *
-        g_i_cross_h_j_in_j_0 + (t304 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t460)) - (omega_j[0] * t458 +
-        omega_j[1] * t460 + omega_j[2] * t461);
-    jac_phi_q_v_A_j[28] = t447 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t466 + (omega_i_in_j_0 * t464 - t303 *
-        h_i_cross_f_j_in_j_0 + (t304 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t463)) - (omega_j[0] * t464 +
-        omega_j[1] * t463 - omega_j[2] * t466);
-    jac_phi_q_v_A_j[29] = omega_i_in_j_0 * t469 - t303 * f_i_cross_g_j_in_j_0 + (t304 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t468) + (t447 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t471) - (omega_j[0] * t469 +
-        omega_j[1] * t468 - omega_j[2] * t471);
-    jac_phi_q_v_A_j[30] = t472 * v_4_in_j_2 + A_ji_2 * t478 + (A_ji_0 * t480 - t356 * v_4_in_j_0 - A_ji_1 * t482);
-    jac_phi_q_v_A_j[31] = A_i[5] * v_4_in_j_1 - A_ji_4 * t482 + A_ji_3 * t480 + A_ji_5 * t478;
-    jac_phi_q_v_A_j[32] = A_i[8] * v_4_in_j_1 - A_ji_7 * t482 + A_ji_6 * t480 + A_ji_8 * t478;
-    const jg_real t483 = t476 * f_i_in_j_0;
-    const jg_real t484 = t472 * C_i[0];
-    const jg_real t485 = h_i_in_j_0 * t484;
-    const jg_real t486 = t483 - t389 - (t485 - t388);
-    const jg_real t487 = h_i_in_j_0 * t377;
-    const jg_real t488 = t374 * f_i_in_j_0;
-    const jg_real t489 = t487 - t368 * f_i_in_j_1 - (t488 - h_i_in_j_1 * t383);
-    const jg_real t490 = C_j[8] * t486 - C_j[7] * t489;
-    const jg_real t491 = t379 + h_i_in_j_1 * t484 - (t378 + t476 * f_i_in_j_1);
-    const jg_real t492 = C_j[6] * t489 - C_j[8] * t491;
-    const jg_real t493 = C_j[7] * t491 - C_j[6] * t486;
-    const jg_real t494 = t476 * C_j[0];
-    const jg_real t495 = t394 + t494;
-    const jg_real t496 = t397 - t476 * C_j[1];
-    const jg_real t497 = t374 * C_j[0];
-    const jg_real t498 = t368 * C_j[1] + t497;
-    const jg_real t499 = t484 * C_j[3];
-    const jg_real t500 = t401 + t499;
-    const jg_real t501 = t404 - t484 * C_j[4];
-    const jg_real t502 = t377 * C_j[3];
-    const jg_real t503 = t502 + t383 * C_j[4];
-    const jg_real t504 = t251 - (t247 - t415 * e_ij_in_j_2) + t252 + t254;
-    const jg_real t505 = t409 - t257 * e_ij_in_j_2 - t410 + t411 + t413;
-    const jg_real t506 = t263 - t417 - t265 - t267;
-    const jg_real t507 = t424 - t272 * h_i_in_j_2 - (t423 - t253 * f_i_in_j_2);
-    const jg_real t508 = t419 + t279 - (t421 + t282);
-    const jg_real t509 = C_j[8] * t507 - C_j[7] * t508;
-    const jg_real t510 = t276 - t412 * f_i_in_j_2 - (t274 - t420 * h_i_in_j_2);
-    const jg_real t511 = C_j[6] * t508 - C_j[8] * t510;
-    const jg_real t512 = C_j[7] * t510 - C_j[6] * t507;
-    const jg_real t513 = t430 - t287;
-    const jg_real t514 = t253 * C_j[2] + t433;
-    const jg_real t515 = t412 * C_j[2] + t291;
-    jac_phi_q_v_A_j[33] = t479 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t493 + (omega_i_in_j_0 * t490 - t357 *
-        g_i_cross_h_j_in_j_0 + (t358 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t492)) - (omega_j[0] * t490 +
-        omega_j[1] * t492 + omega_j[2] * t493);
-    jac_phi_q_v_A_j[34] = t479 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t498 + (omega_i_in_j_0 * t496 - t357 *
-        h_i_cross_f_j_in_j_0 + (t358 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t495)) - (omega_j[0] * t496 +
-        omega_j[1] * t495 - omega_j[2] * t498);
-    jac_phi_q_v_A_j[35] = omega_i_in_j_0 * t501 - t357 * f_i_cross_g_j_in_j_0 + (t358 * f_i_cross_g_j_in_j_1 +
-        omega_i_in_j_1 * t500) + (t479 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t503) - (omega_j[0] * t501 +
-        omega_j[1] * t500 - omega_j[2] * t503);
-    jac_phi_q_v_A_j[36] = A_ji_0 * t504 - t246 * v_4_in_j_0 + (A_ji_1 * t505 - t408 * v_4_in_j_1) + A_ji_2 * t506;
-    jac_phi_q_v_A_j[37] = A_i[3] * v_4_in_j_2 + A_ji_5 * t506 + (A_ji_3 * t504 + A_ji_4 * t505);
-    jac_phi_q_v_A_j[38] = A_i[6] * v_4_in_j_2 + A_ji_8 * t506 + (A_ji_6 * t504 + A_ji_7 * t505);
-    jac_phi_q_v_A_j[39] = t250 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t512 + (omega_i_in_j_0 * t509 - t257 *
-        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t511 - t415 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t509 +
-        omega_j[1] * t511 + omega_j[2] * t512);
-    jac_phi_q_v_A_j[40] = t250 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t513 + (omega_i_in_j_1 * t514 - t415 *
-        h_i_cross_f_j_in_j_1 - (t257 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t515)) - (omega_j[1] * t514 -
-        omega_j[0] * t515 + omega_j[2] * t513);
-    const jg_real t516 = t438 + t272 * C_j[5];
-    const jg_real t517 = t420 * C_j[5] + t298;
-    const jg_real t518 = t435 - t294;
-    const jg_real t519 = t305 - (t301 - t447 * e_ij_in_j_2) + t306 + t308;
-    const jg_real t520 = t441 - t311 * e_ij_in_j_2 - t442 + t443 + t445;
-    const jg_real t521 = t317 - t449 - t319 - t321;
-    const jg_real t522 = t456 - t326 * h_i_in_j_2 - (t455 - t307 * f_i_in_j_2);
-    const jg_real t523 = t451 + t333 - (t453 + t336);
-    const jg_real t524 = C_j[8] * t522 - C_j[7] * t523;
-    const jg_real t525 = t330 - t444 * f_i_in_j_2 - (t328 - t452 * h_i_in_j_2);
-    const jg_real t526 = C_j[6] * t523 - C_j[8] * t525;
-    const jg_real t527 = C_j[7] * t525 - C_j[6] * t522;
-    const jg_real t528 = t462 - t341;
-    const jg_real t529 = t307 * C_j[2] + t465;
-    const jg_real t530 = t444 * C_j[2] + t345;
-    const jg_real t531 = t470 + t326 * C_j[5];
-    const jg_real t532 = t452 * C_j[5] + t352;
-    const jg_real t533 = t467 - t348;
-    const jg_real t534 = t359 - (t355 - t479 * e_ij_in_j_2) + t360 + t362;
-    const jg_real t535 = t473 - t365 * e_ij_in_j_2 - t474 + t475 + t477;
-    const jg_real t536 = t371 - t481 - t373 - t375;
-    jac_phi_q_v_A_j[41] = omega_i_in_j_1 * t516 - t415 * f_i_cross_g_j_in_j_1 - (t257 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t517) + (t250 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t518) - (omega_j[1] * t516 -
-        omega_j[0] * t517 + omega_j[2] * t518);
-    jac_phi_q_v_A_j[42] = A_ji_0 * t519 - t300 * v_4_in_j_0 + (A_ji_1 * t520 - t440 * v_4_in_j_1) + A_ji_2 * t521;
-    jac_phi_q_v_A_j[43] = A_i[4] * v_4_in_j_2 + A_ji_5 * t521 + (A_ji_3 * t519 + A_ji_4 * t520);
-    jac_phi_q_v_A_j[44] = A_i[7] * v_4_in_j_2 + A_ji_8 * t521 + (A_ji_6 * t519 + A_ji_7 * t520);
-    jac_phi_q_v_A_j[45] = t304 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t527 + (omega_i_in_j_0 * t524 - t311 *
-        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t526 - t447 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t524 +
-        omega_j[1] * t526 + omega_j[2] * t527);
-    jac_phi_q_v_A_j[46] = t304 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t528 + (omega_i_in_j_1 * t529 - t447 *
-        h_i_cross_f_j_in_j_1 - (t311 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t530)) - (omega_j[1] * t529 -
-        omega_j[0] * t530 + omega_j[2] * t528);
-    jac_phi_q_v_A_j[47] = omega_i_in_j_1 * t531 - t447 * f_i_cross_g_j_in_j_1 - (t311 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t532) + (t304 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t533) - (omega_j[1] * t531 -
-        omega_j[0] * t532 + omega_j[2] * t533);
-    jac_phi_q_v_A_j[48] = A_ji_0 * t534 - t354 * v_4_in_j_0 + (A_ji_1 * t535 - t472 * v_4_in_j_1) + A_ji_2 * t536;
-    const jg_real t537 = t488 - t380 * h_i_in_j_2 - (t487 - t361 * f_i_in_j_2);
-    const jg_real t538 = t483 + t387 - (t485 + t390);
-    const jg_real t539 = C_j[8] * t537 - C_j[7] * t538;
-    const jg_real t540 = t384 - t476 * f_i_in_j_2 - (t382 - t484 * h_i_in_j_2);
-    const jg_real t541 = C_j[6] * t538 - C_j[8] * t540;
-    const jg_real t542 = C_j[7] * t540 - C_j[6] * t537;
-    const jg_real t543 = t494 - t395;
-    const jg_real t544 = t361 * C_j[2] + t497;
-    const jg_real t545 = t476 * C_j[2] + t399;
-    const jg_real t546 = t502 + t380 * C_j[5];
-    const jg_real t547 = t484 * C_j[5] + t406;
-    const jg_real t548 = t499 - t402;
-    const jg_real t549 = A_ji_0 * h_i_in_j_2 - A_ji_2 * h_i_in_j_0;
-    const jg_real t550 = A_ji_1 * h_i_in_j_0 - A_ji_0 * h_i_in_j_1;
-    const jg_real t551 = C_j[8] * t549 - C_j[7] * t550;
-    const jg_real t552 = A_ji_2 * h_i_in_j_1 - A_ji_1 * h_i_in_j_2;
-    const jg_real t553 = C_j[6] * t550 - C_j[8] * t552;
-    const jg_real t554 = C_j[7] * t552 - C_j[6] * t549;
-    const jg_real t555 = A_ji_1 * C_j[5] - A_ji_2 * C_j[4];
-    const jg_real t556 = A_ji_2 * C_j[3] - A_ji_0 * C_j[5];
-    const jg_real t557 = A_ji_0 * C_j[4] - A_ji_1 * C_j[3];
-    const jg_real t558 = A_ji_3 * h_i_in_j_2 - A_ji_5 * h_i_in_j_0;
-    const jg_real t559 = A_ji_4 * h_i_in_j_0 - A_ji_3 * h_i_in_j_1;
-    const jg_real t560 = C_j[8] * t558 - C_j[7] * t559;
-    const jg_real t561 = A_ji_5 * h_i_in_j_1 - A_ji_4 * h_i_in_j_2;
-    const jg_real t562 = C_j[6] * t559 - C_j[8] * t561;
-    const jg_real t563 = C_j[7] * t561 - C_j[6] * t558;
-    jac_phi_q_v_A_j[49] = A_i[5] * v_4_in_j_2 + A_ji_5 * t536 + (A_ji_3 * t534 + A_ji_4 * t535);
-    jac_phi_q_v_A_j[50] = A_i[8] * v_4_in_j_2 + A_ji_8 * t536 + (A_ji_6 * t534 + A_ji_7 * t535);
-    jac_phi_q_v_A_j[51] = t358 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t542 + (omega_i_in_j_0 * t539 - t365 *
-        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t541 - t479 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t539 +
-        omega_j[1] * t541 + omega_j[2] * t542);
-    jac_phi_q_v_A_j[52] = t358 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t543 + (omega_i_in_j_1 * t544 - t479 *
-        h_i_cross_f_j_in_j_1 - (t365 * h_i_cross_f_j_in_j_0 + omega_i_in_j_0 * t545)) - (omega_j[1] * t544 -
-        omega_j[0] * t545 + omega_j[2] * t543);
-    jac_phi_q_v_A_j[53] = omega_i_in_j_1 * t546 - t479 * f_i_cross_g_j_in_j_1 - (t365 * f_i_cross_g_j_in_j_0 +
-        omega_i_in_j_0 * t547) + (t358 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t548) - (omega_j[1] * t546 -
-        omega_j[0] * t547 + omega_j[2] * t548);
-    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t551 + omega_i_in_j_1 * t553 + omega_i_in_j_2 * t554 - (omega_j[0] *
-        t551 + omega_j[1] * t553 + omega_j[2] * t554);
-    jac_phi_q_v_geometry[1] = omega_i_in_j_0 * t555 + omega_i_in_j_1 * t556 + omega_i_in_j_2 * t557 - (omega_j[0] *
-        t555 + omega_j[1] * t556 + omega_j[2] * t557);
-    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t560 + omega_i_in_j_1 * t562 + omega_i_in_j_2 * t563 - (omega_j[0] *
-        t560 + omega_j[1] * t562 + omega_j[2] * t563);
-    const jg_real t564 = A_ji_4 * C_j[5] - A_ji_5 * C_j[4];
-    const jg_real t565 = A_ji_5 * C_j[3] - A_ji_3 * C_j[5];
-    const jg_real t566 = A_ji_3 * C_j[4] - A_ji_4 * C_j[3];
-    const jg_real t567 = A_ji_6 * h_i_in_j_2 - A_ji_8 * h_i_in_j_0;
-    const jg_real t568 = A_ji_7 * h_i_in_j_0 - A_ji_6 * h_i_in_j_1;
-    const jg_real t569 = C_j[8] * t567 - C_j[7] * t568;
-    const jg_real t570 = A_ji_8 * h_i_in_j_1 - A_ji_7 * h_i_in_j_2;
-    const jg_real t571 = C_j[6] * t568 - C_j[8] * t570;
-    const jg_real t572 = C_j[7] * t570 - C_j[6] * t567;
-    const jg_real t573 = A_ji_7 * C_j[5] - A_ji_8 * C_j[4];
-    const jg_real t574 = A_ji_8 * C_j[3] - A_ji_6 * C_j[5];
-    const jg_real t575 = A_ji_6 * C_j[4] - A_ji_7 * C_j[3];
-    const jg_real t576 = alphadot * A_ji_0;
-    const jg_real t577 = alphadot * A_ji_1;
-    const jg_real t578 = alphadot * A_ji_2;
-    const jg_real t579 = A_ji_2 * f_i_in_j_0 - A_ji_0 * f_i_in_j_2;
-    const jg_real t580 = A_ji_0 * f_i_in_j_1 - A_ji_1 * f_i_in_j_0;
-    const jg_real t581 = C_j[8] * t579 - C_j[7] * t580;
-    const jg_real t582 = A_ji_1 * f_i_in_j_2 - A_ji_2 * f_i_in_j_1;
-    const jg_real t583 = C_j[6] * t580 - C_j[8] * t582;
-    const jg_real t584 = C_j[7] * t582 - C_j[6] * t579;
-    const jg_real t585 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
-    const jg_real t586 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
-    const jg_real t587 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
-    jac_phi_q_v_geometry[3] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t565 + omega_i_in_j_2 * t566 - (omega_j[0] *
-        t564 + omega_j[1] * t565 + omega_j[2] * t566);
-    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t569 + omega_i_in_j_1 * t571 + omega_i_in_j_2 * t572 - (omega_j[0] *
-        t569 + omega_j[1] * t571 + omega_j[2] * t572);
-    jac_phi_q_v_geometry[5] = omega_i_in_j_0 * t573 + omega_i_in_j_1 * t574 + omega_i_in_j_2 * t575 - (omega_j[0] *
-        t573 + omega_j[1] * t574 + omega_j[2] * t575);
-    jac_phi_q_v_geometry[6] = -(A_ji_0 * t576 + A_ji_1 * t577 + A_ji_2 * t578);
-    jac_phi_q_v_geometry[7] = -(A_ji_3 * t576 + A_ji_4 * t577 + A_ji_5 * t578);
-    jac_phi_q_v_geometry[8] = -(A_ji_6 * t576 + A_ji_7 * t577 + A_ji_8 * t578);
-    jac_phi_q_v_geometry[9] = omega_i_in_j_0 * t581 + omega_i_in_j_1 * t583 + omega_i_in_j_2 * t584 - (omega_j[0] *
-        t581 + omega_j[1] * t583 + omega_j[2] * t584);
-    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t585 + omega_i_in_j_1 * t586 + omega_i_in_j_2 * t587 - (omega_j[0] *
-        t585 + omega_j[1] * t586 + omega_j[2] * t587);
-    const jg_real t588 = A_ji_3 * alphadot;
-    const jg_real t589 = A_ji_4 * alphadot;
-    const jg_real t590 = alphadot * A_ji_5;
-    const jg_real t591 = A_ji_5 * f_i_in_j_0 - A_ji_3 * f_i_in_j_2;
-    const jg_real t592 = A_ji_3 * f_i_in_j_1 - A_ji_4 * f_i_in_j_0;
-    const jg_real t593 = C_j[8] * t591 - C_j[7] * t592;
-    const jg_real t594 = A_ji_4 * f_i_in_j_2 - A_ji_5 * f_i_in_j_1;
-    const jg_real t595 = C_j[6] * t592 - C_j[8] * t594;
-    const jg_real t596 = C_j[7] * t594 - C_j[6] * t591;
-    const jg_real t597 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
-    const jg_real t598 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
-    const jg_real t599 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
-    const jg_real t600 = alphadot * A_ji_6;
-    const jg_real t601 = A_ji_7 * alphadot;
-    const jg_real t602 = alphadot * A_ji_8;
-    jac_phi_q_v_geometry[11] = -(A_ji_0 * t588 + A_ji_1 * t589 + A_ji_2 * t590);
-    jac_phi_q_v_geometry[12] = -(A_ji_3 * t588 + A_ji_4 * t589 + A_ji_5 * t590);
-    jac_phi_q_v_geometry[13] = -(A_ji_6 * t588 + A_ji_7 * t589 + A_ji_8 * t590);
-    jac_phi_q_v_geometry[14] = omega_i_in_j_0 * t593 + omega_i_in_j_1 * t595 + omega_i_in_j_2 * t596 - (omega_j[0] *
-        t593 + omega_j[1] * t595 + omega_j[2] * t596);
-    jac_phi_q_v_geometry[15] = omega_i_in_j_0 * t597 + omega_i_in_j_1 * t598 + omega_i_in_j_2 * t599 - (omega_j[0] *
-        t597 + omega_j[1] * t598 + omega_j[2] * t599);
-    jac_phi_q_v_geometry[16] = -(A_ji_0 * t600 + A_ji_1 * t601 + A_ji_2 * t602);
-    jac_phi_q_v_geometry[17] = -(A_ji_3 * t600 + A_ji_4 * t601 + A_ji_5 * t602);
-    jac_phi_q_v_geometry[18] = -(A_ji_6 * t600 + A_ji_7 * t601 + A_ji_8 * t602);
-    const jg_real t603 = A_ji_8 * f_i_in_j_0 - A_ji_6 * f_i_in_j_2;
-    const jg_real t604 = A_ji_6 * f_i_in_j_1 - A_ji_7 * f_i_in_j_0;
-    const jg_real t605 = C_j[8] * t603 - C_j[7] * t604;
-    const jg_real t606 = A_ji_7 * f_i_in_j_2 - A_ji_8 * f_i_in_j_1;
-    const jg_real t607 = C_j[6] * t604 - C_j[8] * t606;
-    const jg_real t608 = C_j[7] * t606 - C_j[6] * t603;
-    const jg_real t609 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
-    const jg_real t610 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
-    const jg_real t611 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
-    const jg_real t612 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t613 = omega_j[1] - omega_i_in_j_1;
-    const jg_real t614 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[19] = omega_i_in_j_0 * t605 + omega_i_in_j_1 * t607 + omega_i_in_j_2 * t608 - (omega_j[0] *
-        t605 + omega_j[1] * t607 + omega_j[2] * t608);
-    jac_phi_q_v_geometry[20] = omega_i_in_j_0 * t609 + omega_i_in_j_1 * t610 + omega_i_in_j_2 * t611 - (omega_j[0] *
-        t609 + omega_j[1] * t610 + omega_j[2] * t611);
-    jac_phi_q_v_geometry[21] = -(A_ji_1 * t612 + A_ji_2 * t613);
-    jac_phi_q_v_geometry[22] = -(A_ji_4 * t612 + A_ji_5 * t613);
-    jac_phi_q_v_geometry[23] = -(A_ji_7 * t612 + A_ji_8 * t613);
-    jac_phi_q_v_geometry[24] = A_ji_0 * t612 - A_ji_2 * t614;
-    jac_phi_q_v_geometry[25] = A_ji_3 * t612 - A_ji_5 * t614;
-    jac_phi_q_v_geometry[26] = A_ji_6 * t612 - A_ji_8 * t614;
-    jac_phi_q_v_geometry[27] = A_ji_0 * t613 + A_ji_1 * t614;
-    jac_phi_q_v_geometry[28] = A_ji_3 * t613 + A_ji_4 * t614;
-    jac_phi_q_v_geometry[29] = A_ji_6 * t613 + A_ji_7 * t614;
-    jac_phi_q_v_geometry[30] = omega_i_in_j_1 * h_i_in_j_2 - omega_i_in_j_2 * h_i_in_j_1 - (omega_j[1] * h_i_in_j_2
+    const jg_real t418 = t417 + t297;
+    jac_phi_q_v_A_j[17] = t336 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t378 + (t337 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t376) + (t341 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t380) - (omega_j[0] * t376 +
+        omega_j[1] * t378 + omega_j[2] * t380);
+    jac_phi_q_v_A_j[18] = t381 * v_2_in_j_2 + A_ji_2 * t384 + (A_ji_0 * t386 - t239 * v_2_in_j_0 - A_ji_1 * t388);
+    jac_phi_q_v_A_j[19] = A_i[3] * v_2_in_j_1 - A_ji_4 * t388 + A_ji_3 * t386 + A_ji_5 * t384;
+    jac_phi_q_v_A_j[20] = A_i[6] * v_2_in_j_1 - A_ji_7 * t388 + A_ji_6 * t386 + A_ji_8 * t384;
+    jac_phi_q_v_A_j[21] = t385 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t400 + (omega_i_in_j_0 * t397 - t240 *
+        g_i_cross_h_j_in_j_0 + (t241 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t399)) - (omega_j[0] * t397 +
+        omega_j[1] * t399 + omega_j[2] * t400);
+    jac_phi_q_v_A_j[22] = t241 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t402 + (omega_i_in_j_0 * t403 - t240 *
+        h_i_cross_f_j_in_j_0) + (t385 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t405) - (omega_j[1] * t402 +
+        omega_j[0] * t403 - omega_j[2] * t405);
+    jac_phi_q_v_A_j[23] = t241 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t407 + (omega_i_in_j_0 * t408 - t240 *
+        f_i_cross_g_j_in_j_0) + (t385 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t410) - (omega_j[0] * t408 +
+        omega_j[1] * t407 - omega_j[2] * t410);
+    jac_phi_q_v_A_j[24] = t411 * v_2_in_j_2 + A_ji_2 * t414 + (A_ji_0 * t416 - t287 * v_2_in_j_0 - A_ji_1 * t418);
+    const jg_real t419 = t411 * C_i[6];
+    const jg_real t420 = t419 * f_i_in_j_0;
+    const jg_real t421 = t411 * C_i[0];
+    const jg_real t422 = t421 * h_i_in_j_0;
+    const jg_real t423 = t420 - t314 - (t422 - t312);
+    const jg_real t424 = t300 * h_i_in_j_0;
+    const jg_real t425 = t302 * f_i_in_j_0;
+    const jg_real t426 = t424 - t308 * f_i_in_j_1 - (t425 - t307 * h_i_in_j_1);
+    const jg_real t427 = C_j[8] * t423 - C_j[7] * t426;
+    const jg_real t428 = t303 + t421 * h_i_in_j_1 - (t301 + t419 * f_i_in_j_1);
+    const jg_real t429 = C_j[6] * t426 - C_j[8] * t428;
+    const jg_real t430 = C_j[7] * t428 - C_j[6] * t423;
+    const jg_real t431 = t419 * C_j[0];
+    const jg_real t432 = t431 + t319;
+    const jg_real t433 = t322 - t419 * C_j[1];
+    const jg_real t434 = t302 * C_j[0];
+    const jg_real t435 = t434 + t308 * C_j[1];
+    const jg_real t436 = t421 * C_j[3];
+    const jg_real t437 = t326 + t436;
+    const jg_real t438 = t329 - t421 * C_j[4];
+    const jg_real t439 = t300 * C_j[3];
+    const jg_real t440 = t439 + t307 * C_j[4];
+    const jg_real t441 = A_i[8] * A_ji_3 - A_i[5] * A_ji_6;
+    const jg_real t442 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t443 = t337 * e_ij_in_j_0;
+    const jg_real t444 = t443 - (t442 - e_ij_in_j_1 * t336);
+    const jg_real t445 = omega_i[0] * t441;
+    const jg_real t446 = t445 * e_ij_in_j_1 + t340 - t342;
+    const jg_real t447 = t445 * e_ij_in_j_0;
+    const jg_real t448 = t447 + t345;
+    jac_phi_q_v_A_j[25] = A_i[4] * v_2_in_j_1 - A_ji_4 * t418 + A_ji_3 * t416 + A_ji_5 * t414;
+    jac_phi_q_v_A_j[26] = A_i[7] * v_2_in_j_1 - A_ji_7 * t418 + A_ji_6 * t416 + A_ji_8 * t414;
+    jac_phi_q_v_A_j[27] = t415 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t430 + (omega_i_in_j_0 * t427 - t288 *
+        g_i_cross_h_j_in_j_0 + (t289 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t429)) - (omega_j[0] * t427 +
+        omega_j[1] * t429 + omega_j[2] * t430);
+    jac_phi_q_v_A_j[28] = t289 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t432 + (omega_i_in_j_0 * t433 - t288 *
+        h_i_cross_f_j_in_j_0) + (t415 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t435) - (omega_j[1] * t432 +
+        omega_j[0] * t433 - omega_j[2] * t435);
+    jac_phi_q_v_A_j[29] = t289 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t437 + (omega_i_in_j_0 * t438 - t288 *
+        f_i_cross_g_j_in_j_0) + (t415 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t440) - (omega_j[0] * t438 +
+        omega_j[1] * t437 - omega_j[2] * t440);
+    jac_phi_q_v_A_j[30] = t441 * v_2_in_j_2 + A_ji_2 * t444 + (A_ji_0 * t446 - t335 * v_2_in_j_0 - A_ji_1 * t448);
+    jac_phi_q_v_A_j[31] = A_i[5] * v_2_in_j_1 - A_ji_4 * t448 + A_ji_3 * t446 + A_ji_5 * t444;
+    jac_phi_q_v_A_j[32] = A_i[8] * v_2_in_j_1 - A_ji_7 * t448 + A_ji_6 * t446 + A_ji_8 * t444;
+    const jg_real t449 = t441 * C_i[6];
+    const jg_real t450 = t449 * f_i_in_j_0;
+    const jg_real t451 = t441 * C_i[0];
+    const jg_real t452 = t451 * h_i_in_j_0;
+    const jg_real t453 = t450 - t362 - (t452 - t360);
+    const jg_real t454 = t348 * h_i_in_j_0;
+    const jg_real t455 = t350 * f_i_in_j_0;
+    const jg_real t456 = t454 - t356 * f_i_in_j_1 - (t455 - t355 * h_i_in_j_1);
+    const jg_real t457 = C_j[8] * t453 - C_j[7] * t456;
+    const jg_real t458 = t351 + t451 * h_i_in_j_1 - (t349 + t449 * f_i_in_j_1);
+    const jg_real t459 = C_j[6] * t456 - C_j[8] * t458;
+    const jg_real t460 = C_j[7] * t458 - C_j[6] * t453;
+    const jg_real t461 = t449 * C_j[0];
+    const jg_real t462 = t461 + t367;
+    const jg_real t463 = t370 - t449 * C_j[1];
+    const jg_real t464 = t350 * C_j[0];
+    const jg_real t465 = t464 + t356 * C_j[1];
+    const jg_real t466 = t451 * C_j[3];
+    const jg_real t467 = t374 + t466;
+    const jg_real t468 = t377 - t451 * C_j[4];
+    const jg_real t469 = t348 * C_j[3];
+    const jg_real t470 = t469 + t355 * C_j[4];
+    const jg_real t471 = t242 - (t238 - t385 * e_ij_in_j_2);
+    const jg_real t472 = t382 - t245 * e_ij_in_j_2 - t383;
+    const jg_real t473 = t248 - t387;
+    const jg_real t474 = t395 - t256 * h_i_in_j_2 - (t394 - t251 * f_i_in_j_2);
+    const jg_real t475 = t390 + t265 - (t392 + t267);
+    const jg_real t476 = C_j[8] * t474 - C_j[7] * t475;
+    const jg_real t477 = t261 - t389 * f_i_in_j_2 - (t258 - t391 * h_i_in_j_2);
+    const jg_real t478 = C_j[6] * t475 - C_j[8] * t477;
+    const jg_real t479 = C_j[7] * t477 - C_j[6] * t474;
+    const jg_real t480 = t404 + t251 * C_j[2];
+    const jg_real t481 = t276 + t389 * C_j[2];
+    const jg_real t482 = t401 - t272;
+    jac_phi_q_v_A_j[33] = t445 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t460 + (omega_i_in_j_0 * t457 - t336 *
+        g_i_cross_h_j_in_j_0 + (t337 * g_i_cross_h_j_in_j_1 + omega_i_in_j_1 * t459)) - (omega_j[0] * t457 +
+        omega_j[1] * t459 + omega_j[2] * t460);
+    jac_phi_q_v_A_j[34] = t337 * h_i_cross_f_j_in_j_1 + omega_i_in_j_1 * t462 + (omega_i_in_j_0 * t463 - t336 *
+        h_i_cross_f_j_in_j_0) + (t445 * h_i_cross_f_j_in_j_2 - omega_i_in_j_2 * t465) - (omega_j[1] * t462 +
+        omega_j[0] * t463 - omega_j[2] * t465);
+    jac_phi_q_v_A_j[35] = t337 * f_i_cross_g_j_in_j_1 + omega_i_in_j_1 * t467 + (omega_i_in_j_0 * t468 - t336 *
+        f_i_cross_g_j_in_j_0) + (t445 * f_i_cross_g_j_in_j_2 - omega_i_in_j_2 * t470) - (omega_j[0] * t468 +
+        omega_j[1] * t467 - omega_j[2] * t470);
+    jac_phi_q_v_A_j[36] = A_ji_0 * t471 - t237 * v_2_in_j_0 + (A_ji_1 * t472 - t381 * v_2_in_j_1) + A_ji_2 * t473;
+    jac_phi_q_v_A_j[37] = A_i[3] * v_2_in_j_2 + A_ji_5 * t473 + (A_ji_3 * t471 + A_ji_4 * t472);
+    jac_phi_q_v_A_j[38] = A_i[6] * v_2_in_j_2 + A_ji_8 * t473 + (A_ji_6 * t471 + A_ji_7 * t472);
+    jac_phi_q_v_A_j[39] = t241 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t479 + (omega_i_in_j_0 * t476 - t245 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t478 - t385 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t476 +
+        omega_j[1] * t478 + omega_j[2] * t479);
+    jac_phi_q_v_A_j[40] = omega_i_in_j_1 * t480 - t385 * h_i_cross_f_j_in_j_1 - (t245 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t481) + (t241 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t482) - (omega_j[1] * t480 -
+        omega_j[0] * t481 + omega_j[2] * t482);
+    const jg_real t483 = t256 * C_j[5] + t409;
+    const jg_real t484 = t283 + t391 * C_j[5];
+    const jg_real t485 = t406 - t279;
+    const jg_real t486 = t290 - (t286 - t415 * e_ij_in_j_2);
+    const jg_real t487 = t412 - t293 * e_ij_in_j_2 - t413;
+    const jg_real t488 = t296 - t417;
+    const jg_real t489 = t425 - t304 * h_i_in_j_2 - (t424 - t299 * f_i_in_j_2);
+    const jg_real t490 = t420 + t313 - (t422 + t315);
+    const jg_real t491 = C_j[8] * t489 - C_j[7] * t490;
+    const jg_real t492 = t309 - t419 * f_i_in_j_2 - (t306 - t421 * h_i_in_j_2);
+    const jg_real t493 = C_j[6] * t490 - C_j[8] * t492;
+    const jg_real t494 = C_j[7] * t492 - C_j[6] * t489;
+    const jg_real t495 = t434 + t299 * C_j[2];
+    const jg_real t496 = t324 + t419 * C_j[2];
+    const jg_real t497 = t431 - t320;
+    const jg_real t498 = t304 * C_j[5] + t439;
+    const jg_real t499 = t331 + t421 * C_j[5];
+    const jg_real t500 = t436 - t327;
+    const jg_real t501 = t338 - (t334 - t445 * e_ij_in_j_2);
+    const jg_real t502 = t442 - t341 * e_ij_in_j_2 - t443;
+    const jg_real t503 = t344 - t447;
+    jac_phi_q_v_A_j[41] = omega_i_in_j_1 * t483 - t385 * f_i_cross_g_j_in_j_1 - (t245 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t484) + (t241 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t485) - (omega_j[1] * t483 -
+        omega_j[0] * t484 + omega_j[2] * t485);
+    jac_phi_q_v_A_j[42] = A_ji_0 * t486 - t285 * v_2_in_j_0 + (A_ji_1 * t487 - t411 * v_2_in_j_1) + A_ji_2 * t488;
+    jac_phi_q_v_A_j[43] = A_i[4] * v_2_in_j_2 + A_ji_5 * t488 + (A_ji_3 * t486 + A_ji_4 * t487);
+    jac_phi_q_v_A_j[44] = A_i[7] * v_2_in_j_2 + A_ji_8 * t488 + (A_ji_6 * t486 + A_ji_7 * t487);
+    jac_phi_q_v_A_j[45] = t289 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t494 + (omega_i_in_j_0 * t491 - t293 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t493 - t415 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t491 +
+        omega_j[1] * t493 + omega_j[2] * t494);
+    jac_phi_q_v_A_j[46] = omega_i_in_j_1 * t495 - t415 * h_i_cross_f_j_in_j_1 - (t293 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t496) + (t289 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t497) - (omega_j[1] * t495 -
+        omega_j[0] * t496 + omega_j[2] * t497);
+    jac_phi_q_v_A_j[47] = omega_i_in_j_1 * t498 - t415 * f_i_cross_g_j_in_j_1 - (t293 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t499) + (t289 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t500) - (omega_j[1] * t498 -
+        omega_j[0] * t499 + omega_j[2] * t500);
+    jac_phi_q_v_A_j[48] = A_ji_0 * t501 - t333 * v_2_in_j_0 + (A_ji_1 * t502 - t441 * v_2_in_j_1) + A_ji_2 * t503;
+    const jg_real t504 = t455 - t352 * h_i_in_j_2 - (t454 - t347 * f_i_in_j_2);
+    const jg_real t505 = t450 + t361 - (t452 + t363);
+    const jg_real t506 = C_j[8] * t504 - C_j[7] * t505;
+    const jg_real t507 = t357 - t449 * f_i_in_j_2 - (t354 - t451 * h_i_in_j_2);
+    const jg_real t508 = C_j[6] * t505 - C_j[8] * t507;
+    const jg_real t509 = C_j[7] * t507 - C_j[6] * t504;
+    const jg_real t510 = t464 + t347 * C_j[2];
+    const jg_real t511 = t372 + t449 * C_j[2];
+    const jg_real t512 = t461 - t368;
+    const jg_real t513 = t352 * C_j[5] + t469;
+    const jg_real t514 = t379 + t451 * C_j[5];
+    const jg_real t515 = t466 - t375;
+    const jg_real t516 = A_ji_0 * h_i_in_j_2 - A_ji_2 * h_i_in_j_0;
+    const jg_real t517 = A_ji_1 * h_i_in_j_0 - A_ji_0 * h_i_in_j_1;
+    const jg_real t518 = C_j[8] * t516 - C_j[7] * t517;
+    const jg_real t519 = A_ji_2 * h_i_in_j_1 - A_ji_1 * h_i_in_j_2;
+    const jg_real t520 = C_j[6] * t517 - C_j[8] * t519;
+    const jg_real t521 = C_j[7] * t519 - C_j[6] * t516;
+    const jg_real t522 = A_ji_2 * C_j[3] - A_ji_0 * C_j[5];
+    const jg_real t523 = A_ji_1 * C_j[5] - A_ji_2 * C_j[4];
+    const jg_real t524 = A_ji_0 * C_j[4] - A_ji_1 * C_j[3];
+    const jg_real t525 = A_ji_3 * h_i_in_j_2 - A_ji_5 * h_i_in_j_0;
+    const jg_real t526 = A_ji_4 * h_i_in_j_0 - A_ji_3 * h_i_in_j_1;
+    const jg_real t527 = C_j[8] * t525 - C_j[7] * t526;
+    const jg_real t528 = A_ji_5 * h_i_in_j_1 - A_ji_4 * h_i_in_j_2;
+    const jg_real t529 = C_j[6] * t526 - C_j[8] * t528;
+    const jg_real t530 = C_j[7] * t528 - C_j[6] * t525;
+    jac_phi_q_v_A_j[49] = A_i[5] * v_2_in_j_2 + A_ji_5 * t503 + (A_ji_3 * t501 + A_ji_4 * t502);
+    jac_phi_q_v_A_j[50] = A_i[8] * v_2_in_j_2 + A_ji_8 * t503 + (A_ji_6 * t501 + A_ji_7 * t502);
+    jac_phi_q_v_A_j[51] = t337 * g_i_cross_h_j_in_j_2 + omega_i_in_j_2 * t509 + (omega_i_in_j_0 * t506 - t341 *
+        g_i_cross_h_j_in_j_0 + (omega_i_in_j_1 * t508 - t445 * g_i_cross_h_j_in_j_1)) - (omega_j[0] * t506 +
+        omega_j[1] * t508 + omega_j[2] * t509);
+    jac_phi_q_v_A_j[52] = omega_i_in_j_1 * t510 - t445 * h_i_cross_f_j_in_j_1 - (t341 * h_i_cross_f_j_in_j_0 +
+        omega_i_in_j_0 * t511) + (t337 * h_i_cross_f_j_in_j_2 + omega_i_in_j_2 * t512) - (omega_j[1] * t510 -
+        omega_j[0] * t511 + omega_j[2] * t512);
+    jac_phi_q_v_A_j[53] = omega_i_in_j_1 * t513 - t445 * f_i_cross_g_j_in_j_1 - (t341 * f_i_cross_g_j_in_j_0 +
+        omega_i_in_j_0 * t514) + (t337 * f_i_cross_g_j_in_j_2 + omega_i_in_j_2 * t515) - (omega_j[1] * t513 -
+        omega_j[0] * t514 + omega_j[2] * t515);
+    jac_phi_q_v_geometry[0] = omega_i_in_j_0 * t518 + omega_i_in_j_1 * t520 + omega_i_in_j_2 * t521 - (omega_j[0] *
+        t518 + omega_j[1] * t520 + omega_j[2] * t521);
+    jac_phi_q_v_geometry[1] = omega_i_in_j_1 * t522 + omega_i_in_j_0 * t523 + omega_i_in_j_2 * t524 - (omega_j[0] *
+        t523 + omega_j[1] * t522 + omega_j[2] * t524);
+    jac_phi_q_v_geometry[2] = omega_i_in_j_0 * t527 + omega_i_in_j_1 * t529 + omega_i_in_j_2 * t530 - (omega_j[0] *
+        t527 + omega_j[1] * t529 + omega_j[2] * t530);
+    const jg_real t531 = A_ji_5 * C_j[3] - A_ji_3 * C_j[5];
+    const jg_real t532 = A_ji_4 * C_j[5] - A_ji_5 * C_j[4];
+    const jg_real t533 = A_ji_3 * C_j[4] - A_ji_4 * C_j[3];
+    const jg_real t534 = A_ji_6 * h_i_in_j_2 - A_ji_8 * h_i_in_j_0;
+    const jg_real t535 = A_ji_7 * h_i_in_j_0 - A_ji_6 * h_i_in_j_1;
+    const jg_real t536 = C_j[8] * t534 - C_j[7] * t535;
+    const jg_real t537 = A_ji_8 * h_i_in_j_1 - A_ji_7 * h_i_in_j_2;
+    const jg_real t538 = C_j[6] * t535 - C_j[8] * t537;
+    const jg_real t539 = C_j[7] * t537 - C_j[6] * t534;
+    const jg_real t540 = A_ji_8 * C_j[3] - A_ji_6 * C_j[5];
+    const jg_real t541 = A_ji_7 * C_j[5] - A_ji_8 * C_j[4];
+    const jg_real t542 = A_ji_6 * C_j[4] - A_ji_7 * C_j[3];
+    const jg_real t543 = -alphadot;
+    const jg_real t544 = A_ji_2 * f_i_in_j_0 - A_ji_0 * f_i_in_j_2;
+    const jg_real t545 = A_ji_0 * f_i_in_j_1 - A_ji_1 * f_i_in_j_0;
+    const jg_real t546 = C_j[8] * t544 - C_j[7] * t545;
+    const jg_real t547 = A_ji_1 * f_i_in_j_2 - A_ji_2 * f_i_in_j_1;
+    const jg_real t548 = C_j[6] * t545 - C_j[8] * t547;
+    const jg_real t549 = C_j[7] * t547 - C_j[6] * t544;
+    const jg_real t550 = A_ji_2 * C_j[0] - A_ji_0 * C_j[2];
+    const jg_real t551 = A_ji_1 * C_j[2] - A_ji_2 * C_j[1];
+    const jg_real t552 = A_ji_0 * C_j[1] - A_ji_1 * C_j[0];
+    jac_phi_q_v_geometry[3] = omega_i_in_j_1 * t531 + omega_i_in_j_0 * t532 + omega_i_in_j_2 * t533 - (omega_j[0] *
+        t532 + omega_j[1] * t531 + omega_j[2] * t533);
+    jac_phi_q_v_geometry[4] = omega_i_in_j_0 * t536 + omega_i_in_j_1 * t538 + omega_i_in_j_2 * t539 - (omega_j[0] *
+        t536 + omega_j[1] * t538 + omega_j[2] * t539);
+    jac_phi_q_v_geometry[5] = omega_i_in_j_1 * t540 + omega_i_in_j_0 * t541 + omega_i_in_j_2 * t542 - (omega_j[0] *
+        t541 + omega_j[1] * t540 + omega_j[2] * t542);
+    jac_phi_q_v_geometry[6] = t543;
+    jac_phi_q_v_geometry[9] = t543;
+    jac_phi_q_v_geometry[12] = t543;
+    jac_phi_q_v_geometry[7] = omega_i_in_j_0 * t546 + omega_i_in_j_1 * t548 + omega_i_in_j_2 * t549 - (omega_j[0] *
+        t546 + omega_j[1] * t548 + omega_j[2] * t549);
+    jac_phi_q_v_geometry[8] = omega_i_in_j_1 * t550 + omega_i_in_j_0 * t551 + omega_i_in_j_2 * t552 - (omega_j[1] *
+        t550 + omega_j[0] * t551 + omega_j[2] * t552);
+    const jg_real t553 = A_ji_5 * f_i_in_j_0 - A_ji_3 * f_i_in_j_2;
+    const jg_real t554 = A_ji_3 * f_i_in_j_1 - A_ji_4 * f_i_in_j_0;
+    const jg_real t555 = C_j[8] * t553 - C_j[7] * t554;
+    const jg_real t556 = A_ji_4 * f_i_in_j_2 - A_ji_5 * f_i_in_j_1;
+    const jg_real t557 = C_j[6] * t554 - C_j[8] * t556;
+    const jg_real t558 = C_j[7] * t556 - C_j[6] * t553;
+    const jg_real t559 = A_ji_5 * C_j[0] - A_ji_3 * C_j[2];
+    const jg_real t560 = A_ji_4 * C_j[2] - A_ji_5 * C_j[1];
+    const jg_real t561 = A_ji_3 * C_j[1] - A_ji_4 * C_j[0];
+    const jg_real t562 = A_ji_8 * f_i_in_j_0 - A_ji_6 * f_i_in_j_2;
+    const jg_real t563 = A_ji_6 * f_i_in_j_1 - A_ji_7 * f_i_in_j_0;
+    const jg_real t564 = C_j[8] * t562 - C_j[7] * t563;
+    const jg_real t565 = A_ji_7 * f_i_in_j_2 - A_ji_8 * f_i_in_j_1;
+    const jg_real t566 = C_j[6] * t563 - C_j[8] * t565;
+    const jg_real t567 = C_j[7] * t565 - C_j[6] * t562;
+    const jg_real t568 = A_ji_8 * C_j[0] - A_ji_6 * C_j[2];
+    const jg_real t569 = A_ji_7 * C_j[2] - A_ji_8 * C_j[1];
+    const jg_real t570 = A_ji_6 * C_j[1] - A_ji_7 * C_j[0];
+    const jg_real t571 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t572 = omega_j[1] - omega_i_in_j_1;
+    const jg_real t573 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[10] = omega_i_in_j_0 * t555 + omega_i_in_j_1 * t557 + omega_i_in_j_2 * t558 - (omega_j[0] *
+        t555 + omega_j[1] * t557 + omega_j[2] * t558);
+    jac_phi_q_v_geometry[11] = omega_i_in_j_1 * t559 + omega_i_in_j_0 * t560 + omega_i_in_j_2 * t561 - (omega_j[1] *
+        t559 + omega_j[0] * t560 + omega_j[2] * t561);
+    jac_phi_q_v_geometry[13] = omega_i_in_j_0 * t564 + omega_i_in_j_1 * t566 + omega_i_in_j_2 * t567 - (omega_j[0] *
+        t564 + omega_j[1] * t566 + omega_j[2] * t567);
+    jac_phi_q_v_geometry[14] = omega_i_in_j_1 * t568 + omega_i_in_j_0 * t569 + omega_i_in_j_2 * t570 - (omega_j[1] *
+        t568 + omega_j[0] * t569 + omega_j[2] * t570);
+    jac_phi_q_v_geometry[15] = -(A_ji_1 * t571 + A_ji_2 * t572);
+    jac_phi_q_v_geometry[16] = -(A_ji_4 * t571 + A_ji_5 * t572);
+    jac_phi_q_v_geometry[17] = -(A_ji_7 * t571 + A_ji_8 * t572);
+    jac_phi_q_v_geometry[18] = A_ji_0 * t571 - A_ji_2 * t573;
+    jac_phi_q_v_geometry[19] = A_ji_3 * t571 - A_ji_5 * t573;
+    jac_phi_q_v_geometry[20] = A_ji_6 * t571 - A_ji_8 * t573;
+    jac_phi_q_v_geometry[21] = A_ji_0 * t572 + A_ji_1 * t573;
+    jac_phi_q_v_geometry[22] = A_ji_3 * t572 + A_ji_4 * t573;
+    jac_phi_q_v_geometry[23] = A_ji_6 * t572 + A_ji_7 * t573;
+    jac_phi_q_v_geometry[24] = h_i_in_j_2 * omega_i_in_j_1 - omega_i_in_j_2 * h_i_in_j_1 - (omega_j[1] * h_i_in_j_2
         - omega_j[2] * h_i_in_j_1);
-    jac_phi_q_v_geometry[31] = omega_i_in_j_2 * h_i_in_j_0 - omega_i_in_j_0 * h_i_in_j_2 - (omega_j[2] * h_i_in_j_0
+    jac_phi_q_v_geometry[25] = omega_i_in_j_2 * h_i_in_j_0 - h_i_in_j_2 * omega_i_in_j_0 - (omega_j[2] * h_i_in_j_0
         - omega_j[0] * h_i_in_j_2);
-    jac_phi_q_v_geometry[32] = omega_i_in_j_0 * h_i_in_j_1 - omega_i_in_j_1 * h_i_in_j_0 - (omega_j[0] * h_i_in_j_1
+    jac_phi_q_v_geometry[26] = omega_i_in_j_0 * h_i_in_j_1 - omega_i_in_j_1 * h_i_in_j_0 - (omega_j[0] * h_i_in_j_1
         - omega_j[1] * h_i_in_j_0);
-    jac_phi_q_v_geometry[33] = omega_i_in_j_1 * f_i_in_j_2 - omega_i_in_j_2 * f_i_in_j_1 - (omega_j[1] * f_i_in_j_2
+    jac_phi_q_v_geometry[27] = omega_i_in_j_1 * f_i_in_j_2 - omega_i_in_j_2 * f_i_in_j_1 - (omega_j[1] * f_i_in_j_2
         - omega_j[2] * f_i_in_j_1);
-    jac_phi_q_v_geometry[34] = omega_i_in_j_2 * f_i_in_j_0 - omega_i_in_j_0 * f_i_in_j_2 - (omega_j[2] * f_i_in_j_0
+    jac_phi_q_v_geometry[28] = omega_i_in_j_2 * f_i_in_j_0 - omega_i_in_j_0 * f_i_in_j_2 - (omega_j[2] * f_i_in_j_0
         - omega_j[0] * f_i_in_j_2);
-    const jg_real t615 = -(A_ji_3 * A_ji_0 + A_ji_4 * A_ji_1 + A_ji_5 * A_ji_2);
-    const jg_real t616 = -(A_ji_6 * A_ji_0 + A_ji_7 * A_ji_1 + A_ji_8 * A_ji_2);
-    jac_phi_q_v_geometry[35] = omega_i_in_j_0 * f_i_in_j_1 - omega_i_in_j_1 * f_i_in_j_0 - (omega_j[0] * f_i_in_j_1
+    jac_phi_q_v_geometry[29] = omega_i_in_j_0 * f_i_in_j_1 - omega_i_in_j_1 * f_i_in_j_0 - (omega_j[0] * f_i_in_j_1
         - omega_j[1] * f_i_in_j_0);
-    jac_phi_q_v_geometry[36] = omega_i_in_j_1 * g_i_in_j_2 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
+    jac_phi_q_v_geometry[30] = omega_i_in_j_1 * g_i_in_j_2 - omega_i_in_j_2 * g_i_in_j_1 - (omega_j[1] * g_i_in_j_2
         - omega_j[2] * g_i_in_j_1);
-    jac_phi_q_v_geometry[37] = omega_i_in_j_2 * g_i_in_j_0 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
+    jac_phi_q_v_geometry[31] = omega_i_in_j_2 * g_i_in_j_0 - omega_i_in_j_0 * g_i_in_j_2 - (omega_j[2] * g_i_in_j_0
         - omega_j[0] * g_i_in_j_2);
-    jac_phi_q_v_geometry[38] = omega_i_in_j_0 * g_i_in_j_1 - omega_i_in_j_1 * g_i_in_j_0 - (omega_j[0] * g_i_in_j_1
+    jac_phi_q_v_geometry[32] = omega_i_in_j_0 * g_i_in_j_1 - omega_i_in_j_1 * g_i_in_j_0 - (omega_j[0] * g_i_in_j_1
         - omega_j[1] * g_i_in_j_0);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t615;
-    jac_phi_q_v_velocity[3] = t615;
-    jac_phi_q_v_velocity[2] = t616;
-    jac_phi_q_v_velocity[6] = t616;
-    const jg_real t617 = -(A_ji_3 * A_ji_6 + A_ji_7 * A_ji_4 + A_ji_5 * A_ji_8);
-    const jg_real t618 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t619 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t620 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t617;
-    jac_phi_q_v_velocity[7] = t617;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t618 + A_ji_1 * t619 + A_ji_2 * t620;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t618 + A_ji_4 * t619 + A_ji_5 * t620;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t618 + A_ji_7 * t619 + A_ji_8 * t620;
-    jac_phi_q_v_velocity[12] = A_ji_0 * g_i_cross_h_j_in_j_0 + A_ji_1 * g_i_cross_h_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    const jg_real t574 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t575 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t576 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    const jg_real t577 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t578 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t579 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[3] = A_ji_0 * t574 + A_ji_1 * t575 + A_ji_2 * t576;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t574 + A_ji_4 * t575 + A_ji_5 * t576;
+    jac_phi_q_v_velocity[5] = A_ji_6 * t574 + A_ji_7 * t575 + A_ji_8 * t576;
+    jac_phi_q_v_velocity[6] = A_ji_0 * g_i_cross_h_j_in_j_0 + A_ji_1 * g_i_cross_h_j_in_j_1 + A_ji_2 *
         g_i_cross_h_j_in_j_2;
-    const jg_real t621 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t622 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t623 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[13] = A_ji_0 * h_i_cross_f_j_in_j_0 + A_ji_1 * h_i_cross_f_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[7] = A_ji_1 * h_i_cross_f_j_in_j_1 + A_ji_0 * h_i_cross_f_j_in_j_0 + A_ji_2 *
         h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[14] = A_ji_0 * f_i_cross_g_j_in_j_0 + A_ji_1 * f_i_cross_g_j_in_j_1 + A_ji_2 *
+    jac_phi_q_v_velocity[8] = A_ji_1 * f_i_cross_g_j_in_j_1 + A_ji_0 * f_i_cross_g_j_in_j_0 + A_ji_2 *
         f_i_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t621 + A_ji_1 * t622 + A_ji_2 * t623;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t621 + A_ji_4 * t622 + A_ji_5 * t623;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t621 + A_ji_7 * t622 + A_ji_8 * t623;
-    jac_phi_q_v_velocity[18] = A_ji_3 * g_i_cross_h_j_in_j_0 + A_ji_4 * g_i_cross_h_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[9] = A_ji_0 * t577 + A_ji_1 * t578 + A_ji_2 * t579;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t577 + A_ji_4 * t578 + A_ji_5 * t579;
+    const jg_real t580 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t581 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t582 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    jac_phi_q_v_velocity[11] = A_ji_6 * t577 + A_ji_7 * t578 + A_ji_8 * t579;
+    jac_phi_q_v_velocity[12] = A_ji_3 * g_i_cross_h_j_in_j_0 + A_ji_4 * g_i_cross_h_j_in_j_1 + A_ji_5 *
         g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[19] = A_ji_3 * h_i_cross_f_j_in_j_0 + A_ji_4 * h_i_cross_f_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[13] = A_ji_4 * h_i_cross_f_j_in_j_1 + A_ji_3 * h_i_cross_f_j_in_j_0 + A_ji_5 *
         h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[20] = A_ji_3 * f_i_cross_g_j_in_j_0 + A_ji_4 * f_i_cross_g_j_in_j_1 + A_ji_5 *
+    jac_phi_q_v_velocity[14] = A_ji_4 * f_i_cross_g_j_in_j_1 + A_ji_3 * f_i_cross_g_j_in_j_0 + A_ji_5 *
         f_i_cross_g_j_in_j_2;
-    const jg_real t624 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t625 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t626 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    jac_phi_q_v_velocity[21] = A_ji_0 * t624 + A_ji_1 * t625 + A_ji_2 * t626;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t624 + A_ji_4 * t625 + A_ji_5 * t626;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t624 + A_ji_7 * t625 + A_ji_8 * t626;
-    jac_phi_q_v_velocity[24] = A_ji_6 * g_i_cross_h_j_in_j_0 + A_ji_7 * g_i_cross_h_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[15] = A_ji_0 * t580 + A_ji_1 * t581 + A_ji_2 * t582;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t580 + A_ji_4 * t581 + A_ji_5 * t582;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t580 + A_ji_7 * t581 + A_ji_8 * t582;
+    jac_phi_q_v_velocity[18] = A_ji_6 * g_i_cross_h_j_in_j_0 + A_ji_7 * g_i_cross_h_j_in_j_1 + A_ji_8 *
         g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[25] = A_ji_6 * h_i_cross_f_j_in_j_0 + A_ji_7 * h_i_cross_f_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[19] = A_ji_7 * h_i_cross_f_j_in_j_1 + A_ji_6 * h_i_cross_f_j_in_j_0 + A_ji_8 *
         h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[26] = A_ji_6 * f_i_cross_g_j_in_j_0 + A_ji_7 * f_i_cross_g_j_in_j_1 + A_ji_8 *
+    jac_phi_q_v_velocity[20] = A_ji_7 * f_i_cross_g_j_in_j_1 + A_ji_6 * f_i_cross_g_j_in_j_0 + A_ji_8 *
         f_i_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = -g_i_cross_h_j_in_j_0;
-    jac_phi_q_v_velocity[40] = -h_i_cross_f_j_in_j_0;
-    jac_phi_q_v_velocity[41] = -f_i_cross_g_j_in_j_0;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = A_ji_3 * s_j[2] - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = -g_i_cross_h_j_in_j_1;
-    jac_phi_q_v_velocity[46] = -h_i_cross_f_j_in_j_1;
-    jac_phi_q_v_velocity[47] = -f_i_cross_g_j_in_j_1;
-    jac_phi_q_v_velocity[48] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
-    jac_phi_q_v_velocity[50] = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = -g_i_cross_h_j_in_j_2;
-    jac_phi_q_v_velocity[52] = -h_i_cross_f_j_in_j_2;
-    jac_phi_q_v_velocity[53] = -f_i_cross_g_j_in_j_2;
-    jac_phi_q_v_velocity[54] = -(A_ji_0 * h_i_in_j_0 + A_ji_1 * h_i_in_j_1 + A_ji_2 * h_i_in_j_2);
-    jac_phi_q_v_velocity[55] = -(A_ji_3 * h_i_in_j_0 + A_ji_4 * h_i_in_j_1 + A_ji_5 * h_i_in_j_2);
-    jac_phi_q_v_velocity[56] = -(A_ji_6 * h_i_in_j_0 + A_ji_7 * h_i_in_j_1 + A_ji_8 * h_i_in_j_2);
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - s_j[2] * A_ji_1;
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = -g_i_cross_h_j_in_j_0;
+    jac_phi_q_v_velocity[34] = -h_i_cross_f_j_in_j_0;
+    jac_phi_q_v_velocity[35] = -f_i_cross_g_j_in_j_0;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = A_ji_3 * s_j[2] - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = -g_i_cross_h_j_in_j_1;
+    jac_phi_q_v_velocity[40] = -h_i_cross_f_j_in_j_1;
+    jac_phi_q_v_velocity[41] = -f_i_cross_g_j_in_j_1;
+    jac_phi_q_v_velocity[42] = s_j[0] * A_ji_1 - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = A_ji_4 * s_j[0] - A_ji_3 * s_j[1];
+    jac_phi_q_v_velocity[44] = A_ji_7 * s_j[0] - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[45] = -g_i_cross_h_j_in_j_2;
+    jac_phi_q_v_velocity[46] = -h_i_cross_f_j_in_j_2;
+    jac_phi_q_v_velocity[47] = -f_i_cross_g_j_in_j_2;
+    jac_phi_q_v_velocity[48] = -C_i[6];
+    jac_phi_q_v_velocity[49] = -C_i[7];
+    jac_phi_q_v_velocity[50] = -C_i[8];
 }
 
 static void jg_translational_parametric_phi_q_t_lambda_jacobian(const jg_real *JG_RESTRICT r_i,
@@ -2426,8 +2351,8 @@ int jac_jg_translational_parametric_phi_q_v_external(const double **arg, double 
     double unwanted_1[36];
     double unwanted_2[9];
     double unwanted_3[54];
-    double unwanted_4[39];
-    double unwanted_5[57];
+    double unwanted_4[33];
+    double unwanted_5[51];
     (void)iw;
     (void)w;
     (void)mem;
@@ -2521,13 +2446,12 @@ const casadi_int *jac_jg_translational_parametric_phi_q_v_external_sparsity_out(
         3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5
     };
     static const casadi_int pattern_4[] = {
-        6, 24, 0, 0, 0, 0, 2, 4, 6, 6, 6, 6, 11, 16, 21, 24, 27, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 3, 5, 3, 5,
-        3, 5, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
+        6, 24, 0, 0, 0, 0, 2, 4, 6, 6, 6, 6, 9, 12, 15, 18, 21, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 3, 5, 3, 5,
+        3, 5, 0, 3, 4, 1, 3, 4, 2, 3, 4, 0, 1, 2, 0, 1, 2, 0, 1, 2, 4, 4, 4, 5, 5, 5, 3, 3, 3
     };
     static const casadi_int pattern_5[] = {
-        6, 13, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 57, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0,
-        1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3,
-        4, 5, 0, 1, 2
+        6, 13, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 51, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1,
+        2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

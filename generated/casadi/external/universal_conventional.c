@@ -125,7 +125,7 @@ static void jg_universal_conventional_phi_q_v_jacobian(const jg_real *JG_RESTRIC
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const omega_j = velocity + 9;
     /* s_i_cross_omega_i_in_i = s_i x omega_i, axes of body i */
-    const jg_real s_i_cross_omega_i_in_i_0 = omega_i[2] * s_i[1] - omega_i[1] * s_i[2];
+    const jg_real s_i_cross_omega_i_in_i_0 = s_i[1] * omega_i[2] - s_i[2] * omega_i[1];
     /* h_i_world = h_i, world axes */
     const jg_real h_i_world_1 = A_i[1] * C_i[6] + A_i[4] * C_i[7] + A_i[7] * C_i[8];
     /* h_j_world = h_j, world axes */

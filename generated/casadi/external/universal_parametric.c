@@ -479,7 +479,6 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real *const C_i = geometry + 3;
     const jg_real *const s_j = geometry + 12;
     const jg_real *const C_j = geometry + 15;
-    const jg_real *const v_i = velocity;
     const jg_real *const omega_i = velocity + 3;
     const jg_real *const v_j = velocity + 6;
     const jg_real *const omega_j = velocity + 9;
@@ -495,14 +494,14 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     /* omega_i_in_j = omega_i, axes of body j */
     const jg_real omega_i_in_j_2 = omega_i[0] * A_ji_2 + omega_i[1] * A_ji_5 + omega_i[2] * A_ji_8;
     const jg_real A_ji_4 = A_ji_0 * A_ji_8 - A_ji_6 * A_ji_2;
-    jac_phi_q_v_velocity[30] = A_ji_1;
-    jac_phi_q_v_velocity[29] = A_ji_6;
-    jac_phi_q_v_velocity[27] = A_ji_0;
-    jac_phi_q_v_velocity[32] = A_ji_7;
-    jac_phi_q_v_velocity[34] = A_ji_5;
-    jac_phi_q_v_velocity[33] = A_ji_2;
-    jac_phi_q_v_velocity[35] = A_ji_8;
-    jac_phi_q_v_velocity[31] = A_ji_4;
+    jac_phi_q_v_velocity[24] = A_ji_1;
+    jac_phi_q_v_velocity[23] = A_ji_6;
+    jac_phi_q_v_velocity[21] = A_ji_0;
+    jac_phi_q_v_velocity[26] = A_ji_7;
+    jac_phi_q_v_velocity[28] = A_ji_5;
+    jac_phi_q_v_velocity[27] = A_ji_2;
+    jac_phi_q_v_velocity[29] = A_ji_8;
+    jac_phi_q_v_velocity[25] = A_ji_4;
     const jg_real omega_i_in_j_1 = omega_i[0] * A_ji_1 + omega_i[1] * A_ji_4 + omega_i[2] * A_ji_7;
     const jg_real t10 = A_j[3] * omega_i_in_j_2 - A_j[6] * omega_i_in_j_1;
     const jg_real A_ji_3 = A_ji_7 * A_ji_2 - A_ji_1 * A_ji_8;
@@ -516,7 +515,7 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real t19 = A_j[7] * omega_i_in_j_0 - A_j[1] * omega_i_in_j_2;
     const jg_real t20 = A_j[1] * omega_i_in_j_1 - A_j[4] * omega_i_in_j_0;
     const jg_real t21 = A_ji_0 * t18 + A_ji_1 * t19 + A_ji_2 * t20;
-    jac_phi_q_v_velocity[28] = A_ji_3;
+    jac_phi_q_v_velocity[22] = A_ji_3;
     jac_phi_q_v_r_j[0] = t15;
     jac_phi_q_v_r_i[0] = -t15;
     jac_phi_q_v_r_j[1] = t16;
@@ -554,36 +553,32 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     const jg_real v_1_in_j_0 = e_ij_in_j_1 * omega_i_in_j_2 - e_ij_in_j_2 * omega_i_in_j_1;
     /* s_j_cross_omega_j_in_j = s_j x omega_j, axes of body j */
     const jg_real s_j_cross_omega_j_in_j_0 = s_j[1] * omega_j[2] - s_j[2] * omega_j[1];
-    /* v_i_in_j = v_i, axes of body j */
-    const jg_real v_i_in_j_0 = A_ji_0 * v_i[0] + v_i[1] * A_ji_3 + A_ji_6 * v_i[2];
-    /* v_2_in_j = v_j - v_i, axes of body j */
-    const jg_real v_2_in_j_0 = v_j[0] - v_i_in_j_0;
-    /* v_3_in_j = v_j - v_i + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
-    const jg_real v_3_in_j_0 = v_1_in_j_0 - s_j_cross_omega_j_in_j_0 + v_2_in_j_0;
-    const jg_real t42 = A_j[0] * v_3_in_j_0;
-    const jg_real t43 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
-    const jg_real t44 = A_j[6] * omega_i[0] + omega_i[1] * t43;
-    const jg_real t45 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
-    const jg_real t46 = A_j[3] * omega_i[0] + omega_i[1] * t45;
-    const jg_real t47 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
-    const jg_real t48 = e_ij_in_j_1 * t44 - e_ij_in_j_2 * t46 - (A_j[0] * v_i[0] + v_i[1] * t47);
+    /* v_2_in_j = v_j - s_j x omega_j, axes of body j */
+    const jg_real v_2_in_j_0 = v_j[0] - s_j_cross_omega_j_in_j_0;
+    /* v_3_in_j = v_j + r_j x omega_i + s_j x omega_i - r_i x omega_i - s_j x omega_j, axes of body j */
+    const jg_real v_3_in_j_0 = v_2_in_j_0 + v_1_in_j_0;
+    const jg_real t41 = A_j[0] * v_3_in_j_0;
+    const jg_real t42 = A_j[3] * A_ji_6 - A_j[0] * A_ji_7;
+    const jg_real t43 = A_j[6] * omega_i[0] + omega_i[1] * t42;
+    const jg_real t44 = A_j[0] * A_ji_8 - A_j[6] * A_ji_6;
+    const jg_real t45 = A_j[3] * omega_i[0] + omega_i[1] * t44;
+    const jg_real t46 = e_ij_in_j_1 * t43 - e_ij_in_j_2 * t45;
     const jg_real v_0_in_j_0 = A_j[0] * v_0_world_0 + A_j[1] * v_0_world_1 + A_j[2] * v_0_world_2;
     const jg_real e_ij_in_j_0 = s_j[0] + v_0_in_j_0;
     const jg_real v_1_in_j_1 = e_ij_in_j_2 * omega_i_in_j_0 - omega_i_in_j_2 * e_ij_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_1 = s_j[2] * omega_j[0] - omega_j[2] * s_j[0];
-    const jg_real v_i_in_j_1 = A_ji_1 * v_i[0] + v_i[1] * A_ji_4 + v_i[2] * A_ji_7;
-    const jg_real v_2_in_j_1 = v_j[1] - v_i_in_j_1;
-    const jg_real v_3_in_j_1 = v_1_in_j_1 - s_j_cross_omega_j_in_j_1 + v_2_in_j_1;
-    const jg_real t56 = A_j[3] * v_3_in_j_1;
-    const jg_real t57 = A_j[0] * omega_i[0] + omega_i[1] * t47;
-    const jg_real t58 = e_ij_in_j_2 * t57 - t44 * e_ij_in_j_0 - (A_j[3] * v_i[0] + v_i[1] * t45);
+    const jg_real v_2_in_j_1 = v_j[1] - s_j_cross_omega_j_in_j_1;
+    const jg_real v_3_in_j_1 = v_2_in_j_1 + v_1_in_j_1;
+    const jg_real t53 = A_j[3] * v_3_in_j_1;
+    const jg_real t54 = A_j[6] * A_ji_7 - A_j[3] * A_ji_8;
+    const jg_real t55 = A_j[0] * omega_i[0] + omega_i[1] * t54;
+    const jg_real t56 = e_ij_in_j_2 * t55 - t43 * e_ij_in_j_0;
     const jg_real v_1_in_j_2 = e_ij_in_j_0 * omega_i_in_j_1 - e_ij_in_j_1 * omega_i_in_j_0;
     const jg_real s_j_cross_omega_j_in_j_2 = omega_j[1] * s_j[0] - s_j[1] * omega_j[0];
-    const jg_real v_i_in_j_2 = v_i[1] * A_ji_5 + v_i[0] * A_ji_2 + v_i[2] * A_ji_8;
-    const jg_real v_2_in_j_2 = v_j[2] - v_i_in_j_2;
-    const jg_real v_3_in_j_2 = v_1_in_j_2 - s_j_cross_omega_j_in_j_2 + v_2_in_j_2;
-    const jg_real t64 = A_j[6] * v_3_in_j_2;
-    const jg_real t65 = t46 * e_ij_in_j_0 - e_ij_in_j_1 * t57 - (v_i[1] * t43 + A_j[6] * v_i[0]);
+    const jg_real v_2_in_j_2 = v_j[2] - s_j_cross_omega_j_in_j_2;
+    const jg_real v_3_in_j_2 = v_2_in_j_2 + v_1_in_j_2;
+    const jg_real t61 = A_j[6] * v_3_in_j_2;
+    const jg_real t62 = t45 * e_ij_in_j_0 - e_ij_in_j_1 * t55;
     jg_real sine_0;
     jg_real cosine_0;
     jg_sincos(alpha[0], &sine_0, &cosine_0);
@@ -598,46 +593,46 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jg_sincos(alpha[1], &sine_1, &cosine_1);
     /* H_02 =  */
     const jg_real H_02 = sine_0 * sine_1;
-    const jg_real t75 = cosine_0 * sine_1;
+    const jg_real t72 = cosine_0 * sine_1;
     /* h_star_in_i = h_star, axes of body i */
-    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t75 + C_i[7] * cosine_1;
-    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t75 + C_i[6] * cosine_1;
-    const jg_real t78 = t45 * h_star_in_i_1 + A_j[3] * h_star_in_i_0;
-    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t75 + C_i[8] * cosine_1;
+    const jg_real h_star_in_i_1 = C_i[1] * H_02 - C_i[4] * t72 + C_i[7] * cosine_1;
+    const jg_real h_star_in_i_0 = C_i[0] * H_02 - C_i[3] * t72 + C_i[6] * cosine_1;
+    const jg_real t75 = t44 * h_star_in_i_1 + A_j[3] * h_star_in_i_0;
+    const jg_real h_star_in_i_2 = C_i[2] * H_02 - C_i[5] * t72 + C_i[8] * cosine_1;
     /* h_star_in_j = h_star, axes of body j */
     const jg_real h_star_in_j_1 = A_ji_4 * h_star_in_i_1 + A_ji_1 * h_star_in_i_0 + A_ji_7 * h_star_in_i_2;
-    const jg_real t81 = t43 * f_star_in_i_1 + A_j[6] * f_star_in_i_0;
+    const jg_real t78 = t42 * f_star_in_i_1 + A_j[6] * f_star_in_i_0;
     const jg_real f_star_in_j_1 = A_ji_4 * f_star_in_i_1 + A_ji_1 * f_star_in_i_0 + A_ji_7 * f_star_in_i_2;
-    const jg_real t83 = t43 * h_star_in_i_1 + A_j[6] * h_star_in_i_0;
+    const jg_real t80 = t42 * h_star_in_i_1 + A_j[6] * h_star_in_i_0;
     const jg_real h_star_in_j_2 = A_ji_5 * h_star_in_i_1 + A_ji_2 * h_star_in_i_0 + A_ji_8 * h_star_in_i_2;
-    const jg_real t85 = t45 * f_star_in_i_1 + A_j[3] * f_star_in_i_0;
-    const jg_real t86 = f_star_in_j_2 * t78 + t81 * h_star_in_j_1 - (f_star_in_j_1 * t83 + t85 * h_star_in_j_2);
+    const jg_real t82 = t44 * f_star_in_i_1 + A_j[3] * f_star_in_i_0;
+    const jg_real t83 = f_star_in_j_2 * t75 + t78 * h_star_in_j_1 - (f_star_in_j_1 * t80 + t82 * h_star_in_j_2);
     const jg_real f_star_in_j_0 = A_ji_3 * f_star_in_i_1 + A_ji_0 * f_star_in_i_0 + A_ji_6 * f_star_in_i_2;
-    const jg_real t88 = t47 * f_star_in_i_1 + A_j[0] * f_star_in_i_0;
-    const jg_real t89 = t47 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
+    const jg_real t85 = t54 * f_star_in_i_1 + A_j[0] * f_star_in_i_0;
+    const jg_real t86 = t54 * h_star_in_i_1 + A_j[0] * h_star_in_i_0;
     const jg_real h_star_in_j_0 = A_ji_3 * h_star_in_i_1 + A_ji_0 * h_star_in_i_0 + A_ji_6 * h_star_in_i_2;
-    const jg_real t91 = f_star_in_j_0 * t83 + t88 * h_star_in_j_2 - (f_star_in_j_2 * t89 + t81 * h_star_in_j_0);
-    const jg_real t92 = f_star_in_j_1 * t89 + t85 * h_star_in_j_0 - (f_star_in_j_0 * t78 + t88 * h_star_in_j_1);
-    const jg_real t93 = C_j[3] * t86 + C_j[4] * t91 + C_j[5] * t92;
+    const jg_real t88 = f_star_in_j_0 * t80 + t85 * h_star_in_j_2 - (f_star_in_j_2 * t86 + t78 * h_star_in_j_0);
+    const jg_real t89 = f_star_in_j_1 * t86 + t82 * h_star_in_j_0 - (f_star_in_j_0 * t75 + t85 * h_star_in_j_1);
+    const jg_real t90 = C_j[3] * t83 + C_j[4] * t88 + C_j[5] * t89;
     /* omega_i_in_joint_j = omega_i, axes of joint j */
-    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + omega_i_in_j_2 *
-        C_j[2];
+    const jg_real omega_i_in_joint_j_0 = C_j[0] * omega_i_in_j_0 + C_j[1] * omega_i_in_j_1 + C_j[2] *
+        omega_i_in_j_2;
     /* g_star_in_j = g_star, axes of body j */
     const jg_real g_star_in_j_0 = f_star_in_j_2 * h_star_in_j_1 - f_star_in_j_1 * h_star_in_j_2;
     const jg_real g_star_in_j_1 = f_star_in_j_0 * h_star_in_j_2 - f_star_in_j_2 * h_star_in_j_0;
     const jg_real g_star_in_j_2 = f_star_in_j_1 * h_star_in_j_0 - f_star_in_j_0 * h_star_in_j_1;
     /* g_star_dot_g_j = g_star . g_j */
     const jg_real g_star_dot_g_j = C_j[3] * g_star_in_j_0 + C_j[4] * g_star_in_j_1 + C_j[5] * g_star_in_j_2;
-    const jg_real t99 = C_j[0] * t57 + t46 * C_j[1] + t44 * C_j[2];
-    const jg_real t100 = C_j[0] * t86 + C_j[1] * t91 + C_j[2] * t92;
+    const jg_real t96 = C_j[0] * t55 + C_j[1] * t45 + C_j[2] * t43;
+    const jg_real t97 = C_j[0] * t83 + C_j[1] * t88 + C_j[2] * t89;
     const jg_real omega_i_in_joint_j_1 = C_j[3] * omega_i_in_j_0 + C_j[4] * omega_i_in_j_1 + C_j[5] *
         omega_i_in_j_2;
     /* g_star_dot_f_j = g_star . f_j */
     const jg_real g_star_dot_f_j = C_j[0] * g_star_in_j_0 + C_j[1] * g_star_in_j_1 + C_j[2] * g_star_in_j_2;
-    const jg_real t103 = C_j[3] * t57 + C_j[4] * t46 + t44 * C_j[5];
-    const jg_real t104 = C_j[7] * t85 + C_j[6] * t88 + C_j[8] * t81;
-    const jg_real t105 = alphadot[0] * cosine_1;
-    const jg_real t106 = C_j[7] * t78 + C_j[6] * t89 + C_j[8] * t83;
+    const jg_real t100 = C_j[3] * t55 + C_j[4] * t45 + C_j[5] * t43;
+    const jg_real t101 = C_j[7] * t82 + C_j[6] * t85 + C_j[8] * t78;
+    const jg_real t102 = alphadot[0] * cosine_1;
+    const jg_real t103 = C_j[7] * t75 + C_j[6] * t86 + C_j[8] * t80;
     /* omega_j_in_joint_j = omega_j, axes of joint j */
     const jg_real omega_j_in_joint_j_0 = omega_j[0] * C_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     const jg_real omega_j_in_joint_j_1 = omega_j[0] * C_j[3] + omega_j[1] * C_j[4] + omega_j[2] * C_j[5];
@@ -646,882 +641,870 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_r_i[7] = -t28;
     jac_phi_q_v_r_j[8] = t29;
     jac_phi_q_v_r_i[8] = -t29;
-    jac_phi_q_v_A_i[0] = t64 + A_ji_2 * t65 + (t42 + A_ji_0 * t48 + (t56 + A_ji_1 * t58));
-    jac_phi_q_v_A_i[1] = t43 * v_3_in_j_2 + A_ji_5 * t65 + (t47 * v_3_in_j_0 + A_ji_3 * t48 + (t45 * v_3_in_j_1 +
-        A_ji_4 * t58));
-    jac_phi_q_v_A_i[2] = A_ji_6 * t48 + A_ji_7 * t58 + A_ji_8 * t65;
-    jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t93 - omega_j_in_joint_j_1 * t100 + (t105 * t104 -
-        (omega_i_in_joint_j_0 * t93 + t99 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t100 + t103 * g_star_dot_f_j))
-        - alphadot[1] * t106));
-    jac_phi_q_v_velocity[57] = h_star_dot_h_j;
+    jac_phi_q_v_A_i[0] = t61 + A_ji_2 * t62 + (t41 + A_ji_0 * t46 + (t53 + A_ji_1 * t56));
+    jac_phi_q_v_A_i[1] = t42 * v_3_in_j_2 + A_ji_5 * t62 + (t54 * v_3_in_j_0 + A_ji_3 * t46 + (t44 * v_3_in_j_1 +
+        A_ji_4 * t56));
+    jac_phi_q_v_A_i[2] = A_ji_6 * t46 + A_ji_7 * t56 + A_ji_8 * t62;
+    jac_phi_q_v_A_i[3] = -(omega_j_in_joint_j_0 * t90 - omega_j_in_joint_j_1 * t97 + (t102 * t101 -
+        (omega_i_in_joint_j_0 * t90 + t96 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t97 + t100 * g_star_dot_f_j)) -
+        alphadot[1] * t103));
+    jac_phi_q_v_velocity[51] = h_star_dot_h_j;
     /* h_star_dot_g_j = h_star . g_j */
-    const jg_real h_star_dot_g_j = C_j[3] * h_star_in_j_0 + C_j[4] * h_star_in_j_1 + C_j[5] * h_star_in_j_2;
-    const jg_real t111 = t57 * C_j[6] + t46 * C_j[7] + t44 * C_j[8];
-    const jg_real omega_i_in_joint_j_2 = omega_i_in_j_0 * C_j[6] + omega_i_in_j_1 * C_j[7] + omega_i_in_j_2 *
-        C_j[8];
-    const jg_real t113 = C_j[3] * t89 + C_j[4] * t78 + C_j[5] * t83;
-    const jg_real t114 = C_j[1] * t85 + C_j[0] * t88 + C_j[2] * t81;
-    const jg_real t115 = alphadot[0] * sine_1;
+    const jg_real h_star_dot_g_j = C_j[4] * h_star_in_j_1 + C_j[3] * h_star_in_j_0 + C_j[5] * h_star_in_j_2;
+    const jg_real t108 = C_j[6] * t55 + C_j[7] * t45 + t43 * C_j[8];
+    const jg_real omega_i_in_joint_j_2 = C_j[6] * omega_i_in_j_0 + C_j[7] * omega_i_in_j_1 + C_j[8] *
+        omega_i_in_j_2;
+    const jg_real t110 = C_j[4] * t75 + C_j[3] * t86 + C_j[5] * t80;
+    const jg_real t111 = C_j[1] * t82 + C_j[0] * t85 + C_j[2] * t78;
+    const jg_real t112 = alphadot[0] * sine_1;
     const jg_real omega_j_in_joint_j_2 = omega_j[0] * C_j[6] + omega_j[1] * C_j[7] + omega_j[2] * C_j[8];
     /* f_star_dot_f_j = f_star . f_j */
     const jg_real f_star_dot_f_j = C_j[1] * f_star_in_j_1 + C_j[0] * f_star_in_j_0 + C_j[2] * f_star_in_j_2;
     /* f_star_dot_h_j = f_star . h_j */
     const jg_real f_star_dot_h_j = C_j[7] * f_star_in_j_1 + C_j[6] * f_star_in_j_0 + C_j[8] * f_star_in_j_2;
-    const jg_real t119 = A_j[1] * v_3_in_j_0;
-    const jg_real t120 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
-    const jg_real t121 = A_j[7] * omega_i[0] + omega_i[1] * t120;
-    const jg_real t122 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
-    const jg_real t123 = A_j[4] * omega_i[0] + omega_i[1] * t122;
-    const jg_real t124 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
-    const jg_real t125 = e_ij_in_j_1 * t121 - e_ij_in_j_2 * t123 - (A_j[1] * v_i[0] + v_i[1] * t124);
-    const jg_real t126 = A_j[4] * v_3_in_j_1;
-    const jg_real t127 = A_j[1] * omega_i[0] + omega_i[1] * t124;
-    const jg_real t128 = e_ij_in_j_2 * t127 - t121 * e_ij_in_j_0 - (A_j[4] * v_i[0] + v_i[1] * t122);
-    const jg_real t129 = A_j[7] * v_3_in_j_2;
-    const jg_real t130 = t123 * e_ij_in_j_0 - e_ij_in_j_1 * t127 - (v_i[1] * t120 + A_j[7] * v_i[0]);
-    const jg_real t131 = t122 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
-    const jg_real t132 = t120 * f_star_in_i_1 + A_j[7] * f_star_in_i_0;
-    const jg_real t133 = t120 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
-    const jg_real t134 = t122 * f_star_in_i_1 + A_j[4] * f_star_in_i_0;
-    const jg_real t135 = f_star_in_j_2 * t131 + t132 * h_star_in_j_1 - (f_star_in_j_1 * t133 + t134 *
+    const jg_real t116 = A_j[1] * v_3_in_j_0;
+    const jg_real t117 = A_j[4] * A_ji_6 - A_j[1] * A_ji_7;
+    const jg_real t118 = A_j[7] * omega_i[0] + omega_i[1] * t117;
+    const jg_real t119 = A_j[1] * A_ji_8 - A_j[7] * A_ji_6;
+    const jg_real t120 = A_j[4] * omega_i[0] + omega_i[1] * t119;
+    const jg_real t121 = e_ij_in_j_1 * t118 - e_ij_in_j_2 * t120;
+    const jg_real t122 = A_j[4] * v_3_in_j_1;
+    const jg_real t123 = A_j[7] * A_ji_7 - A_j[4] * A_ji_8;
+    const jg_real t124 = A_j[1] * omega_i[0] + omega_i[1] * t123;
+    const jg_real t125 = e_ij_in_j_2 * t124 - t118 * e_ij_in_j_0;
+    const jg_real t126 = A_j[7] * v_3_in_j_2;
+    const jg_real t127 = t120 * e_ij_in_j_0 - e_ij_in_j_1 * t124;
+    const jg_real t128 = t119 * h_star_in_i_1 + A_j[4] * h_star_in_i_0;
+    const jg_real t129 = t117 * f_star_in_i_1 + A_j[7] * f_star_in_i_0;
+    const jg_real t130 = t117 * h_star_in_i_1 + A_j[7] * h_star_in_i_0;
+    const jg_real t131 = t119 * f_star_in_i_1 + A_j[4] * f_star_in_i_0;
+    const jg_real t132 = f_star_in_j_2 * t128 + t129 * h_star_in_j_1 - (f_star_in_j_1 * t130 + t131 *
         h_star_in_j_2);
-    const jg_real t136 = t124 * f_star_in_i_1 + A_j[1] * f_star_in_i_0;
-    const jg_real t137 = t124 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
-    const jg_real t138 = f_star_in_j_0 * t133 + t136 * h_star_in_j_2 - (f_star_in_j_2 * t137 + t132 *
+    const jg_real t133 = t123 * f_star_in_i_1 + A_j[1] * f_star_in_i_0;
+    const jg_real t134 = t123 * h_star_in_i_1 + A_j[1] * h_star_in_i_0;
+    const jg_real t135 = f_star_in_j_0 * t130 + t133 * h_star_in_j_2 - (f_star_in_j_2 * t134 + t129 *
         h_star_in_j_0);
-    const jg_real t139 = f_star_in_j_1 * t137 + t134 * h_star_in_j_0 - (f_star_in_j_0 * t131 + t136 *
+    const jg_real t136 = f_star_in_j_1 * t134 + t131 * h_star_in_j_0 - (f_star_in_j_0 * t128 + t133 *
         h_star_in_j_1);
-    const jg_real t140 = C_j[3] * t135 + C_j[4] * t138 + C_j[5] * t139;
-    const jg_real t141 = C_j[0] * t127 + t123 * C_j[1] + t121 * C_j[2];
-    const jg_real t142 = C_j[0] * t135 + C_j[1] * t138 + C_j[2] * t139;
-    const jg_real t143 = C_j[3] * t127 + C_j[4] * t123 + t121 * C_j[5];
-    const jg_real t144 = C_j[7] * t134 + C_j[6] * t136 + C_j[8] * t132;
-    const jg_real t145 = C_j[7] * t131 + C_j[6] * t137 + C_j[8] * t133;
-    const jg_real t146 = t127 * C_j[6] + t123 * C_j[7] + t121 * C_j[8];
-    const jg_real t147 = C_j[3] * t137 + C_j[4] * t131 + C_j[5] * t133;
-    const jg_real t148 = C_j[1] * t134 + C_j[0] * t136 + C_j[2] * t132;
-    jac_phi_q_v_A_i[4] = t103 * h_star_dot_h_j + omega_i_in_joint_j_1 * t106 - (t111 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t113) + (t115 * t114 - alphadot[1] * t100) - (omega_j_in_joint_j_1 * t106 -
-        omega_j_in_joint_j_2 * t113);
-    jac_phi_q_v_A_i[5] = t111 * f_star_dot_f_j + omega_i_in_joint_j_2 * t114 - (t99 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t104) + alphadot[0] * (cosine_1 * t93 - sine_1 * t113) - (omega_j_in_joint_j_2 * t114
-        - omega_j_in_joint_j_0 * t104);
-    jac_phi_q_v_A_i[6] = t129 + A_ji_2 * t130 + (t119 + A_ji_0 * t125 + (t126 + A_ji_1 * t128));
-    jac_phi_q_v_A_i[7] = t120 * v_3_in_j_2 + A_ji_5 * t130 + (t124 * v_3_in_j_0 + A_ji_3 * t125 + (t122 * v_3_in_j_1
-        + A_ji_4 * t128));
-    jac_phi_q_v_A_i[8] = A_ji_6 * t125 + A_ji_7 * t128 + A_ji_8 * t130;
-    jac_phi_q_v_A_i[9] = -(omega_j_in_joint_j_0 * t140 - omega_j_in_joint_j_1 * t142 + (t105 * t144 -
-        (omega_i_in_joint_j_0 * t140 + t141 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t142 + t143 *
-        g_star_dot_f_j)) - alphadot[1] * t145));
-    jac_phi_q_v_A_i[10] = t143 * h_star_dot_h_j + omega_i_in_joint_j_1 * t145 - (t146 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t147) + (t115 * t148 - alphadot[1] * t142) - (omega_j_in_joint_j_1 * t145 -
-        omega_j_in_joint_j_2 * t147);
-    jac_phi_q_v_A_i[11] = t146 * f_star_dot_f_j + omega_i_in_joint_j_2 * t148 - (t141 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t144) + alphadot[0] * (cosine_1 * t140 - sine_1 * t147) - (omega_j_in_joint_j_2 *
-        t148 - omega_j_in_joint_j_0 * t144);
-    const jg_real t149 = A_j[2] * v_3_in_j_0;
-    const jg_real t150 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
-    const jg_real t151 = A_j[8] * omega_i[0] + omega_i[1] * t150;
-    const jg_real t152 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
-    const jg_real t153 = A_j[5] * omega_i[0] + omega_i[1] * t152;
-    const jg_real t154 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
-    const jg_real t155 = e_ij_in_j_1 * t151 - e_ij_in_j_2 * t153 - (A_j[2] * v_i[0] + v_i[1] * t154);
-    const jg_real t156 = A_j[5] * v_3_in_j_1;
-    const jg_real t157 = A_j[2] * omega_i[0] + omega_i[1] * t154;
-    const jg_real t158 = e_ij_in_j_2 * t157 - t151 * e_ij_in_j_0 - (A_j[5] * v_i[0] + v_i[1] * t152);
-    const jg_real t159 = A_j[8] * v_3_in_j_2;
-    const jg_real t160 = t153 * e_ij_in_j_0 - e_ij_in_j_1 * t157 - (v_i[1] * t150 + A_j[8] * v_i[0]);
-    const jg_real t161 = t152 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
-    const jg_real t162 = t150 * f_star_in_i_1 + A_j[8] * f_star_in_i_0;
-    const jg_real t163 = t150 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
-    const jg_real t164 = t152 * f_star_in_i_1 + A_j[5] * f_star_in_i_0;
-    const jg_real t165 = f_star_in_j_2 * t161 + t162 * h_star_in_j_1 - (f_star_in_j_1 * t163 + t164 *
+    const jg_real t137 = C_j[3] * t132 + C_j[4] * t135 + C_j[5] * t136;
+    const jg_real t138 = C_j[0] * t124 + C_j[1] * t120 + C_j[2] * t118;
+    const jg_real t139 = C_j[0] * t132 + C_j[1] * t135 + C_j[2] * t136;
+    const jg_real t140 = C_j[3] * t124 + C_j[4] * t120 + C_j[5] * t118;
+    const jg_real t141 = C_j[7] * t131 + C_j[6] * t133 + C_j[8] * t129;
+    const jg_real t142 = C_j[7] * t128 + C_j[6] * t134 + C_j[8] * t130;
+    const jg_real t143 = C_j[6] * t124 + C_j[7] * t120 + t118 * C_j[8];
+    const jg_real t144 = C_j[4] * t128 + C_j[3] * t134 + C_j[5] * t130;
+    const jg_real t145 = C_j[1] * t131 + C_j[0] * t133 + C_j[2] * t129;
+    jac_phi_q_v_A_i[4] = t100 * h_star_dot_h_j + omega_i_in_joint_j_1 * t103 - (t108 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t110) + (t112 * t111 - alphadot[1] * t97) - (omega_j_in_joint_j_1 * t103 -
+        omega_j_in_joint_j_2 * t110);
+    jac_phi_q_v_A_i[5] = t108 * f_star_dot_f_j + omega_i_in_joint_j_2 * t111 - (t96 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t101) + alphadot[0] * (cosine_1 * t90 - sine_1 * t110) - (omega_j_in_joint_j_2 * t111
+        - omega_j_in_joint_j_0 * t101);
+    jac_phi_q_v_A_i[6] = t126 + A_ji_2 * t127 + (t116 + A_ji_0 * t121 + (t122 + A_ji_1 * t125));
+    jac_phi_q_v_A_i[7] = t117 * v_3_in_j_2 + A_ji_5 * t127 + (t123 * v_3_in_j_0 + A_ji_3 * t121 + (t119 * v_3_in_j_1
+        + A_ji_4 * t125));
+    jac_phi_q_v_A_i[8] = A_ji_6 * t121 + A_ji_7 * t125 + A_ji_8 * t127;
+    jac_phi_q_v_A_i[9] = -(omega_j_in_joint_j_0 * t137 - omega_j_in_joint_j_1 * t139 + (t102 * t141 -
+        (omega_i_in_joint_j_0 * t137 + t138 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t139 + t140 *
+        g_star_dot_f_j)) - alphadot[1] * t142));
+    jac_phi_q_v_A_i[10] = t140 * h_star_dot_h_j + omega_i_in_joint_j_1 * t142 - (t143 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t144) + (t112 * t145 - alphadot[1] * t139) - (omega_j_in_joint_j_1 * t142 -
+        omega_j_in_joint_j_2 * t144);
+    jac_phi_q_v_A_i[11] = t143 * f_star_dot_f_j + omega_i_in_joint_j_2 * t145 - (t138 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t141) + alphadot[0] * (cosine_1 * t137 - sine_1 * t144) - (omega_j_in_joint_j_2 *
+        t145 - omega_j_in_joint_j_0 * t141);
+    const jg_real t146 = A_j[2] * v_3_in_j_0;
+    const jg_real t147 = A_j[5] * A_ji_6 - A_j[2] * A_ji_7;
+    const jg_real t148 = A_j[8] * omega_i[0] + omega_i[1] * t147;
+    const jg_real t149 = A_j[2] * A_ji_8 - A_j[8] * A_ji_6;
+    const jg_real t150 = A_j[5] * omega_i[0] + omega_i[1] * t149;
+    const jg_real t151 = e_ij_in_j_1 * t148 - e_ij_in_j_2 * t150;
+    const jg_real t152 = A_j[5] * v_3_in_j_1;
+    const jg_real t153 = A_j[8] * A_ji_7 - A_j[5] * A_ji_8;
+    const jg_real t154 = A_j[2] * omega_i[0] + omega_i[1] * t153;
+    const jg_real t155 = e_ij_in_j_2 * t154 - t148 * e_ij_in_j_0;
+    const jg_real t156 = A_j[8] * v_3_in_j_2;
+    const jg_real t157 = t150 * e_ij_in_j_0 - e_ij_in_j_1 * t154;
+    const jg_real t158 = t149 * h_star_in_i_1 + A_j[5] * h_star_in_i_0;
+    const jg_real t159 = t147 * f_star_in_i_1 + A_j[8] * f_star_in_i_0;
+    const jg_real t160 = t147 * h_star_in_i_1 + A_j[8] * h_star_in_i_0;
+    const jg_real t161 = t149 * f_star_in_i_1 + A_j[5] * f_star_in_i_0;
+    const jg_real t162 = f_star_in_j_2 * t158 + t159 * h_star_in_j_1 - (f_star_in_j_1 * t160 + t161 *
         h_star_in_j_2);
-    const jg_real t166 = t154 * f_star_in_i_1 + A_j[2] * f_star_in_i_0;
-    const jg_real t167 = t154 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
-    const jg_real t168 = f_star_in_j_0 * t163 + t166 * h_star_in_j_2 - (f_star_in_j_2 * t167 + t162 *
+    const jg_real t163 = t153 * f_star_in_i_1 + A_j[2] * f_star_in_i_0;
+    const jg_real t164 = t153 * h_star_in_i_1 + A_j[2] * h_star_in_i_0;
+    const jg_real t165 = f_star_in_j_0 * t160 + t163 * h_star_in_j_2 - (f_star_in_j_2 * t164 + t159 *
         h_star_in_j_0);
-    const jg_real t169 = f_star_in_j_1 * t167 + t164 * h_star_in_j_0 - (f_star_in_j_0 * t161 + t166 *
+    const jg_real t166 = f_star_in_j_1 * t164 + t161 * h_star_in_j_0 - (f_star_in_j_0 * t158 + t163 *
         h_star_in_j_1);
-    const jg_real t170 = C_j[3] * t165 + C_j[4] * t168 + C_j[5] * t169;
-    const jg_real t171 = C_j[0] * t157 + t153 * C_j[1] + t151 * C_j[2];
-    const jg_real t172 = C_j[0] * t165 + C_j[1] * t168 + C_j[2] * t169;
-    const jg_real t173 = C_j[3] * t157 + C_j[4] * t153 + t151 * C_j[5];
-    const jg_real t174 = C_j[7] * t164 + C_j[6] * t166 + C_j[8] * t162;
-    const jg_real t175 = C_j[7] * t161 + C_j[6] * t167 + C_j[8] * t163;
-    const jg_real t176 = t157 * C_j[6] + t153 * C_j[7] + t151 * C_j[8];
-    const jg_real t177 = C_j[3] * t167 + C_j[4] * t161 + C_j[5] * t163;
-    const jg_real t178 = C_j[1] * t164 + C_j[0] * t166 + C_j[2] * t162;
-    const jg_real t179 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
-    const jg_real t180 = A_j[6] * omega_i[2] + omega_i[1] * t179;
-    const jg_real t181 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
-    const jg_real t182 = A_j[3] * omega_i[2] + omega_i[1] * t181;
-    const jg_real t183 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
-    const jg_real t184 = e_ij_in_j_1 * t180 - e_ij_in_j_2 * t182 - (A_j[0] * v_i[2] + v_i[1] * t183);
-    const jg_real t185 = A_j[0] * omega_i[2] + omega_i[1] * t183;
-    const jg_real t186 = e_ij_in_j_2 * t185 - t180 * e_ij_in_j_0 - (A_j[3] * v_i[2] + v_i[1] * t181);
-    const jg_real t187 = e_ij_in_j_0 * t182 - e_ij_in_j_1 * t185 - (v_i[1] * t179 + A_j[6] * v_i[2]);
-    jac_phi_q_v_A_i[12] = t159 + A_ji_2 * t160 + (t149 + A_ji_0 * t155 + (t156 + A_ji_1 * t158));
-    jac_phi_q_v_A_i[13] = t150 * v_3_in_j_2 + A_ji_5 * t160 + (t154 * v_3_in_j_0 + A_ji_3 * t155 + (t152 *
-        v_3_in_j_1 + A_ji_4 * t158));
-    jac_phi_q_v_A_i[14] = A_ji_6 * t155 + A_ji_7 * t158 + A_ji_8 * t160;
-    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t170 - omega_j_in_joint_j_1 * t172 + (t105 * t174 -
-        (omega_i_in_joint_j_0 * t170 + t171 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t172 + t173 *
-        g_star_dot_f_j)) - alphadot[1] * t175));
-    jac_phi_q_v_A_i[16] = t173 * h_star_dot_h_j + omega_i_in_joint_j_1 * t175 - (t176 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t177) + (t115 * t178 - alphadot[1] * t172) - (omega_j_in_joint_j_1 * t175 -
-        omega_j_in_joint_j_2 * t177);
-    jac_phi_q_v_A_i[17] = t176 * f_star_dot_f_j + omega_i_in_joint_j_2 * t178 - (t171 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t174) + alphadot[0] * (cosine_1 * t170 - sine_1 * t177) - (omega_j_in_joint_j_2 *
-        t178 - omega_j_in_joint_j_0 * t174);
-    jac_phi_q_v_A_i[18] = A_ji_0 * t184 + A_ji_1 * t186 + A_ji_2 * t187;
-    jac_phi_q_v_A_i[19] = t179 * v_3_in_j_2 + A_ji_5 * t187 + (t183 * v_3_in_j_0 + A_ji_3 * t184 + (t181 *
-        v_3_in_j_1 + A_ji_4 * t186));
-    const jg_real t188 = t181 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
-    const jg_real t189 = t179 * f_star_in_i_1 + A_j[6] * f_star_in_i_2;
-    const jg_real t190 = t179 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
-    const jg_real t191 = t181 * f_star_in_i_1 + A_j[3] * f_star_in_i_2;
-    const jg_real t192 = f_star_in_j_2 * t188 + t189 * h_star_in_j_1 - (f_star_in_j_1 * t190 + t191 *
+    const jg_real t167 = C_j[3] * t162 + C_j[4] * t165 + C_j[5] * t166;
+    const jg_real t168 = C_j[0] * t154 + C_j[1] * t150 + C_j[2] * t148;
+    const jg_real t169 = C_j[0] * t162 + C_j[1] * t165 + C_j[2] * t166;
+    const jg_real t170 = C_j[3] * t154 + C_j[4] * t150 + C_j[5] * t148;
+    const jg_real t171 = C_j[7] * t161 + C_j[6] * t163 + C_j[8] * t159;
+    const jg_real t172 = C_j[7] * t158 + C_j[6] * t164 + C_j[8] * t160;
+    const jg_real t173 = C_j[6] * t154 + C_j[7] * t150 + t148 * C_j[8];
+    const jg_real t174 = C_j[4] * t158 + C_j[3] * t164 + C_j[5] * t160;
+    const jg_real t175 = C_j[1] * t161 + C_j[0] * t163 + C_j[2] * t159;
+    const jg_real t176 = A_j[0] * A_ji_1 - A_j[3] * A_ji_0;
+    const jg_real t177 = A_j[6] * omega_i[2] + omega_i[1] * t176;
+    const jg_real t178 = A_j[6] * A_ji_0 - A_j[0] * A_ji_2;
+    const jg_real t179 = A_j[3] * omega_i[2] + omega_i[1] * t178;
+    const jg_real t180 = e_ij_in_j_1 * t177 - e_ij_in_j_2 * t179;
+    const jg_real t181 = A_j[3] * A_ji_2 - A_j[6] * A_ji_1;
+    const jg_real t182 = A_j[0] * omega_i[2] + omega_i[1] * t181;
+    const jg_real t183 = e_ij_in_j_2 * t182 - t177 * e_ij_in_j_0;
+    const jg_real t184 = e_ij_in_j_0 * t179 - e_ij_in_j_1 * t182;
+    jac_phi_q_v_A_i[12] = t156 + A_ji_2 * t157 + (t146 + A_ji_0 * t151 + (t152 + A_ji_1 * t155));
+    jac_phi_q_v_A_i[13] = t147 * v_3_in_j_2 + A_ji_5 * t157 + (t153 * v_3_in_j_0 + A_ji_3 * t151 + (t149 *
+        v_3_in_j_1 + A_ji_4 * t155));
+    jac_phi_q_v_A_i[14] = A_ji_6 * t151 + A_ji_7 * t155 + A_ji_8 * t157;
+    jac_phi_q_v_A_i[15] = -(omega_j_in_joint_j_0 * t167 - omega_j_in_joint_j_1 * t169 + (t102 * t171 -
+        (omega_i_in_joint_j_0 * t167 + t168 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t169 + t170 *
+        g_star_dot_f_j)) - alphadot[1] * t172));
+    jac_phi_q_v_A_i[16] = t170 * h_star_dot_h_j + omega_i_in_joint_j_1 * t172 - (t173 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t174) + (t112 * t175 - alphadot[1] * t169) - (omega_j_in_joint_j_1 * t172 -
+        omega_j_in_joint_j_2 * t174);
+    jac_phi_q_v_A_i[17] = t173 * f_star_dot_f_j + omega_i_in_joint_j_2 * t175 - (t168 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t171) + alphadot[0] * (cosine_1 * t167 - sine_1 * t174) - (omega_j_in_joint_j_2 *
+        t175 - omega_j_in_joint_j_0 * t171);
+    jac_phi_q_v_A_i[18] = A_ji_0 * t180 + A_ji_1 * t183 + A_ji_2 * t184;
+    jac_phi_q_v_A_i[19] = t176 * v_3_in_j_2 + A_ji_5 * t184 + (t181 * v_3_in_j_0 + A_ji_3 * t180 + (t178 *
+        v_3_in_j_1 + A_ji_4 * t183));
+    const jg_real t185 = t178 * h_star_in_i_1 + A_j[3] * h_star_in_i_2;
+    const jg_real t186 = t176 * f_star_in_i_1 + A_j[6] * f_star_in_i_2;
+    const jg_real t187 = t176 * h_star_in_i_1 + A_j[6] * h_star_in_i_2;
+    const jg_real t188 = t178 * f_star_in_i_1 + A_j[3] * f_star_in_i_2;
+    const jg_real t189 = f_star_in_j_2 * t185 + t186 * h_star_in_j_1 - (f_star_in_j_1 * t187 + t188 *
         h_star_in_j_2);
-    const jg_real t193 = t183 * f_star_in_i_1 + A_j[0] * f_star_in_i_2;
-    const jg_real t194 = t183 * h_star_in_i_1 + A_j[0] * h_star_in_i_2;
-    const jg_real t195 = f_star_in_j_0 * t190 + t193 * h_star_in_j_2 - (f_star_in_j_2 * t194 + t189 *
+    const jg_real t190 = t181 * f_star_in_i_1 + A_j[0] * f_star_in_i_2;
+    const jg_real t191 = t181 * h_star_in_i_1 + A_j[0] * h_star_in_i_2;
+    const jg_real t192 = f_star_in_j_0 * t187 + t190 * h_star_in_j_2 - (f_star_in_j_2 * t191 + t186 *
         h_star_in_j_0);
-    const jg_real t196 = f_star_in_j_1 * t194 + t191 * h_star_in_j_0 - (f_star_in_j_0 * t188 + t193 *
+    const jg_real t193 = f_star_in_j_1 * t191 + t188 * h_star_in_j_0 - (f_star_in_j_0 * t185 + t190 *
         h_star_in_j_1);
-    const jg_real t197 = C_j[3] * t192 + C_j[4] * t195 + C_j[5] * t196;
-    const jg_real t198 = C_j[0] * t185 + C_j[1] * t182 + t180 * C_j[2];
-    const jg_real t199 = C_j[0] * t192 + C_j[1] * t195 + C_j[2] * t196;
-    const jg_real t200 = C_j[3] * t185 + C_j[4] * t182 + C_j[5] * t180;
-    const jg_real t201 = C_j[7] * t191 + C_j[6] * t193 + C_j[8] * t189;
-    const jg_real t202 = C_j[7] * t188 + C_j[6] * t194 + C_j[8] * t190;
-    const jg_real t203 = t185 * C_j[6] + t182 * C_j[7] + t180 * C_j[8];
-    const jg_real t204 = C_j[3] * t194 + C_j[4] * t188 + C_j[5] * t190;
-    const jg_real t205 = C_j[1] * t191 + C_j[0] * t193 + C_j[2] * t189;
-    const jg_real t206 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
-    const jg_real t207 = A_j[7] * omega_i[2] + omega_i[1] * t206;
-    const jg_real t208 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
-    const jg_real t209 = A_j[4] * omega_i[2] + omega_i[1] * t208;
-    const jg_real t210 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
-    const jg_real t211 = e_ij_in_j_1 * t207 - e_ij_in_j_2 * t209 - (A_j[1] * v_i[2] + v_i[1] * t210);
-    const jg_real t212 = A_j[1] * omega_i[2] + omega_i[1] * t210;
-    const jg_real t213 = e_ij_in_j_2 * t212 - t207 * e_ij_in_j_0 - (A_j[4] * v_i[2] + v_i[1] * t208);
-    const jg_real t214 = e_ij_in_j_0 * t209 - e_ij_in_j_1 * t212 - (v_i[1] * t206 + A_j[7] * v_i[2]);
-    const jg_real t215 = t208 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
-    const jg_real t216 = t206 * f_star_in_i_1 + A_j[7] * f_star_in_i_2;
-    const jg_real t217 = t206 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
-    const jg_real t218 = t208 * f_star_in_i_1 + A_j[4] * f_star_in_i_2;
-    const jg_real t219 = f_star_in_j_2 * t215 + t216 * h_star_in_j_1 - (f_star_in_j_1 * t217 + t218 *
+    const jg_real t194 = C_j[3] * t189 + C_j[4] * t192 + C_j[5] * t193;
+    const jg_real t195 = C_j[0] * t182 + C_j[1] * t179 + C_j[2] * t177;
+    const jg_real t196 = C_j[0] * t189 + C_j[1] * t192 + C_j[2] * t193;
+    const jg_real t197 = C_j[3] * t182 + C_j[4] * t179 + C_j[5] * t177;
+    const jg_real t198 = C_j[7] * t188 + C_j[6] * t190 + C_j[8] * t186;
+    const jg_real t199 = C_j[7] * t185 + C_j[6] * t191 + C_j[8] * t187;
+    const jg_real t200 = C_j[6] * t182 + C_j[7] * t179 + C_j[8] * t177;
+    const jg_real t201 = C_j[4] * t185 + C_j[3] * t191 + C_j[5] * t187;
+    const jg_real t202 = C_j[1] * t188 + C_j[0] * t190 + C_j[2] * t186;
+    const jg_real t203 = A_j[1] * A_ji_1 - A_j[4] * A_ji_0;
+    const jg_real t204 = A_j[7] * omega_i[2] + omega_i[1] * t203;
+    const jg_real t205 = A_j[7] * A_ji_0 - A_j[1] * A_ji_2;
+    const jg_real t206 = A_j[4] * omega_i[2] + omega_i[1] * t205;
+    const jg_real t207 = e_ij_in_j_1 * t204 - e_ij_in_j_2 * t206;
+    const jg_real t208 = A_j[4] * A_ji_2 - A_j[7] * A_ji_1;
+    const jg_real t209 = A_j[1] * omega_i[2] + omega_i[1] * t208;
+    const jg_real t210 = e_ij_in_j_2 * t209 - t204 * e_ij_in_j_0;
+    const jg_real t211 = e_ij_in_j_0 * t206 - e_ij_in_j_1 * t209;
+    const jg_real t212 = t205 * h_star_in_i_1 + A_j[4] * h_star_in_i_2;
+    const jg_real t213 = t203 * f_star_in_i_1 + A_j[7] * f_star_in_i_2;
+    const jg_real t214 = t203 * h_star_in_i_1 + A_j[7] * h_star_in_i_2;
+    const jg_real t215 = t205 * f_star_in_i_1 + A_j[4] * f_star_in_i_2;
+    const jg_real t216 = f_star_in_j_2 * t212 + t213 * h_star_in_j_1 - (f_star_in_j_1 * t214 + t215 *
         h_star_in_j_2);
-    const jg_real t220 = t210 * f_star_in_i_1 + A_j[1] * f_star_in_i_2;
-    const jg_real t221 = t210 * h_star_in_i_1 + A_j[1] * h_star_in_i_2;
-    const jg_real t222 = f_star_in_j_0 * t217 + t220 * h_star_in_j_2 - (f_star_in_j_2 * t221 + t216 *
+    const jg_real t217 = t208 * f_star_in_i_1 + A_j[1] * f_star_in_i_2;
+    const jg_real t218 = t208 * h_star_in_i_1 + A_j[1] * h_star_in_i_2;
+    const jg_real t219 = f_star_in_j_0 * t214 + t217 * h_star_in_j_2 - (f_star_in_j_2 * t218 + t213 *
         h_star_in_j_0);
-    const jg_real t223 = f_star_in_j_1 * t221 + t218 * h_star_in_j_0 - (f_star_in_j_0 * t215 + t220 *
+    const jg_real t220 = f_star_in_j_1 * t218 + t215 * h_star_in_j_0 - (f_star_in_j_0 * t212 + t217 *
         h_star_in_j_1);
-    const jg_real t224 = C_j[3] * t219 + C_j[4] * t222 + C_j[5] * t223;
-    const jg_real t225 = C_j[0] * t212 + C_j[1] * t209 + t207 * C_j[2];
-    const jg_real t226 = C_j[0] * t219 + C_j[1] * t222 + C_j[2] * t223;
-    const jg_real t227 = C_j[3] * t212 + C_j[4] * t209 + C_j[5] * t207;
-    const jg_real t228 = C_j[7] * t218 + C_j[6] * t220 + C_j[8] * t216;
-    const jg_real t229 = C_j[7] * t215 + C_j[6] * t221 + C_j[8] * t217;
-    jac_phi_q_v_A_i[20] = t64 + A_ji_8 * t187 + (t42 + A_ji_6 * t184 + (t56 + A_ji_7 * t186));
-    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t197 - omega_j_in_joint_j_1 * t199 + (t105 * t201 -
-        (omega_i_in_joint_j_0 * t197 + t198 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t199 + t200 *
-        g_star_dot_f_j)) - alphadot[1] * t202));
-    jac_phi_q_v_A_i[22] = t200 * h_star_dot_h_j + omega_i_in_joint_j_1 * t202 - (t203 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t204) + (t115 * t205 - alphadot[1] * t199) - (omega_j_in_joint_j_1 * t202 -
-        omega_j_in_joint_j_2 * t204);
-    jac_phi_q_v_A_i[23] = t203 * f_star_dot_f_j + omega_i_in_joint_j_2 * t205 - (t198 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t201) + alphadot[0] * (cosine_1 * t197 - sine_1 * t204) - (omega_j_in_joint_j_2 *
-        t205 - omega_j_in_joint_j_0 * t201);
-    jac_phi_q_v_A_i[24] = A_ji_0 * t211 + A_ji_1 * t213 + A_ji_2 * t214;
-    jac_phi_q_v_A_i[25] = t206 * v_3_in_j_2 + A_ji_5 * t214 + (t210 * v_3_in_j_0 + A_ji_3 * t211 + (t208 *
-        v_3_in_j_1 + A_ji_4 * t213));
-    jac_phi_q_v_A_i[26] = t129 + A_ji_8 * t214 + (t119 + A_ji_6 * t211 + (t126 + A_ji_7 * t213));
-    jac_phi_q_v_A_i[27] = -(omega_j_in_joint_j_0 * t224 - omega_j_in_joint_j_1 * t226 + (t105 * t228 -
-        (omega_i_in_joint_j_0 * t224 + t225 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t226 + t227 *
-        g_star_dot_f_j)) - alphadot[1] * t229));
-    const jg_real t230 = t212 * C_j[6] + t209 * C_j[7] + t207 * C_j[8];
-    const jg_real t231 = C_j[3] * t221 + C_j[4] * t215 + C_j[5] * t217;
-    const jg_real t232 = C_j[1] * t218 + C_j[0] * t220 + C_j[2] * t216;
-    const jg_real t233 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
-    const jg_real t234 = A_j[8] * omega_i[2] + omega_i[1] * t233;
-    const jg_real t235 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
-    const jg_real t236 = A_j[5] * omega_i[2] + omega_i[1] * t235;
-    const jg_real t237 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
-    const jg_real t238 = e_ij_in_j_1 * t234 - e_ij_in_j_2 * t236 - (A_j[2] * v_i[2] + v_i[1] * t237);
-    const jg_real t239 = A_j[2] * omega_i[2] + omega_i[1] * t237;
-    const jg_real t240 = e_ij_in_j_2 * t239 - t234 * e_ij_in_j_0 - (A_j[5] * v_i[2] + v_i[1] * t235);
-    const jg_real t241 = e_ij_in_j_0 * t236 - e_ij_in_j_1 * t239 - (v_i[1] * t233 + A_j[8] * v_i[2]);
-    const jg_real t242 = t235 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
-    const jg_real t243 = t233 * f_star_in_i_1 + A_j[8] * f_star_in_i_2;
-    const jg_real t244 = t233 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
-    const jg_real t245 = t235 * f_star_in_i_1 + A_j[5] * f_star_in_i_2;
-    const jg_real t246 = f_star_in_j_2 * t242 + t243 * h_star_in_j_1 - (f_star_in_j_1 * t244 + t245 *
+    const jg_real t221 = C_j[3] * t216 + C_j[4] * t219 + C_j[5] * t220;
+    const jg_real t222 = C_j[0] * t209 + C_j[1] * t206 + C_j[2] * t204;
+    const jg_real t223 = C_j[0] * t216 + C_j[1] * t219 + C_j[2] * t220;
+    const jg_real t224 = C_j[3] * t209 + C_j[4] * t206 + C_j[5] * t204;
+    const jg_real t225 = C_j[7] * t215 + C_j[6] * t217 + C_j[8] * t213;
+    const jg_real t226 = C_j[7] * t212 + C_j[6] * t218 + C_j[8] * t214;
+    jac_phi_q_v_A_i[20] = t61 + A_ji_8 * t184 + (t41 + A_ji_6 * t180 + (t53 + A_ji_7 * t183));
+    jac_phi_q_v_A_i[21] = -(omega_j_in_joint_j_0 * t194 - omega_j_in_joint_j_1 * t196 + (t102 * t198 -
+        (omega_i_in_joint_j_0 * t194 + t195 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t196 + t197 *
+        g_star_dot_f_j)) - alphadot[1] * t199));
+    jac_phi_q_v_A_i[22] = t197 * h_star_dot_h_j + omega_i_in_joint_j_1 * t199 - (t200 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t201) + (t112 * t202 - alphadot[1] * t196) - (omega_j_in_joint_j_1 * t199 -
+        omega_j_in_joint_j_2 * t201);
+    jac_phi_q_v_A_i[23] = t200 * f_star_dot_f_j + omega_i_in_joint_j_2 * t202 - (t195 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t198) + alphadot[0] * (cosine_1 * t194 - sine_1 * t201) - (omega_j_in_joint_j_2 *
+        t202 - omega_j_in_joint_j_0 * t198);
+    jac_phi_q_v_A_i[24] = A_ji_0 * t207 + A_ji_1 * t210 + A_ji_2 * t211;
+    jac_phi_q_v_A_i[25] = t203 * v_3_in_j_2 + A_ji_5 * t211 + (t208 * v_3_in_j_0 + A_ji_3 * t207 + (t205 *
+        v_3_in_j_1 + A_ji_4 * t210));
+    jac_phi_q_v_A_i[26] = t126 + A_ji_8 * t211 + (t116 + A_ji_6 * t207 + (t122 + A_ji_7 * t210));
+    jac_phi_q_v_A_i[27] = -(omega_j_in_joint_j_0 * t221 - omega_j_in_joint_j_1 * t223 + (t102 * t225 -
+        (omega_i_in_joint_j_0 * t221 + t222 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t223 + t224 *
+        g_star_dot_f_j)) - alphadot[1] * t226));
+    const jg_real t227 = C_j[6] * t209 + C_j[7] * t206 + C_j[8] * t204;
+    const jg_real t228 = C_j[4] * t212 + C_j[3] * t218 + C_j[5] * t214;
+    const jg_real t229 = C_j[1] * t215 + C_j[0] * t217 + C_j[2] * t213;
+    const jg_real t230 = A_j[2] * A_ji_1 - A_j[5] * A_ji_0;
+    const jg_real t231 = A_j[8] * omega_i[2] + omega_i[1] * t230;
+    const jg_real t232 = A_j[8] * A_ji_0 - A_j[2] * A_ji_2;
+    const jg_real t233 = A_j[5] * omega_i[2] + omega_i[1] * t232;
+    const jg_real t234 = e_ij_in_j_1 * t231 - e_ij_in_j_2 * t233;
+    const jg_real t235 = A_j[5] * A_ji_2 - A_j[8] * A_ji_1;
+    const jg_real t236 = A_j[2] * omega_i[2] + omega_i[1] * t235;
+    const jg_real t237 = e_ij_in_j_2 * t236 - t231 * e_ij_in_j_0;
+    const jg_real t238 = e_ij_in_j_0 * t233 - e_ij_in_j_1 * t236;
+    const jg_real t239 = t232 * h_star_in_i_1 + A_j[5] * h_star_in_i_2;
+    const jg_real t240 = t230 * f_star_in_i_1 + A_j[8] * f_star_in_i_2;
+    const jg_real t241 = t230 * h_star_in_i_1 + A_j[8] * h_star_in_i_2;
+    const jg_real t242 = t232 * f_star_in_i_1 + A_j[5] * f_star_in_i_2;
+    const jg_real t243 = f_star_in_j_2 * t239 + t240 * h_star_in_j_1 - (f_star_in_j_1 * t241 + t242 *
         h_star_in_j_2);
-    const jg_real t247 = t237 * f_star_in_i_1 + A_j[2] * f_star_in_i_2;
-    const jg_real t248 = t237 * h_star_in_i_1 + A_j[2] * h_star_in_i_2;
-    const jg_real t249 = f_star_in_j_0 * t244 + t247 * h_star_in_j_2 - (f_star_in_j_2 * t248 + t243 *
+    const jg_real t244 = t235 * f_star_in_i_1 + A_j[2] * f_star_in_i_2;
+    const jg_real t245 = t235 * h_star_in_i_1 + A_j[2] * h_star_in_i_2;
+    const jg_real t246 = f_star_in_j_0 * t241 + t244 * h_star_in_j_2 - (f_star_in_j_2 * t245 + t240 *
         h_star_in_j_0);
-    const jg_real t250 = f_star_in_j_1 * t248 + t245 * h_star_in_j_0 - (f_star_in_j_0 * t242 + t247 *
+    const jg_real t247 = f_star_in_j_1 * t245 + t242 * h_star_in_j_0 - (f_star_in_j_0 * t239 + t244 *
         h_star_in_j_1);
-    const jg_real t251 = C_j[3] * t246 + C_j[4] * t249 + C_j[5] * t250;
-    const jg_real t252 = C_j[0] * t239 + C_j[1] * t236 + t234 * C_j[2];
-    const jg_real t253 = C_j[0] * t246 + C_j[1] * t249 + C_j[2] * t250;
-    const jg_real t254 = C_j[3] * t239 + C_j[4] * t236 + C_j[5] * t234;
-    const jg_real t255 = C_j[7] * t245 + C_j[6] * t247 + C_j[8] * t243;
-    const jg_real t256 = C_j[7] * t242 + C_j[6] * t248 + C_j[8] * t244;
-    const jg_real t257 = t239 * C_j[6] + t236 * C_j[7] + t234 * C_j[8];
-    const jg_real t258 = C_j[3] * t248 + C_j[4] * t242 + C_j[5] * t244;
-    const jg_real t259 = C_j[1] * t245 + C_j[0] * t247 + C_j[2] * t243;
-    jac_phi_q_v_A_i[28] = t227 * h_star_dot_h_j + omega_i_in_joint_j_1 * t229 - (t230 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t231) + (t115 * t232 - alphadot[1] * t226) - (omega_j_in_joint_j_1 * t229 -
-        omega_j_in_joint_j_2 * t231);
-    jac_phi_q_v_A_i[29] = t230 * f_star_dot_f_j + omega_i_in_joint_j_2 * t232 - (t225 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t228) + alphadot[0] * (cosine_1 * t224 - sine_1 * t231) - (omega_j_in_joint_j_2 *
-        t232 - omega_j_in_joint_j_0 * t228);
-    jac_phi_q_v_A_i[30] = A_ji_0 * t238 + A_ji_1 * t240 + A_ji_2 * t241;
-    jac_phi_q_v_A_i[31] = t233 * v_3_in_j_2 + A_ji_5 * t241 + (t237 * v_3_in_j_0 + A_ji_3 * t238 + (t235 *
-        v_3_in_j_1 + A_ji_4 * t240));
-    jac_phi_q_v_A_i[32] = t159 + A_ji_8 * t241 + (t149 + A_ji_6 * t238 + (t156 + A_ji_7 * t240));
-    jac_phi_q_v_A_i[33] = -(omega_j_in_joint_j_0 * t251 - omega_j_in_joint_j_1 * t253 + (t105 * t255 -
-        (omega_i_in_joint_j_0 * t251 + t252 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t253 + t254 *
-        g_star_dot_f_j)) - alphadot[1] * t256));
-    jac_phi_q_v_A_i[34] = t254 * h_star_dot_h_j + omega_i_in_joint_j_1 * t256 - (t257 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t258) + (t115 * t259 - alphadot[1] * t253) - (omega_j_in_joint_j_1 * t256 -
-        omega_j_in_joint_j_2 * t258);
-    jac_phi_q_v_A_i[35] = t257 * f_star_dot_f_j + omega_i_in_joint_j_2 * t259 - (t252 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t255) + alphadot[0] * (cosine_1 * t251 - sine_1 * t258) - (omega_j_in_joint_j_2 *
-        t259 - omega_j_in_joint_j_0 * t255);
-    const jg_real t260 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t248 = C_j[3] * t243 + C_j[4] * t246 + C_j[5] * t247;
+    const jg_real t249 = C_j[0] * t236 + C_j[1] * t233 + C_j[2] * t231;
+    const jg_real t250 = C_j[0] * t243 + C_j[1] * t246 + C_j[2] * t247;
+    const jg_real t251 = C_j[3] * t236 + C_j[4] * t233 + C_j[5] * t231;
+    const jg_real t252 = C_j[7] * t242 + C_j[6] * t244 + C_j[8] * t240;
+    const jg_real t253 = C_j[7] * t239 + C_j[6] * t245 + C_j[8] * t241;
+    const jg_real t254 = C_j[6] * t236 + C_j[7] * t233 + C_j[8] * t231;
+    const jg_real t255 = C_j[4] * t239 + C_j[3] * t245 + C_j[5] * t241;
+    const jg_real t256 = C_j[1] * t242 + C_j[0] * t244 + C_j[2] * t240;
+    jac_phi_q_v_A_i[28] = t224 * h_star_dot_h_j + omega_i_in_joint_j_1 * t226 - (t227 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t228) + (t112 * t229 - alphadot[1] * t223) - (omega_j_in_joint_j_1 * t226 -
+        omega_j_in_joint_j_2 * t228);
+    jac_phi_q_v_A_i[29] = t227 * f_star_dot_f_j + omega_i_in_joint_j_2 * t229 - (t222 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t225) + alphadot[0] * (cosine_1 * t221 - sine_1 * t228) - (omega_j_in_joint_j_2 *
+        t229 - omega_j_in_joint_j_0 * t225);
+    jac_phi_q_v_A_i[30] = A_ji_0 * t234 + A_ji_1 * t237 + A_ji_2 * t238;
+    jac_phi_q_v_A_i[31] = t230 * v_3_in_j_2 + A_ji_5 * t238 + (t235 * v_3_in_j_0 + A_ji_3 * t234 + (t232 *
+        v_3_in_j_1 + A_ji_4 * t237));
+    jac_phi_q_v_A_i[32] = t156 + A_ji_8 * t238 + (t146 + A_ji_6 * t234 + (t152 + A_ji_7 * t237));
+    jac_phi_q_v_A_i[33] = -(omega_j_in_joint_j_0 * t248 - omega_j_in_joint_j_1 * t250 + (t102 * t252 -
+        (omega_i_in_joint_j_0 * t248 + t249 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t250 + t251 *
+        g_star_dot_f_j)) - alphadot[1] * t253));
+    jac_phi_q_v_A_i[34] = t251 * h_star_dot_h_j + omega_i_in_joint_j_1 * t253 - (t254 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t255) + (t112 * t256 - alphadot[1] * t250) - (omega_j_in_joint_j_1 * t253 -
+        omega_j_in_joint_j_2 * t255);
+    jac_phi_q_v_A_i[35] = t254 * f_star_dot_f_j + omega_i_in_joint_j_2 * t256 - (t249 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t252) + alphadot[0] * (cosine_1 * t248 - sine_1 * t255) - (omega_j_in_joint_j_2 *
+        t256 - omega_j_in_joint_j_0 * t252);
+    const jg_real t257 = A_i[6] * A_ji_1 - A_i[0] * A_ji_7;
+    const jg_real t258 = omega_i[1] * t257;
+    const jg_real t259 = t258 * e_ij_in_j_1;
+    const jg_real t260 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
     const jg_real t261 = omega_i[1] * t260;
-    const jg_real t262 = t261 * e_ij_in_j_1;
-    const jg_real t263 = A_i[0] * A_ji_8 - A_i[6] * A_ji_2;
-    const jg_real t264 = omega_i[1] * t263;
-    const jg_real t265 = e_ij_in_j_2 * t264;
-    const jg_real t266 = A_i[0] * v_i[0] + A_i[6] * v_i[2];
-    const jg_real t267 = t262 - t265 - t266;
-    const jg_real t268 = v_0_world_0 * omega_i_in_j_2;
-    const jg_real t269 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
-    const jg_real t270 = e_ij_in_j_2 * t269;
-    const jg_real t271 = v_i[1] * t263;
-    const jg_real t272 = t270 - (t268 + t261 * e_ij_in_j_0) - t271;
-    const jg_real t273 = v_0_world_0 * omega_i_in_j_1;
-    const jg_real t274 = e_ij_in_j_1 * t269;
-    const jg_real t275 = v_i[1] * t260;
-    const jg_real t276 = t273 + t264 * e_ij_in_j_0 - t274 - t275;
-    const jg_real t277 = t263 * h_star_in_i_1;
-    const jg_real t278 = t277 * f_star_in_j_2;
-    const jg_real t279 = t260 * f_star_in_i_1;
-    const jg_real t280 = t279 * h_star_in_j_1;
-    const jg_real t281 = t260 * h_star_in_i_1;
-    const jg_real t282 = t281 * f_star_in_j_1;
-    const jg_real t283 = t263 * f_star_in_i_1;
-    const jg_real t284 = t283 * h_star_in_j_2;
-    const jg_real t285 = t278 + t280 - (t282 + t284);
-    const jg_real t286 = A_i[0] * f_star_in_i_0 + A_i[6] * f_star_in_i_2;
-    const jg_real t287 = t286 * h_star_in_j_2;
-    const jg_real t288 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
-    const jg_real t289 = f_star_in_j_2 * t288;
-    const jg_real t290 = t287 + t281 * f_star_in_j_0 - (t289 + t279 * h_star_in_j_0);
-    const jg_real t291 = f_star_in_j_1 * t288;
-    const jg_real t292 = t286 * h_star_in_j_1;
-    const jg_real t293 = t291 + t283 * h_star_in_j_0 - (t292 + t277 * f_star_in_j_0);
-    const jg_real t294 = C_j[3] * t285 + C_j[4] * t290 + C_j[5] * t293;
-    const jg_real t295 = C_j[0] * t269 + t264 * C_j[1] + t261 * C_j[2];
-    const jg_real t296 = C_j[0] * t285 + C_j[1] * t290 + C_j[2] * t293;
-    const jg_real t297 = C_j[3] * t269 + t264 * C_j[4] + t261 * C_j[5];
-    const jg_real t298 = C_j[7] * t283 + C_j[6] * t286 + C_j[8] * t279;
-    const jg_real t299 = C_j[7] * t277 + C_j[6] * t288 + C_j[8] * t281;
-    const jg_real t300 = t269 * C_j[6] + t264 * C_j[7] + t261 * C_j[8];
-    const jg_real t301 = C_j[3] * t288 + C_j[4] * t277 + C_j[5] * t281;
-    const jg_real t302 = C_j[1] * t283 + C_j[0] * t286 + C_j[2] * t279;
-    const jg_real t303 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
-    const jg_real t304 = omega_i[1] * t303;
-    const jg_real t305 = t304 * e_ij_in_j_1;
-    const jg_real t306 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
-    const jg_real t307 = omega_i[1] * t306;
-    const jg_real t308 = e_ij_in_j_2 * t307;
-    const jg_real t309 = A_i[1] * v_i[0] + A_i[7] * v_i[2];
-    const jg_real t310 = t305 - t308 - t309;
-    const jg_real t311 = v_0_world_1 * omega_i_in_j_2;
-    const jg_real t312 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
-    const jg_real t313 = e_ij_in_j_2 * t312;
-    const jg_real t314 = v_i[1] * t306;
-    const jg_real t315 = t313 - (t311 + t304 * e_ij_in_j_0) - t314;
-    const jg_real t316 = v_0_world_1 * omega_i_in_j_1;
-    const jg_real t317 = e_ij_in_j_1 * t312;
-    const jg_real t318 = v_i[1] * t303;
-    const jg_real t319 = t316 + t307 * e_ij_in_j_0 - t317 - t318;
-    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t267 + A_ji_1 * t272 + A_ji_2 * t276;
-    jac_phi_q_v_A_j[1] = t260 * v_3_in_j_2 + A_ji_5 * t276 + (t263 * v_3_in_j_1 + A_ji_4 * t272 + A_ji_3 * t267);
-    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t267 + A_ji_7 * t272 + A_ji_8 * t276;
-    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t294 - omega_j_in_joint_j_1 * t296 + (t105 * t298 -
-        (omega_i_in_joint_j_0 * t294 + t295 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t296 + t297 *
-        g_star_dot_f_j)) - alphadot[1] * t299));
-    jac_phi_q_v_A_j[4] = t297 * h_star_dot_h_j + omega_i_in_joint_j_1 * t299 - (t300 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t301) + (t115 * t302 - alphadot[1] * t296) - (omega_j_in_joint_j_1 * t299 -
-        omega_j_in_joint_j_2 * t301);
-    jac_phi_q_v_A_j[5] = t300 * f_star_dot_f_j + omega_i_in_joint_j_2 * t302 - (t295 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t298) + alphadot[0] * (cosine_1 * t294 - sine_1 * t301) - (omega_j_in_joint_j_2 *
-        t302 - omega_j_in_joint_j_0 * t298);
-    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t310 + A_ji_1 * t315 + A_ji_2 * t319;
-    jac_phi_q_v_A_j[7] = t303 * v_3_in_j_2 + A_ji_5 * t319 + (t306 * v_3_in_j_1 + A_ji_4 * t315 + A_ji_3 * t310);
-    const jg_real t320 = t306 * h_star_in_i_1;
-    const jg_real t321 = t320 * f_star_in_j_2;
-    const jg_real t322 = t303 * f_star_in_i_1;
-    const jg_real t323 = t322 * h_star_in_j_1;
-    const jg_real t324 = t303 * h_star_in_i_1;
-    const jg_real t325 = t324 * f_star_in_j_1;
-    const jg_real t326 = t306 * f_star_in_i_1;
-    const jg_real t327 = t326 * h_star_in_j_2;
-    const jg_real t328 = t321 + t323 - (t325 + t327);
-    const jg_real t329 = A_i[1] * f_star_in_i_0 + A_i[7] * f_star_in_i_2;
-    const jg_real t330 = t329 * h_star_in_j_2;
-    const jg_real t331 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
-    const jg_real t332 = f_star_in_j_2 * t331;
-    const jg_real t333 = t330 + t324 * f_star_in_j_0 - (t332 + t322 * h_star_in_j_0);
-    const jg_real t334 = f_star_in_j_1 * t331;
-    const jg_real t335 = t329 * h_star_in_j_1;
-    const jg_real t336 = t334 + t326 * h_star_in_j_0 - (t335 + t320 * f_star_in_j_0);
-    const jg_real t337 = C_j[3] * t328 + C_j[4] * t333 + C_j[5] * t336;
-    const jg_real t338 = C_j[0] * t312 + t307 * C_j[1] + t304 * C_j[2];
-    const jg_real t339 = C_j[0] * t328 + C_j[1] * t333 + C_j[2] * t336;
-    const jg_real t340 = C_j[3] * t312 + t307 * C_j[4] + t304 * C_j[5];
-    const jg_real t341 = C_j[7] * t326 + C_j[6] * t329 + C_j[8] * t322;
-    const jg_real t342 = C_j[7] * t320 + C_j[6] * t331 + C_j[8] * t324;
-    const jg_real t343 = t312 * C_j[6] + t307 * C_j[7] + t304 * C_j[8];
-    const jg_real t344 = C_j[3] * t331 + C_j[4] * t320 + C_j[5] * t324;
-    const jg_real t345 = C_j[1] * t326 + C_j[0] * t329 + C_j[2] * t322;
-    const jg_real t346 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
-    const jg_real t347 = omega_i[1] * t346;
-    const jg_real t348 = t347 * e_ij_in_j_1;
-    const jg_real t349 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
-    const jg_real t350 = omega_i[1] * t349;
-    const jg_real t351 = e_ij_in_j_2 * t350;
-    const jg_real t352 = A_i[2] * v_i[0] + A_i[8] * v_i[2];
-    const jg_real t353 = t348 - t351 - t352;
-    const jg_real t354 = v_0_world_2 * omega_i_in_j_2;
-    const jg_real t355 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
-    const jg_real t356 = e_ij_in_j_2 * t355;
-    const jg_real t357 = v_i[1] * t349;
-    const jg_real t358 = t356 - (t354 + t347 * e_ij_in_j_0) - t357;
-    const jg_real t359 = v_0_world_2 * omega_i_in_j_1;
-    const jg_real t360 = e_ij_in_j_1 * t355;
-    const jg_real t361 = v_i[1] * t346;
-    const jg_real t362 = t359 + t350 * e_ij_in_j_0 - t360 - t361;
-    const jg_real t363 = t349 * h_star_in_i_1;
-    const jg_real t364 = t363 * f_star_in_j_2;
-    const jg_real t365 = t346 * f_star_in_i_1;
-    const jg_real t366 = t365 * h_star_in_j_1;
-    const jg_real t367 = t346 * h_star_in_i_1;
-    const jg_real t368 = t367 * f_star_in_j_1;
-    const jg_real t369 = t349 * f_star_in_i_1;
-    const jg_real t370 = t369 * h_star_in_j_2;
-    const jg_real t371 = t364 + t366 - (t368 + t370);
-    const jg_real t372 = A_i[2] * f_star_in_i_0 + A_i[8] * f_star_in_i_2;
-    const jg_real t373 = t372 * h_star_in_j_2;
-    const jg_real t374 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
-    const jg_real t375 = f_star_in_j_2 * t374;
-    const jg_real t376 = t373 + t367 * f_star_in_j_0 - (t375 + t365 * h_star_in_j_0);
-    const jg_real t377 = f_star_in_j_1 * t374;
-    const jg_real t378 = t372 * h_star_in_j_1;
-    const jg_real t379 = t377 + t369 * h_star_in_j_0 - (t378 + t363 * f_star_in_j_0);
-    const jg_real t380 = C_j[3] * t371 + C_j[4] * t376 + C_j[5] * t379;
-    const jg_real t381 = C_j[0] * t355 + t350 * C_j[1] + t347 * C_j[2];
-    const jg_real t382 = C_j[0] * t371 + C_j[1] * t376 + C_j[2] * t379;
-    const jg_real t383 = C_j[3] * t355 + t350 * C_j[4] + t347 * C_j[5];
-    const jg_real t384 = C_j[7] * t369 + C_j[6] * t372 + C_j[8] * t365;
-    const jg_real t385 = C_j[7] * t363 + C_j[6] * t374 + C_j[8] * t367;
-    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t310 + A_ji_7 * t315 + A_ji_8 * t319;
-    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t337 - omega_j_in_joint_j_1 * t339 + (t105 * t341 -
-        (omega_i_in_joint_j_0 * t337 + t338 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t339 + t340 *
-        g_star_dot_f_j)) - alphadot[1] * t342));
-    jac_phi_q_v_A_j[10] = t340 * h_star_dot_h_j + omega_i_in_joint_j_1 * t342 - (t343 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t344) + (t115 * t345 - alphadot[1] * t339) - (omega_j_in_joint_j_1 * t342 -
-        omega_j_in_joint_j_2 * t344);
-    jac_phi_q_v_A_j[11] = t343 * f_star_dot_f_j + omega_i_in_joint_j_2 * t345 - (t338 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t341) + alphadot[0] * (cosine_1 * t337 - sine_1 * t344) - (omega_j_in_joint_j_2 *
-        t345 - omega_j_in_joint_j_0 * t341);
-    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t353 + A_ji_1 * t358 + A_ji_2 * t362;
-    jac_phi_q_v_A_j[13] = t346 * v_3_in_j_2 + A_ji_5 * t362 + (t349 * v_3_in_j_1 + A_ji_4 * t358 + A_ji_3 * t353);
-    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t353 + A_ji_7 * t358 + A_ji_8 * t362;
-    jac_phi_q_v_A_j[15] = -(omega_j_in_joint_j_0 * t380 - omega_j_in_joint_j_1 * t382 + (t105 * t384 -
-        (omega_i_in_joint_j_0 * t380 + t381 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t382 + t383 *
-        g_star_dot_f_j)) - alphadot[1] * t385));
-    const jg_real t386 = t355 * C_j[6] + t350 * C_j[7] + t347 * C_j[8];
-    const jg_real t387 = C_j[3] * t374 + C_j[4] * t363 + C_j[5] * t367;
-    const jg_real t388 = C_j[1] * t369 + C_j[0] * t372 + C_j[2] * t365;
-    const jg_real t389 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
-    const jg_real t390 = omega_i[1] * t389;
-    const jg_real t391 = t390 * e_ij_in_j_0;
-    const jg_real t392 = t391 + t265 + t266;
-    const jg_real t393 = t390 * e_ij_in_j_1 + t268 - t270 + t271;
-    const jg_real t394 = v_0_world_0 * omega_i_in_j_0;
-    const jg_real t395 = t269 * e_ij_in_j_0;
-    const jg_real t396 = v_i[1] * t389;
-    const jg_real t397 = t395 - (t394 - e_ij_in_j_1 * t264) - t396;
-    const jg_real t398 = t389 * f_star_in_i_1;
-    const jg_real t399 = t389 * h_star_in_i_1;
-    const jg_real t400 = t289 + t398 * h_star_in_j_1 - (t399 * f_star_in_j_1 + t287);
-    const jg_real t401 = t399 * f_star_in_j_0;
-    const jg_real t402 = t398 * h_star_in_j_0;
-    const jg_real t403 = t401 - t284 - (t402 - t278);
-    const jg_real t404 = t286 * h_star_in_j_0;
-    const jg_real t405 = f_star_in_j_0 * t288;
-    const jg_real t406 = t404 - t277 * f_star_in_j_1 - (t405 - t283 * h_star_in_j_1);
-    const jg_real t407 = C_j[3] * t400 + C_j[4] * t403 + C_j[5] * t406;
-    const jg_real t408 = t269 * C_j[1] - t264 * C_j[0] + t390 * C_j[2];
-    const jg_real t409 = C_j[0] * t400 + C_j[1] * t403 + C_j[2] * t406;
-    const jg_real t410 = C_j[4] * t269 - t264 * C_j[3] + t390 * C_j[5];
-    const jg_real t411 = C_j[7] * t286 - C_j[6] * t283 + C_j[8] * t398;
-    const jg_real t412 = C_j[7] * t288 - C_j[6] * t277 + C_j[8] * t399;
-    const jg_real t413 = t269 * C_j[7] - t264 * C_j[6] + t390 * C_j[8];
-    const jg_real t414 = C_j[4] * t288 - C_j[3] * t277 + C_j[5] * t399;
-    const jg_real t415 = C_j[1] * t286 - C_j[0] * t283 + C_j[2] * t398;
-    jac_phi_q_v_A_j[16] = t383 * h_star_dot_h_j + omega_i_in_joint_j_1 * t385 - (t386 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t387) + (t115 * t388 - alphadot[1] * t382) - (omega_j_in_joint_j_1 * t385 -
-        omega_j_in_joint_j_2 * t387);
-    jac_phi_q_v_A_j[17] = t386 * f_star_dot_f_j + omega_i_in_joint_j_2 * t388 - (t381 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t384) + alphadot[0] * (cosine_1 * t380 - sine_1 * t387) - (omega_j_in_joint_j_2 *
-        t388 - omega_j_in_joint_j_0 * t384);
-    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t392 + A_ji_0 * t393 + A_ji_2 * t397;
-    jac_phi_q_v_A_j[19] = t389 * v_3_in_j_2 + A_ji_5 * t397 + (A_ji_3 * t393 - t263 * v_3_in_j_0 - A_ji_4 * t392);
-    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t392 + A_ji_6 * t393 + A_ji_8 * t397;
-    jac_phi_q_v_A_j[21] = -(omega_j_in_joint_j_0 * t407 - omega_j_in_joint_j_1 * t409 + (t105 * t411 -
-        (omega_i_in_joint_j_0 * t407 + t408 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t409 + t410 *
-        g_star_dot_f_j)) - alphadot[1] * t412));
-    jac_phi_q_v_A_j[22] = t410 * h_star_dot_h_j + omega_i_in_joint_j_1 * t412 - (t413 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t414) + (t115 * t415 - alphadot[1] * t409) - (omega_j_in_joint_j_1 * t412 -
-        omega_j_in_joint_j_2 * t414);
-    jac_phi_q_v_A_j[23] = t413 * f_star_dot_f_j + omega_i_in_joint_j_2 * t415 - (t408 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t411) + alphadot[0] * (cosine_1 * t407 - sine_1 * t414) - (omega_j_in_joint_j_2 *
-        t415 - omega_j_in_joint_j_0 * t411);
-    const jg_real t416 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
-    const jg_real t417 = omega_i[1] * t416;
-    const jg_real t418 = t417 * e_ij_in_j_0;
-    const jg_real t419 = t418 + t308 + t309;
-    const jg_real t420 = t417 * e_ij_in_j_1 + t311 - t313 + t314;
-    const jg_real t421 = v_0_world_1 * omega_i_in_j_0;
-    const jg_real t422 = t312 * e_ij_in_j_0;
-    const jg_real t423 = v_i[1] * t416;
-    const jg_real t424 = t422 - (t421 - e_ij_in_j_1 * t307) - t423;
-    const jg_real t425 = t416 * f_star_in_i_1;
-    const jg_real t426 = t416 * h_star_in_i_1;
-    const jg_real t427 = t332 + t425 * h_star_in_j_1 - (t426 * f_star_in_j_1 + t330);
-    const jg_real t428 = t426 * f_star_in_j_0;
-    const jg_real t429 = t425 * h_star_in_j_0;
-    const jg_real t430 = t428 - t327 - (t429 - t321);
-    const jg_real t431 = t329 * h_star_in_j_0;
-    const jg_real t432 = f_star_in_j_0 * t331;
-    const jg_real t433 = t431 - t320 * f_star_in_j_1 - (t432 - t326 * h_star_in_j_1);
-    const jg_real t434 = C_j[3] * t427 + C_j[4] * t430 + C_j[5] * t433;
-    const jg_real t435 = t312 * C_j[1] - t307 * C_j[0] + t417 * C_j[2];
-    const jg_real t436 = C_j[0] * t427 + C_j[1] * t430 + C_j[2] * t433;
-    const jg_real t437 = C_j[4] * t312 - t307 * C_j[3] + t417 * C_j[5];
-    const jg_real t438 = C_j[7] * t329 - C_j[6] * t326 + C_j[8] * t425;
-    const jg_real t439 = C_j[7] * t331 - C_j[6] * t320 + C_j[8] * t426;
-    const jg_real t440 = t312 * C_j[7] - t307 * C_j[6] + t417 * C_j[8];
-    const jg_real t441 = C_j[4] * t331 - C_j[3] * t320 + C_j[5] * t426;
-    const jg_real t442 = C_j[1] * t329 - C_j[0] * t326 + C_j[2] * t425;
-    const jg_real t443 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
-    const jg_real t444 = omega_i[1] * t443;
-    const jg_real t445 = t444 * e_ij_in_j_0;
-    const jg_real t446 = t445 + t351 + t352;
-    const jg_real t447 = t444 * e_ij_in_j_1 + t354 - t356 + t357;
-    const jg_real t448 = v_0_world_2 * omega_i_in_j_0;
-    const jg_real t449 = t355 * e_ij_in_j_0;
-    const jg_real t450 = v_i[1] * t443;
-    const jg_real t451 = t449 - (t448 - e_ij_in_j_1 * t350) - t450;
-    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t419 + A_ji_0 * t420 + A_ji_2 * t424;
-    jac_phi_q_v_A_j[25] = t416 * v_3_in_j_2 + A_ji_5 * t424 + (A_ji_3 * t420 - t306 * v_3_in_j_0 - A_ji_4 * t419);
-    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t419 + A_ji_6 * t420 + A_ji_8 * t424;
-    jac_phi_q_v_A_j[27] = -(omega_j_in_joint_j_0 * t434 - omega_j_in_joint_j_1 * t436 + (t105 * t438 -
-        (omega_i_in_joint_j_0 * t434 + t435 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t436 + t437 *
-        g_star_dot_f_j)) - alphadot[1] * t439));
-    jac_phi_q_v_A_j[28] = t437 * h_star_dot_h_j + omega_i_in_joint_j_1 * t439 - (t440 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t441) + (t115 * t442 - alphadot[1] * t436) - (omega_j_in_joint_j_1 * t439 -
-        omega_j_in_joint_j_2 * t441);
-    jac_phi_q_v_A_j[29] = t440 * f_star_dot_f_j + omega_i_in_joint_j_2 * t442 - (t435 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t438) + alphadot[0] * (cosine_1 * t434 - sine_1 * t441) - (omega_j_in_joint_j_2 *
-        t442 - omega_j_in_joint_j_0 * t438);
-    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t446 + A_ji_0 * t447 + A_ji_2 * t451;
-    jac_phi_q_v_A_j[31] = t443 * v_3_in_j_2 + A_ji_5 * t451 + (A_ji_3 * t447 - t349 * v_3_in_j_0 - A_ji_4 * t446);
-    const jg_real t452 = t443 * f_star_in_i_1;
-    const jg_real t453 = t443 * h_star_in_i_1;
-    const jg_real t454 = t375 + t452 * h_star_in_j_1 - (t453 * f_star_in_j_1 + t373);
-    const jg_real t455 = t453 * f_star_in_j_0;
-    const jg_real t456 = t452 * h_star_in_j_0;
-    const jg_real t457 = t455 - t370 - (t456 - t364);
-    const jg_real t458 = t372 * h_star_in_j_0;
-    const jg_real t459 = f_star_in_j_0 * t374;
-    const jg_real t460 = t458 - t363 * f_star_in_j_1 - (t459 - t369 * h_star_in_j_1);
-    const jg_real t461 = C_j[3] * t454 + C_j[4] * t457 + C_j[5] * t460;
-    const jg_real t462 = t355 * C_j[1] - t350 * C_j[0] + t444 * C_j[2];
-    const jg_real t463 = C_j[0] * t454 + C_j[1] * t457 + C_j[2] * t460;
-    const jg_real t464 = C_j[4] * t355 - t350 * C_j[3] + t444 * C_j[5];
-    const jg_real t465 = C_j[7] * t372 - C_j[6] * t369 + C_j[8] * t452;
-    const jg_real t466 = C_j[7] * t374 - C_j[6] * t363 + C_j[8] * t453;
-    const jg_real t467 = t355 * C_j[7] - t350 * C_j[6] + t444 * C_j[8];
-    const jg_real t468 = C_j[4] * t374 - C_j[3] * t363 + C_j[5] * t453;
-    const jg_real t469 = C_j[1] * t372 - C_j[0] * t369 + C_j[2] * t452;
-    const jg_real t470 = t262 - t391 - t266;
-    const jg_real t471 = t274 - (t273 - t390 * e_ij_in_j_2) + t275;
-    const jg_real t472 = t394 - t261 * e_ij_in_j_2 - t395 + t396;
-    const jg_real t473 = t292 - t399 * f_star_in_j_2 - (t291 - t398 * h_star_in_j_2);
-    const jg_real t474 = t405 - t279 * h_star_in_j_2 - (t404 - t281 * f_star_in_j_2);
-    const jg_real t475 = t280 + t401 - (t282 + t402);
-    const jg_real t476 = C_j[3] * t473 + C_j[4] * t474 + C_j[5] * t475;
-    const jg_real t477 = t269 * C_j[2] - (t261 * C_j[0] + t390 * C_j[1]);
-    const jg_real t478 = C_j[0] * t473 + C_j[1] * t474 + C_j[2] * t475;
-    const jg_real t479 = C_j[5] * t269 - (t261 * C_j[3] + t390 * C_j[4]);
-    const jg_real t480 = C_j[8] * t286 - (C_j[7] * t398 + C_j[6] * t279);
-    const jg_real t481 = C_j[8] * t288 - (C_j[7] * t399 + C_j[6] * t281);
-    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t446 + A_ji_6 * t447 + A_ji_8 * t451;
-    jac_phi_q_v_A_j[33] = -(omega_j_in_joint_j_0 * t461 - omega_j_in_joint_j_1 * t463 + (t105 * t465 -
+    const jg_real t262 = e_ij_in_j_2 * t261;
+    const jg_real t263 = t259 - t262;
+    const jg_real t264 = v_0_world_0 * omega_i_in_j_2;
+    const jg_real t265 = A_i[0] * omega_i[0] + A_i[6] * omega_i[2];
+    const jg_real t266 = e_ij_in_j_2 * t265;
+    const jg_real t267 = t266 - (t264 + t258 * e_ij_in_j_0);
+    const jg_real t268 = v_0_world_0 * omega_i_in_j_1;
+    const jg_real t269 = e_ij_in_j_1 * t265;
+    const jg_real t270 = t268 + t261 * e_ij_in_j_0 - t269;
+    const jg_real t271 = t260 * h_star_in_i_1;
+    const jg_real t272 = t271 * f_star_in_j_2;
+    const jg_real t273 = t257 * f_star_in_i_1;
+    const jg_real t274 = t273 * h_star_in_j_1;
+    const jg_real t275 = t257 * h_star_in_i_1;
+    const jg_real t276 = t275 * f_star_in_j_1;
+    const jg_real t277 = t260 * f_star_in_i_1;
+    const jg_real t278 = t277 * h_star_in_j_2;
+    const jg_real t279 = t272 + t274 - (t276 + t278);
+    const jg_real t280 = A_i[0] * f_star_in_i_0 + A_i[6] * f_star_in_i_2;
+    const jg_real t281 = t280 * h_star_in_j_2;
+    const jg_real t282 = A_i[0] * h_star_in_i_0 + A_i[6] * h_star_in_i_2;
+    const jg_real t283 = f_star_in_j_2 * t282;
+    const jg_real t284 = t281 + t275 * f_star_in_j_0 - (t283 + t273 * h_star_in_j_0);
+    const jg_real t285 = f_star_in_j_1 * t282;
+    const jg_real t286 = t280 * h_star_in_j_1;
+    const jg_real t287 = t285 + t277 * h_star_in_j_0 - (t286 + t271 * f_star_in_j_0);
+    const jg_real t288 = C_j[3] * t279 + C_j[4] * t284 + C_j[5] * t287;
+    const jg_real t289 = C_j[0] * t265 + C_j[1] * t261 + t258 * C_j[2];
+    const jg_real t290 = C_j[0] * t279 + C_j[1] * t284 + C_j[2] * t287;
+    const jg_real t291 = C_j[3] * t265 + C_j[4] * t261 + t258 * C_j[5];
+    const jg_real t292 = C_j[7] * t277 + C_j[6] * t280 + C_j[8] * t273;
+    const jg_real t293 = C_j[7] * t271 + C_j[6] * t282 + C_j[8] * t275;
+    const jg_real t294 = C_j[6] * t265 + t261 * C_j[7] + t258 * C_j[8];
+    const jg_real t295 = C_j[4] * t271 + C_j[3] * t282 + C_j[5] * t275;
+    const jg_real t296 = C_j[1] * t277 + C_j[0] * t280 + C_j[2] * t273;
+    const jg_real t297 = A_i[7] * A_ji_1 - A_i[1] * A_ji_7;
+    const jg_real t298 = omega_i[1] * t297;
+    const jg_real t299 = t298 * e_ij_in_j_1;
+    const jg_real t300 = A_i[1] * A_ji_8 - A_i[7] * A_ji_2;
+    const jg_real t301 = omega_i[1] * t300;
+    const jg_real t302 = e_ij_in_j_2 * t301;
+    const jg_real t303 = t299 - t302;
+    const jg_real t304 = v_0_world_1 * omega_i_in_j_2;
+    const jg_real t305 = A_i[1] * omega_i[0] + A_i[7] * omega_i[2];
+    const jg_real t306 = e_ij_in_j_2 * t305;
+    const jg_real t307 = t306 - (t304 + t298 * e_ij_in_j_0);
+    const jg_real t308 = v_0_world_1 * omega_i_in_j_1;
+    const jg_real t309 = e_ij_in_j_1 * t305;
+    const jg_real t310 = t308 + t301 * e_ij_in_j_0 - t309;
+    jac_phi_q_v_A_j[0] = A_i[0] * v_3_in_j_0 + A_ji_0 * t263 + A_ji_1 * t267 + A_ji_2 * t270;
+    jac_phi_q_v_A_j[1] = t257 * v_3_in_j_2 + A_ji_5 * t270 + (t260 * v_3_in_j_1 + A_ji_4 * t267 + A_ji_3 * t263);
+    jac_phi_q_v_A_j[2] = A_i[6] * v_3_in_j_0 + A_ji_6 * t263 + A_ji_7 * t267 + A_ji_8 * t270;
+    jac_phi_q_v_A_j[3] = -(omega_j_in_joint_j_0 * t288 - omega_j_in_joint_j_1 * t290 + (t102 * t292 -
+        (omega_i_in_joint_j_0 * t288 + t289 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t290 + t291 *
+        g_star_dot_f_j)) - alphadot[1] * t293));
+    jac_phi_q_v_A_j[4] = t291 * h_star_dot_h_j + omega_i_in_joint_j_1 * t293 - (t294 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t295) + (t112 * t296 - alphadot[1] * t290) - (omega_j_in_joint_j_1 * t293 -
+        omega_j_in_joint_j_2 * t295);
+    jac_phi_q_v_A_j[5] = t294 * f_star_dot_f_j + omega_i_in_joint_j_2 * t296 - (t289 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t292) + alphadot[0] * (cosine_1 * t288 - sine_1 * t295) - (omega_j_in_joint_j_2 *
+        t296 - omega_j_in_joint_j_0 * t292);
+    jac_phi_q_v_A_j[6] = A_i[1] * v_3_in_j_0 + A_ji_0 * t303 + A_ji_1 * t307 + A_ji_2 * t310;
+    jac_phi_q_v_A_j[7] = t297 * v_3_in_j_2 + A_ji_5 * t310 + (t300 * v_3_in_j_1 + A_ji_4 * t307 + A_ji_3 * t303);
+    const jg_real t311 = t300 * h_star_in_i_1;
+    const jg_real t312 = t311 * f_star_in_j_2;
+    const jg_real t313 = t297 * f_star_in_i_1;
+    const jg_real t314 = t313 * h_star_in_j_1;
+    const jg_real t315 = t297 * h_star_in_i_1;
+    const jg_real t316 = t315 * f_star_in_j_1;
+    const jg_real t317 = t300 * f_star_in_i_1;
+    const jg_real t318 = t317 * h_star_in_j_2;
+    const jg_real t319 = t312 + t314 - (t316 + t318);
+    const jg_real t320 = A_i[1] * f_star_in_i_0 + A_i[7] * f_star_in_i_2;
+    const jg_real t321 = t320 * h_star_in_j_2;
+    const jg_real t322 = A_i[1] * h_star_in_i_0 + A_i[7] * h_star_in_i_2;
+    const jg_real t323 = f_star_in_j_2 * t322;
+    const jg_real t324 = t321 + t315 * f_star_in_j_0 - (t323 + t313 * h_star_in_j_0);
+    const jg_real t325 = f_star_in_j_1 * t322;
+    const jg_real t326 = t320 * h_star_in_j_1;
+    const jg_real t327 = t325 + t317 * h_star_in_j_0 - (t326 + t311 * f_star_in_j_0);
+    const jg_real t328 = C_j[3] * t319 + C_j[4] * t324 + C_j[5] * t327;
+    const jg_real t329 = C_j[0] * t305 + C_j[1] * t301 + t298 * C_j[2];
+    const jg_real t330 = C_j[0] * t319 + C_j[1] * t324 + C_j[2] * t327;
+    const jg_real t331 = C_j[3] * t305 + C_j[4] * t301 + t298 * C_j[5];
+    const jg_real t332 = C_j[7] * t317 + C_j[6] * t320 + C_j[8] * t313;
+    const jg_real t333 = C_j[7] * t311 + C_j[6] * t322 + C_j[8] * t315;
+    const jg_real t334 = C_j[6] * t305 + t301 * C_j[7] + t298 * C_j[8];
+    const jg_real t335 = C_j[4] * t311 + C_j[3] * t322 + C_j[5] * t315;
+    const jg_real t336 = C_j[1] * t317 + C_j[0] * t320 + C_j[2] * t313;
+    const jg_real t337 = A_i[8] * A_ji_1 - A_i[2] * A_ji_7;
+    const jg_real t338 = omega_i[1] * t337;
+    const jg_real t339 = t338 * e_ij_in_j_1;
+    const jg_real t340 = A_i[2] * A_ji_8 - A_i[8] * A_ji_2;
+    const jg_real t341 = omega_i[1] * t340;
+    const jg_real t342 = e_ij_in_j_2 * t341;
+    const jg_real t343 = t339 - t342;
+    const jg_real t344 = v_0_world_2 * omega_i_in_j_2;
+    const jg_real t345 = A_i[2] * omega_i[0] + A_i[8] * omega_i[2];
+    const jg_real t346 = e_ij_in_j_2 * t345;
+    const jg_real t347 = t346 - (t344 + t338 * e_ij_in_j_0);
+    const jg_real t348 = v_0_world_2 * omega_i_in_j_1;
+    const jg_real t349 = e_ij_in_j_1 * t345;
+    const jg_real t350 = t348 + t341 * e_ij_in_j_0 - t349;
+    const jg_real t351 = t340 * h_star_in_i_1;
+    const jg_real t352 = t351 * f_star_in_j_2;
+    const jg_real t353 = t337 * f_star_in_i_1;
+    const jg_real t354 = t353 * h_star_in_j_1;
+    const jg_real t355 = t337 * h_star_in_i_1;
+    const jg_real t356 = t355 * f_star_in_j_1;
+    const jg_real t357 = t340 * f_star_in_i_1;
+    const jg_real t358 = t357 * h_star_in_j_2;
+    const jg_real t359 = t352 + t354 - (t356 + t358);
+    const jg_real t360 = A_i[2] * f_star_in_i_0 + A_i[8] * f_star_in_i_2;
+    const jg_real t361 = t360 * h_star_in_j_2;
+    const jg_real t362 = A_i[2] * h_star_in_i_0 + A_i[8] * h_star_in_i_2;
+    const jg_real t363 = f_star_in_j_2 * t362;
+    const jg_real t364 = t361 + t355 * f_star_in_j_0 - (t363 + t353 * h_star_in_j_0);
+    const jg_real t365 = f_star_in_j_1 * t362;
+    const jg_real t366 = t360 * h_star_in_j_1;
+    const jg_real t367 = t365 + t357 * h_star_in_j_0 - (t366 + t351 * f_star_in_j_0);
+    const jg_real t368 = C_j[3] * t359 + C_j[4] * t364 + C_j[5] * t367;
+    const jg_real t369 = C_j[0] * t345 + C_j[1] * t341 + t338 * C_j[2];
+    const jg_real t370 = C_j[0] * t359 + C_j[1] * t364 + C_j[2] * t367;
+    const jg_real t371 = C_j[3] * t345 + C_j[4] * t341 + t338 * C_j[5];
+    const jg_real t372 = C_j[7] * t357 + C_j[6] * t360 + C_j[8] * t353;
+    const jg_real t373 = C_j[7] * t351 + C_j[6] * t362 + C_j[8] * t355;
+    jac_phi_q_v_A_j[8] = A_i[7] * v_3_in_j_0 + A_ji_6 * t303 + A_ji_7 * t307 + A_ji_8 * t310;
+    jac_phi_q_v_A_j[9] = -(omega_j_in_joint_j_0 * t328 - omega_j_in_joint_j_1 * t330 + (t102 * t332 -
+        (omega_i_in_joint_j_0 * t328 + t329 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t330 + t331 *
+        g_star_dot_f_j)) - alphadot[1] * t333));
+    jac_phi_q_v_A_j[10] = t331 * h_star_dot_h_j + omega_i_in_joint_j_1 * t333 - (t334 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t335) + (t112 * t336 - alphadot[1] * t330) - (omega_j_in_joint_j_1 * t333 -
+        omega_j_in_joint_j_2 * t335);
+    jac_phi_q_v_A_j[11] = t334 * f_star_dot_f_j + omega_i_in_joint_j_2 * t336 - (t329 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t332) + alphadot[0] * (cosine_1 * t328 - sine_1 * t335) - (omega_j_in_joint_j_2 *
+        t336 - omega_j_in_joint_j_0 * t332);
+    jac_phi_q_v_A_j[12] = A_i[2] * v_3_in_j_0 + A_ji_0 * t343 + A_ji_1 * t347 + A_ji_2 * t350;
+    jac_phi_q_v_A_j[13] = t337 * v_3_in_j_2 + A_ji_5 * t350 + (t340 * v_3_in_j_1 + A_ji_4 * t347 + A_ji_3 * t343);
+    jac_phi_q_v_A_j[14] = A_i[8] * v_3_in_j_0 + A_ji_6 * t343 + A_ji_7 * t347 + A_ji_8 * t350;
+    jac_phi_q_v_A_j[15] = -(omega_j_in_joint_j_0 * t368 - omega_j_in_joint_j_1 * t370 + (t102 * t372 -
+        (omega_i_in_joint_j_0 * t368 + t369 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t370 + t371 *
+        g_star_dot_f_j)) - alphadot[1] * t373));
+    const jg_real t374 = C_j[6] * t345 + t341 * C_j[7] + t338 * C_j[8];
+    const jg_real t375 = C_j[4] * t351 + C_j[3] * t362 + C_j[5] * t355;
+    const jg_real t376 = C_j[1] * t357 + C_j[0] * t360 + C_j[2] * t353;
+    const jg_real t377 = A_i[0] * A_ji_6 - A_i[6] * A_ji_0;
+    const jg_real t378 = omega_i[1] * t377;
+    const jg_real t379 = t378 * e_ij_in_j_0;
+    const jg_real t380 = t379 + t262;
+    const jg_real t381 = t378 * e_ij_in_j_1 + t264 - t266;
+    const jg_real t382 = v_0_world_0 * omega_i_in_j_0;
+    const jg_real t383 = t265 * e_ij_in_j_0;
+    const jg_real t384 = t383 - (t382 - e_ij_in_j_1 * t261);
+    const jg_real t385 = t377 * f_star_in_i_1;
+    const jg_real t386 = t377 * h_star_in_i_1;
+    const jg_real t387 = t283 + t385 * h_star_in_j_1 - (t386 * f_star_in_j_1 + t281);
+    const jg_real t388 = t386 * f_star_in_j_0;
+    const jg_real t389 = t385 * h_star_in_j_0;
+    const jg_real t390 = t388 - t278 - (t389 - t272);
+    const jg_real t391 = t280 * h_star_in_j_0;
+    const jg_real t392 = f_star_in_j_0 * t282;
+    const jg_real t393 = t391 - t271 * f_star_in_j_1 - (t392 - t277 * h_star_in_j_1);
+    const jg_real t394 = C_j[3] * t387 + C_j[4] * t390 + C_j[5] * t393;
+    const jg_real t395 = C_j[1] * t265 - C_j[0] * t261 + t378 * C_j[2];
+    const jg_real t396 = C_j[0] * t387 + C_j[1] * t390 + C_j[2] * t393;
+    const jg_real t397 = C_j[4] * t265 - C_j[3] * t261 + t378 * C_j[5];
+    const jg_real t398 = C_j[7] * t280 - C_j[6] * t277 + C_j[8] * t385;
+    const jg_real t399 = C_j[7] * t282 - C_j[6] * t271 + C_j[8] * t386;
+    const jg_real t400 = C_j[7] * t265 - t261 * C_j[6] + t378 * C_j[8];
+    const jg_real t401 = C_j[4] * t282 - C_j[3] * t271 + C_j[5] * t386;
+    const jg_real t402 = C_j[1] * t280 - C_j[0] * t277 + C_j[2] * t385;
+    jac_phi_q_v_A_j[16] = t371 * h_star_dot_h_j + omega_i_in_joint_j_1 * t373 - (t374 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t375) + (t112 * t376 - alphadot[1] * t370) - (omega_j_in_joint_j_1 * t373 -
+        omega_j_in_joint_j_2 * t375);
+    jac_phi_q_v_A_j[17] = t374 * f_star_dot_f_j + omega_i_in_joint_j_2 * t376 - (t369 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t372) + alphadot[0] * (cosine_1 * t368 - sine_1 * t375) - (omega_j_in_joint_j_2 *
+        t376 - omega_j_in_joint_j_0 * t372);
+    jac_phi_q_v_A_j[18] = A_i[0] * v_3_in_j_1 - A_ji_1 * t380 + A_ji_0 * t381 + A_ji_2 * t384;
+    jac_phi_q_v_A_j[19] = t377 * v_3_in_j_2 + A_ji_5 * t384 + (A_ji_3 * t381 - t260 * v_3_in_j_0 - A_ji_4 * t380);
+    jac_phi_q_v_A_j[20] = A_i[6] * v_3_in_j_1 - A_ji_7 * t380 + A_ji_6 * t381 + A_ji_8 * t384;
+    jac_phi_q_v_A_j[21] = -(omega_j_in_joint_j_0 * t394 - omega_j_in_joint_j_1 * t396 + (t102 * t398 -
+        (omega_i_in_joint_j_0 * t394 + t395 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t396 + t397 *
+        g_star_dot_f_j)) - alphadot[1] * t399));
+    jac_phi_q_v_A_j[22] = t397 * h_star_dot_h_j + omega_i_in_joint_j_1 * t399 - (t400 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t401) + (t112 * t402 - alphadot[1] * t396) - (omega_j_in_joint_j_1 * t399 -
+        omega_j_in_joint_j_2 * t401);
+    jac_phi_q_v_A_j[23] = t400 * f_star_dot_f_j + omega_i_in_joint_j_2 * t402 - (t395 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t398) + alphadot[0] * (cosine_1 * t394 - sine_1 * t401) - (omega_j_in_joint_j_2 *
+        t402 - omega_j_in_joint_j_0 * t398);
+    const jg_real t403 = A_i[1] * A_ji_6 - A_i[7] * A_ji_0;
+    const jg_real t404 = omega_i[1] * t403;
+    const jg_real t405 = t404 * e_ij_in_j_0;
+    const jg_real t406 = t405 + t302;
+    const jg_real t407 = t404 * e_ij_in_j_1 + t304 - t306;
+    const jg_real t408 = v_0_world_1 * omega_i_in_j_0;
+    const jg_real t409 = t305 * e_ij_in_j_0;
+    const jg_real t410 = t409 - (t408 - e_ij_in_j_1 * t301);
+    const jg_real t411 = t403 * f_star_in_i_1;
+    const jg_real t412 = t403 * h_star_in_i_1;
+    const jg_real t413 = t323 + t411 * h_star_in_j_1 - (t412 * f_star_in_j_1 + t321);
+    const jg_real t414 = t412 * f_star_in_j_0;
+    const jg_real t415 = t411 * h_star_in_j_0;
+    const jg_real t416 = t414 - t318 - (t415 - t312);
+    const jg_real t417 = t320 * h_star_in_j_0;
+    const jg_real t418 = f_star_in_j_0 * t322;
+    const jg_real t419 = t417 - t311 * f_star_in_j_1 - (t418 - t317 * h_star_in_j_1);
+    const jg_real t420 = C_j[3] * t413 + C_j[4] * t416 + C_j[5] * t419;
+    const jg_real t421 = C_j[1] * t305 - C_j[0] * t301 + t404 * C_j[2];
+    const jg_real t422 = C_j[0] * t413 + C_j[1] * t416 + C_j[2] * t419;
+    const jg_real t423 = C_j[4] * t305 - C_j[3] * t301 + t404 * C_j[5];
+    const jg_real t424 = C_j[7] * t320 - C_j[6] * t317 + C_j[8] * t411;
+    const jg_real t425 = C_j[7] * t322 - C_j[6] * t311 + C_j[8] * t412;
+    const jg_real t426 = C_j[7] * t305 - t301 * C_j[6] + t404 * C_j[8];
+    const jg_real t427 = C_j[4] * t322 - C_j[3] * t311 + C_j[5] * t412;
+    const jg_real t428 = C_j[1] * t320 - C_j[0] * t317 + C_j[2] * t411;
+    const jg_real t429 = A_i[2] * A_ji_6 - A_i[8] * A_ji_0;
+    const jg_real t430 = omega_i[1] * t429;
+    const jg_real t431 = t430 * e_ij_in_j_0;
+    const jg_real t432 = t431 + t342;
+    const jg_real t433 = t430 * e_ij_in_j_1 + t344 - t346;
+    const jg_real t434 = v_0_world_2 * omega_i_in_j_0;
+    const jg_real t435 = t345 * e_ij_in_j_0;
+    const jg_real t436 = t435 - (t434 - e_ij_in_j_1 * t341);
+    jac_phi_q_v_A_j[24] = A_i[1] * v_3_in_j_1 - A_ji_1 * t406 + A_ji_0 * t407 + A_ji_2 * t410;
+    jac_phi_q_v_A_j[25] = t403 * v_3_in_j_2 + A_ji_5 * t410 + (A_ji_3 * t407 - t300 * v_3_in_j_0 - A_ji_4 * t406);
+    jac_phi_q_v_A_j[26] = A_i[7] * v_3_in_j_1 - A_ji_7 * t406 + A_ji_6 * t407 + A_ji_8 * t410;
+    jac_phi_q_v_A_j[27] = -(omega_j_in_joint_j_0 * t420 - omega_j_in_joint_j_1 * t422 + (t102 * t424 -
+        (omega_i_in_joint_j_0 * t420 + t421 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t422 + t423 *
+        g_star_dot_f_j)) - alphadot[1] * t425));
+    jac_phi_q_v_A_j[28] = t423 * h_star_dot_h_j + omega_i_in_joint_j_1 * t425 - (t426 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t427) + (t112 * t428 - alphadot[1] * t422) - (omega_j_in_joint_j_1 * t425 -
+        omega_j_in_joint_j_2 * t427);
+    jac_phi_q_v_A_j[29] = t426 * f_star_dot_f_j + omega_i_in_joint_j_2 * t428 - (t421 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t424) + alphadot[0] * (cosine_1 * t420 - sine_1 * t427) - (omega_j_in_joint_j_2 *
+        t428 - omega_j_in_joint_j_0 * t424);
+    jac_phi_q_v_A_j[30] = A_i[2] * v_3_in_j_1 - A_ji_1 * t432 + A_ji_0 * t433 + A_ji_2 * t436;
+    jac_phi_q_v_A_j[31] = t429 * v_3_in_j_2 + A_ji_5 * t436 + (A_ji_3 * t433 - t340 * v_3_in_j_0 - A_ji_4 * t432);
+    const jg_real t437 = t429 * f_star_in_i_1;
+    const jg_real t438 = t429 * h_star_in_i_1;
+    const jg_real t439 = t363 + t437 * h_star_in_j_1 - (t438 * f_star_in_j_1 + t361);
+    const jg_real t440 = t438 * f_star_in_j_0;
+    const jg_real t441 = t437 * h_star_in_j_0;
+    const jg_real t442 = t440 - t358 - (t441 - t352);
+    const jg_real t443 = t360 * h_star_in_j_0;
+    const jg_real t444 = f_star_in_j_0 * t362;
+    const jg_real t445 = t443 - t351 * f_star_in_j_1 - (t444 - t357 * h_star_in_j_1);
+    const jg_real t446 = C_j[3] * t439 + C_j[4] * t442 + C_j[5] * t445;
+    const jg_real t447 = C_j[1] * t345 - C_j[0] * t341 + t430 * C_j[2];
+    const jg_real t448 = C_j[0] * t439 + C_j[1] * t442 + C_j[2] * t445;
+    const jg_real t449 = C_j[4] * t345 - C_j[3] * t341 + t430 * C_j[5];
+    const jg_real t450 = C_j[7] * t360 - C_j[6] * t357 + C_j[8] * t437;
+    const jg_real t451 = C_j[7] * t362 - C_j[6] * t351 + C_j[8] * t438;
+    const jg_real t452 = C_j[7] * t345 - t341 * C_j[6] + t430 * C_j[8];
+    const jg_real t453 = C_j[4] * t362 - C_j[3] * t351 + C_j[5] * t438;
+    const jg_real t454 = C_j[1] * t360 - C_j[0] * t357 + C_j[2] * t437;
+    const jg_real t455 = t259 - t379;
+    const jg_real t456 = t269 - (t268 - t378 * e_ij_in_j_2);
+    const jg_real t457 = t382 - t258 * e_ij_in_j_2 - t383;
+    const jg_real t458 = t286 - t386 * f_star_in_j_2 - (t285 - t385 * h_star_in_j_2);
+    const jg_real t459 = t392 - t273 * h_star_in_j_2 - (t391 - t275 * f_star_in_j_2);
+    const jg_real t460 = t274 + t388 - (t276 + t389);
+    const jg_real t461 = C_j[3] * t458 + C_j[4] * t459 + C_j[5] * t460;
+    const jg_real t462 = C_j[2] * t265 - (t258 * C_j[0] + t378 * C_j[1]);
+    const jg_real t463 = C_j[0] * t458 + C_j[1] * t459 + C_j[2] * t460;
+    const jg_real t464 = C_j[5] * t265 - (t258 * C_j[3] + t378 * C_j[4]);
+    const jg_real t465 = C_j[8] * t280 - (C_j[7] * t385 + C_j[6] * t273);
+    const jg_real t466 = C_j[8] * t282 - (C_j[7] * t386 + C_j[6] * t275);
+    jac_phi_q_v_A_j[32] = A_i[8] * v_3_in_j_1 - A_ji_7 * t432 + A_ji_6 * t433 + A_ji_8 * t436;
+    jac_phi_q_v_A_j[33] = -(omega_j_in_joint_j_0 * t446 - omega_j_in_joint_j_1 * t448 + (t102 * t450 -
+        (omega_i_in_joint_j_0 * t446 + t447 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t448 + t449 *
+        g_star_dot_f_j)) - alphadot[1] * t451));
+    jac_phi_q_v_A_j[34] = t449 * h_star_dot_h_j + omega_i_in_joint_j_1 * t451 - (t452 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t453) + (t112 * t454 - alphadot[1] * t448) - (omega_j_in_joint_j_1 * t451 -
+        omega_j_in_joint_j_2 * t453);
+    jac_phi_q_v_A_j[35] = t452 * f_star_dot_f_j + omega_i_in_joint_j_2 * t454 - (t447 * f_star_dot_h_j +
+        omega_i_in_joint_j_0 * t450) + alphadot[0] * (cosine_1 * t446 - sine_1 * t453) - (omega_j_in_joint_j_2 *
+        t454 - omega_j_in_joint_j_0 * t450);
+    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t455 + (A_ji_0 * t456 + A_ji_1 * t457);
+    jac_phi_q_v_A_j[37] = A_ji_3 * t456 - t257 * v_3_in_j_0 + (A_ji_4 * t457 - t377 * v_3_in_j_1) + A_ji_5 * t455;
+    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t455 + (A_ji_6 * t456 + A_ji_7 * t457);
+    jac_phi_q_v_A_j[39] = -(omega_j_in_joint_j_0 * t461 - omega_j_in_joint_j_1 * t463 + (t102 * t465 -
         (omega_i_in_joint_j_0 * t461 + t462 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t463 + t464 *
         g_star_dot_f_j)) - alphadot[1] * t466));
-    jac_phi_q_v_A_j[34] = t464 * h_star_dot_h_j + omega_i_in_joint_j_1 * t466 - (t467 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t468) + (t115 * t469 - alphadot[1] * t463) - (omega_j_in_joint_j_1 * t466 -
+    const jg_real t467 = C_j[8] * t265 - (t258 * C_j[6] + t378 * C_j[7]);
+    const jg_real t468 = C_j[5] * t282 - (C_j[4] * t386 + C_j[3] * t275);
+    const jg_real t469 = C_j[2] * t280 - (C_j[1] * t385 + C_j[0] * t273);
+    const jg_real t470 = t299 - t405;
+    const jg_real t471 = t309 - (t308 - t404 * e_ij_in_j_2);
+    const jg_real t472 = t408 - t298 * e_ij_in_j_2 - t409;
+    const jg_real t473 = t326 - t412 * f_star_in_j_2 - (t325 - t411 * h_star_in_j_2);
+    const jg_real t474 = t418 - t313 * h_star_in_j_2 - (t417 - t315 * f_star_in_j_2);
+    const jg_real t475 = t314 + t414 - (t316 + t415);
+    const jg_real t476 = C_j[3] * t473 + C_j[4] * t474 + C_j[5] * t475;
+    const jg_real t477 = C_j[2] * t305 - (t298 * C_j[0] + t404 * C_j[1]);
+    const jg_real t478 = C_j[0] * t473 + C_j[1] * t474 + C_j[2] * t475;
+    const jg_real t479 = C_j[5] * t305 - (t298 * C_j[3] + t404 * C_j[4]);
+    const jg_real t480 = C_j[8] * t320 - (C_j[7] * t411 + C_j[6] * t313);
+    const jg_real t481 = C_j[8] * t322 - (C_j[7] * t412 + C_j[6] * t315);
+    const jg_real t482 = C_j[8] * t305 - (t298 * C_j[6] + t404 * C_j[7]);
+    const jg_real t483 = C_j[5] * t322 - (C_j[4] * t412 + C_j[3] * t315);
+    const jg_real t484 = C_j[2] * t320 - (C_j[1] * t411 + C_j[0] * t313);
+    jac_phi_q_v_A_j[40] = t464 * h_star_dot_h_j + omega_i_in_joint_j_1 * t466 - (t467 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t468) + (t112 * t469 - alphadot[1] * t463) - (omega_j_in_joint_j_1 * t466 -
         omega_j_in_joint_j_2 * t468);
-    jac_phi_q_v_A_j[35] = t467 * f_star_dot_f_j + omega_i_in_joint_j_2 * t469 - (t462 * f_star_dot_h_j +
+    jac_phi_q_v_A_j[41] = t467 * f_star_dot_f_j + omega_i_in_joint_j_2 * t469 - (t462 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t465) + alphadot[0] * (cosine_1 * t461 - sine_1 * t468) - (omega_j_in_joint_j_2 *
         t469 - omega_j_in_joint_j_0 * t465);
-    jac_phi_q_v_A_j[36] = A_i[0] * v_3_in_j_2 + A_ji_2 * t470 + (A_ji_0 * t471 + A_ji_1 * t472);
-    jac_phi_q_v_A_j[37] = A_ji_3 * t471 - t260 * v_3_in_j_0 + (A_ji_4 * t472 - t389 * v_3_in_j_1) + A_ji_5 * t470;
-    jac_phi_q_v_A_j[38] = A_i[6] * v_3_in_j_2 + A_ji_8 * t470 + (A_ji_6 * t471 + A_ji_7 * t472);
-    jac_phi_q_v_A_j[39] = -(omega_j_in_joint_j_0 * t476 - omega_j_in_joint_j_1 * t478 + (t105 * t480 -
+    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t470 + (A_ji_0 * t471 + A_ji_1 * t472);
+    jac_phi_q_v_A_j[43] = A_ji_3 * t471 - t297 * v_3_in_j_0 + (A_ji_4 * t472 - t403 * v_3_in_j_1) + A_ji_5 * t470;
+    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t470 + (A_ji_6 * t471 + A_ji_7 * t472);
+    jac_phi_q_v_A_j[45] = -(omega_j_in_joint_j_0 * t476 - omega_j_in_joint_j_1 * t478 + (t102 * t480 -
         (omega_i_in_joint_j_0 * t476 + t477 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t478 + t479 *
         g_star_dot_f_j)) - alphadot[1] * t481));
-    const jg_real t482 = t269 * C_j[8] - (t261 * C_j[6] + t390 * C_j[7]);
-    const jg_real t483 = C_j[5] * t288 - (C_j[3] * t281 + C_j[4] * t399);
-    const jg_real t484 = C_j[2] * t286 - (C_j[1] * t398 + C_j[0] * t279);
-    const jg_real t485 = t305 - t418 - t309;
-    const jg_real t486 = t317 - (t316 - t417 * e_ij_in_j_2) + t318;
-    const jg_real t487 = t421 - t304 * e_ij_in_j_2 - t422 + t423;
-    const jg_real t488 = t335 - t426 * f_star_in_j_2 - (t334 - t425 * h_star_in_j_2);
-    const jg_real t489 = t432 - t322 * h_star_in_j_2 - (t431 - t324 * f_star_in_j_2);
-    const jg_real t490 = t323 + t428 - (t325 + t429);
-    const jg_real t491 = C_j[3] * t488 + C_j[4] * t489 + C_j[5] * t490;
-    const jg_real t492 = t312 * C_j[2] - (t304 * C_j[0] + t417 * C_j[1]);
-    const jg_real t493 = C_j[0] * t488 + C_j[1] * t489 + C_j[2] * t490;
-    const jg_real t494 = C_j[5] * t312 - (t304 * C_j[3] + t417 * C_j[4]);
-    const jg_real t495 = C_j[8] * t329 - (C_j[7] * t425 + C_j[6] * t322);
-    const jg_real t496 = C_j[8] * t331 - (C_j[7] * t426 + C_j[6] * t324);
-    const jg_real t497 = t312 * C_j[8] - (t304 * C_j[6] + t417 * C_j[7]);
-    const jg_real t498 = C_j[5] * t331 - (C_j[3] * t324 + C_j[4] * t426);
-    const jg_real t499 = C_j[2] * t329 - (C_j[1] * t425 + C_j[0] * t322);
-    jac_phi_q_v_A_j[40] = t479 * h_star_dot_h_j + omega_i_in_joint_j_1 * t481 - (t482 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t483) + (t115 * t484 - alphadot[1] * t478) - (omega_j_in_joint_j_1 * t481 -
+    jac_phi_q_v_A_j[46] = t479 * h_star_dot_h_j + omega_i_in_joint_j_1 * t481 - (t482 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t483) + (t112 * t484 - alphadot[1] * t478) - (omega_j_in_joint_j_1 * t481 -
         omega_j_in_joint_j_2 * t483);
-    jac_phi_q_v_A_j[41] = t482 * f_star_dot_f_j + omega_i_in_joint_j_2 * t484 - (t477 * f_star_dot_h_j +
+    jac_phi_q_v_A_j[47] = t482 * f_star_dot_f_j + omega_i_in_joint_j_2 * t484 - (t477 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t480) + alphadot[0] * (cosine_1 * t476 - sine_1 * t483) - (omega_j_in_joint_j_2 *
         t484 - omega_j_in_joint_j_0 * t480);
-    jac_phi_q_v_A_j[42] = A_i[1] * v_3_in_j_2 + A_ji_2 * t485 + (A_ji_0 * t486 + A_ji_1 * t487);
-    jac_phi_q_v_A_j[43] = A_ji_3 * t486 - t303 * v_3_in_j_0 + (A_ji_4 * t487 - t416 * v_3_in_j_1) + A_ji_5 * t485;
-    jac_phi_q_v_A_j[44] = A_i[7] * v_3_in_j_2 + A_ji_8 * t485 + (A_ji_6 * t486 + A_ji_7 * t487);
-    jac_phi_q_v_A_j[45] = -(omega_j_in_joint_j_0 * t491 - omega_j_in_joint_j_1 * t493 + (t105 * t495 -
+    const jg_real t485 = t339 - t431;
+    const jg_real t486 = t349 - (t348 - t430 * e_ij_in_j_2);
+    const jg_real t487 = t434 - t338 * e_ij_in_j_2 - t435;
+    const jg_real t488 = t366 - t438 * f_star_in_j_2 - (t365 - t437 * h_star_in_j_2);
+    const jg_real t489 = t444 - t353 * h_star_in_j_2 - (t443 - t355 * f_star_in_j_2);
+    const jg_real t490 = t354 + t440 - (t356 + t441);
+    const jg_real t491 = C_j[3] * t488 + C_j[4] * t489 + C_j[5] * t490;
+    const jg_real t492 = C_j[2] * t345 - (t338 * C_j[0] + t430 * C_j[1]);
+    const jg_real t493 = C_j[0] * t488 + C_j[1] * t489 + C_j[2] * t490;
+    const jg_real t494 = C_j[5] * t345 - (t338 * C_j[3] + t430 * C_j[4]);
+    const jg_real t495 = C_j[8] * t360 - (C_j[7] * t437 + C_j[6] * t353);
+    const jg_real t496 = C_j[8] * t362 - (C_j[7] * t438 + C_j[6] * t355);
+    const jg_real t497 = C_j[8] * t345 - (t338 * C_j[6] + t430 * C_j[7]);
+    const jg_real t498 = C_j[5] * t362 - (C_j[4] * t438 + C_j[3] * t355);
+    const jg_real t499 = C_j[2] * t360 - (C_j[1] * t437 + C_j[0] * t353);
+    const jg_real t500 = C_i[1] * t72 + C_i[4] * H_02;
+    const jg_real t501 = C_i[0] * t72 + C_i[3] * H_02;
+    const jg_real t502 = C_i[2] * t72 + C_i[5] * H_02;
+    const jg_real t503 = A_ji_4 * t500 + A_ji_1 * t501 + A_ji_7 * t502;
+    const jg_real t504 = C_i[4] * cosine_0 - C_i[1] * sine_0;
+    const jg_real t505 = C_i[3] * cosine_0 - C_i[0] * sine_0;
+    const jg_real t506 = C_i[5] * cosine_0 - C_i[2] * sine_0;
+    const jg_real t507 = A_ji_5 * t504 + A_ji_2 * t505 + A_ji_8 * t506;
+    const jg_real t508 = A_ji_5 * t500 + A_ji_2 * t501 + A_ji_8 * t502;
+    const jg_real t509 = A_ji_4 * t504 + A_ji_1 * t505 + A_ji_7 * t506;
+    const jg_real t510 = f_star_in_j_2 * t503 + t507 * h_star_in_j_1 - (f_star_in_j_1 * t508 + t509 *
+        h_star_in_j_2);
+    const jg_real t511 = A_ji_3 * t504 + A_ji_0 * t505 + A_ji_6 * t506;
+    const jg_real t512 = A_ji_3 * t500 + A_ji_0 * t501 + A_ji_6 * t502;
+    const jg_real t513 = f_star_in_j_0 * t508 + t511 * h_star_in_j_2 - (f_star_in_j_2 * t512 + t507 *
+        h_star_in_j_0);
+    const jg_real t514 = f_star_in_j_1 * t512 + t509 * h_star_in_j_0 - (f_star_in_j_0 * t503 + t511 *
+        h_star_in_j_1);
+    const jg_real t515 = C_j[3] * t510 + C_j[4] * t513 + C_j[5] * t514;
+    const jg_real t516 = C_j[0] * t510 + C_j[1] * t513 + C_j[2] * t514;
+    const jg_real t517 = C_j[7] * t509 + C_j[6] * t511 + C_j[8] * t507;
+    const jg_real t518 = C_j[7] * t503 + C_j[6] * t512 + C_j[8] * t508;
+    const jg_real t519 = C_j[1] * t509 + C_j[0] * t511 + C_j[2] * t507;
+    const jg_real t520 = C_j[4] * t503 + C_j[3] * t512 + C_j[5] * t508;
+    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t485 + (A_ji_0 * t486 + A_ji_1 * t487);
+    jac_phi_q_v_A_j[49] = A_ji_3 * t486 - t337 * v_3_in_j_0 + (A_ji_4 * t487 - t429 * v_3_in_j_1) + A_ji_5 * t485;
+    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t485 + (A_ji_6 * t486 + A_ji_7 * t487);
+    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t491 - omega_j_in_joint_j_1 * t493 + (t102 * t495 -
         (omega_i_in_joint_j_0 * t491 + t492 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t493 + t494 *
         g_star_dot_f_j)) - alphadot[1] * t496));
-    jac_phi_q_v_A_j[46] = t494 * h_star_dot_h_j + omega_i_in_joint_j_1 * t496 - (t497 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t498) + (t115 * t499 - alphadot[1] * t493) - (omega_j_in_joint_j_1 * t496 -
+    jac_phi_q_v_A_j[52] = t494 * h_star_dot_h_j + omega_i_in_joint_j_1 * t496 - (t497 * h_star_dot_g_j +
+        omega_i_in_joint_j_2 * t498) + (t112 * t499 - alphadot[1] * t493) - (omega_j_in_joint_j_1 * t496 -
         omega_j_in_joint_j_2 * t498);
-    jac_phi_q_v_A_j[47] = t497 * f_star_dot_f_j + omega_i_in_joint_j_2 * t499 - (t492 * f_star_dot_h_j +
+    jac_phi_q_v_A_j[53] = t497 * f_star_dot_f_j + omega_i_in_joint_j_2 * t499 - (t492 * f_star_dot_h_j +
         omega_i_in_joint_j_0 * t495) + alphadot[0] * (cosine_1 * t491 - sine_1 * t498) - (omega_j_in_joint_j_2 *
         t499 - omega_j_in_joint_j_0 * t495);
-    const jg_real t500 = t348 - t445 - t352;
-    const jg_real t501 = t360 - (t359 - t444 * e_ij_in_j_2) + t361;
-    const jg_real t502 = t448 - t347 * e_ij_in_j_2 - t449 + t450;
-    const jg_real t503 = t378 - t453 * f_star_in_j_2 - (t377 - t452 * h_star_in_j_2);
-    const jg_real t504 = t459 - t365 * h_star_in_j_2 - (t458 - t367 * f_star_in_j_2);
-    const jg_real t505 = t366 + t455 - (t368 + t456);
-    const jg_real t506 = C_j[3] * t503 + C_j[4] * t504 + C_j[5] * t505;
-    const jg_real t507 = t355 * C_j[2] - (t347 * C_j[0] + t444 * C_j[1]);
-    const jg_real t508 = C_j[0] * t503 + C_j[1] * t504 + C_j[2] * t505;
-    const jg_real t509 = C_j[5] * t355 - (t347 * C_j[3] + t444 * C_j[4]);
-    const jg_real t510 = C_j[8] * t372 - (C_j[7] * t452 + C_j[6] * t365);
-    const jg_real t511 = C_j[8] * t374 - (C_j[7] * t453 + C_j[6] * t367);
-    const jg_real t512 = t355 * C_j[8] - (t347 * C_j[6] + t444 * C_j[7]);
-    const jg_real t513 = C_j[5] * t374 - (C_j[3] * t367 + C_j[4] * t453);
-    const jg_real t514 = C_j[2] * t372 - (C_j[1] * t452 + C_j[0] * t365);
-    const jg_real t515 = C_i[1] * t75 + C_i[4] * H_02;
-    const jg_real t516 = C_i[0] * t75 + C_i[3] * H_02;
-    const jg_real t517 = C_i[2] * t75 + C_i[5] * H_02;
-    const jg_real t518 = A_ji_4 * t515 + A_ji_1 * t516 + A_ji_7 * t517;
-    const jg_real t519 = C_i[4] * cosine_0 - C_i[1] * sine_0;
-    const jg_real t520 = C_i[3] * cosine_0 - C_i[0] * sine_0;
-    const jg_real t521 = C_i[5] * cosine_0 - C_i[2] * sine_0;
-    const jg_real t522 = A_ji_5 * t519 + A_ji_2 * t520 + A_ji_8 * t521;
-    const jg_real t523 = A_ji_5 * t515 + A_ji_2 * t516 + A_ji_8 * t517;
-    const jg_real t524 = A_ji_4 * t519 + A_ji_1 * t520 + A_ji_7 * t521;
-    const jg_real t525 = f_star_in_j_2 * t518 + t522 * h_star_in_j_1 - (f_star_in_j_1 * t523 + t524 *
+    jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t515 - omega_j_in_joint_j_1 * t516 + (t102 * t517 -
+        (omega_i_in_joint_j_0 * t515 - omega_i_in_joint_j_1 * t516) - alphadot[1] * t518));
+    jac_phi_q_v_alpha[1] = omega_i_in_joint_j_1 * t518 - omega_i_in_joint_j_2 * t520 + (t112 * t519 - alphadot[1] *
+        t516) - (omega_j_in_joint_j_1 * t518 - omega_j_in_joint_j_2 * t520);
+    const jg_real t521 = sine_0 * cosine_1;
+    const jg_real t522 = cosine_0 * cosine_1;
+    const jg_real t523 = C_i[1] * t521 - C_i[4] * t522 - C_i[7] * sine_1;
+    const jg_real t524 = C_i[0] * t521 - C_i[3] * t522 - C_i[6] * sine_1;
+    const jg_real t525 = C_i[2] * t521 - C_i[5] * t522 - C_i[8] * sine_1;
+    const jg_real t526 = A_ji_4 * t523 + A_ji_1 * t524 + A_ji_7 * t525;
+    const jg_real t527 = A_ji_5 * t523 + A_ji_2 * t524 + A_ji_8 * t525;
+    const jg_real t528 = f_star_in_j_2 * t526 - f_star_in_j_1 * t527;
+    const jg_real t529 = A_ji_3 * t523 + A_ji_0 * t524 + A_ji_6 * t525;
+    const jg_real t530 = f_star_in_j_0 * t527 - f_star_in_j_2 * t529;
+    const jg_real t531 = f_star_in_j_1 * t529 - f_star_in_j_0 * t526;
+    const jg_real t532 = C_j[3] * t528 + C_j[4] * t530 + C_j[5] * t531;
+    const jg_real t533 = C_j[0] * t528 + C_j[1] * t530 + C_j[2] * t531;
+    const jg_real t534 = C_j[7] * t526 + C_j[6] * t529 + C_j[8] * t527;
+    const jg_real t535 = C_j[4] * t526 + C_j[3] * t529 + C_j[5] * t527;
+    const jg_real t536 = A_ji_1 * H_02;
+    const jg_real t537 = A_ji_2 * cosine_0;
+    const jg_real t538 = A_ji_2 * H_02;
+    const jg_real t539 = A_ji_1 * cosine_0;
+    const jg_real t540 = t536 * f_star_in_j_2 + t537 * h_star_in_j_1 - (t538 * f_star_in_j_1 + t539 *
         h_star_in_j_2);
-    const jg_real t526 = A_ji_3 * t519 + A_ji_0 * t520 + A_ji_6 * t521;
-    const jg_real t527 = A_ji_3 * t515 + A_ji_0 * t516 + A_ji_6 * t517;
-    const jg_real t528 = f_star_in_j_0 * t523 + t526 * h_star_in_j_2 - (f_star_in_j_2 * t527 + t522 *
+    const jg_real t541 = A_ji_0 * cosine_0;
+    const jg_real t542 = A_ji_0 * H_02;
+    const jg_real t543 = t538 * f_star_in_j_0 + t541 * h_star_in_j_2 - (f_star_in_j_2 * t542 + t537 *
         h_star_in_j_0);
-    const jg_real t529 = f_star_in_j_1 * t527 + t524 * h_star_in_j_0 - (f_star_in_j_0 * t518 + t526 *
+    const jg_real t544 = f_star_in_j_1 * t542 + t539 * h_star_in_j_0 - (t536 * f_star_in_j_0 + t541 *
         h_star_in_j_1);
-    const jg_real t530 = C_j[3] * t525 + C_j[4] * t528 + C_j[5] * t529;
-    const jg_real t531 = C_j[0] * t525 + C_j[1] * t528 + C_j[2] * t529;
-    const jg_real t532 = C_j[7] * t524 + C_j[6] * t526 + C_j[8] * t522;
-    const jg_real t533 = C_j[7] * t518 + C_j[6] * t527 + C_j[8] * t523;
-    const jg_real t534 = C_j[1] * t524 + C_j[0] * t526 + C_j[2] * t522;
-    const jg_real t535 = C_j[3] * t527 + C_j[4] * t518 + C_j[5] * t523;
-    jac_phi_q_v_A_j[48] = A_i[2] * v_3_in_j_2 + A_ji_2 * t500 + (A_ji_0 * t501 + A_ji_1 * t502);
-    jac_phi_q_v_A_j[49] = A_ji_3 * t501 - t346 * v_3_in_j_0 + (A_ji_4 * t502 - t443 * v_3_in_j_1) + A_ji_5 * t500;
-    jac_phi_q_v_A_j[50] = A_i[8] * v_3_in_j_2 + A_ji_8 * t500 + (A_ji_6 * t501 + A_ji_7 * t502);
-    jac_phi_q_v_A_j[51] = -(omega_j_in_joint_j_0 * t506 - omega_j_in_joint_j_1 * t508 + (t105 * t510 -
-        (omega_i_in_joint_j_0 * t506 + t507 * g_star_dot_g_j - (omega_i_in_joint_j_1 * t508 + t509 *
-        g_star_dot_f_j)) - alphadot[1] * t511));
-    jac_phi_q_v_A_j[52] = t509 * h_star_dot_h_j + omega_i_in_joint_j_1 * t511 - (t512 * h_star_dot_g_j +
-        omega_i_in_joint_j_2 * t513) + (t115 * t514 - alphadot[1] * t508) - (omega_j_in_joint_j_1 * t511 -
-        omega_j_in_joint_j_2 * t513);
-    jac_phi_q_v_A_j[53] = t512 * f_star_dot_f_j + omega_i_in_joint_j_2 * t514 - (t507 * f_star_dot_h_j +
-        omega_i_in_joint_j_0 * t510) + alphadot[0] * (cosine_1 * t506 - sine_1 * t513) - (omega_j_in_joint_j_2 *
-        t514 - omega_j_in_joint_j_0 * t510);
-    jac_phi_q_v_alpha[0] = -(omega_j_in_joint_j_0 * t530 - omega_j_in_joint_j_1 * t531 + (t105 * t532 -
-        (omega_i_in_joint_j_0 * t530 - omega_i_in_joint_j_1 * t531) - alphadot[1] * t533));
-    jac_phi_q_v_alpha[1] = omega_i_in_joint_j_1 * t533 - omega_i_in_joint_j_2 * t535 + (t115 * t534 - alphadot[1] *
-        t531) - (omega_j_in_joint_j_1 * t533 - omega_j_in_joint_j_2 * t535);
-    const jg_real t536 = sine_0 * cosine_1;
-    const jg_real t537 = cosine_0 * cosine_1;
-    const jg_real t538 = C_i[1] * t536 - C_i[4] * t537 - C_i[7] * sine_1;
-    const jg_real t539 = C_i[0] * t536 - C_i[3] * t537 - C_i[6] * sine_1;
-    const jg_real t540 = C_i[2] * t536 - C_i[5] * t537 - C_i[8] * sine_1;
-    const jg_real t541 = A_ji_4 * t538 + A_ji_1 * t539 + A_ji_7 * t540;
-    const jg_real t542 = A_ji_5 * t538 + A_ji_2 * t539 + A_ji_8 * t540;
-    const jg_real t543 = f_star_in_j_2 * t541 - f_star_in_j_1 * t542;
-    const jg_real t544 = A_ji_3 * t538 + A_ji_0 * t539 + A_ji_6 * t540;
-    const jg_real t545 = f_star_in_j_0 * t542 - f_star_in_j_2 * t544;
-    const jg_real t546 = f_star_in_j_1 * t544 - f_star_in_j_0 * t541;
-    const jg_real t547 = C_j[3] * t543 + C_j[4] * t545 + C_j[5] * t546;
-    const jg_real t548 = C_j[0] * t543 + C_j[1] * t545 + C_j[2] * t546;
-    const jg_real t549 = C_j[7] * t541 + C_j[6] * t544 + C_j[8] * t542;
-    const jg_real t550 = C_j[3] * t544 + C_j[4] * t541 + C_j[5] * t542;
-    const jg_real t551 = A_ji_1 * H_02;
-    const jg_real t552 = A_ji_2 * cosine_0;
-    const jg_real t553 = A_ji_2 * H_02;
-    const jg_real t554 = A_ji_1 * cosine_0;
+    const jg_real t545 = C_j[3] * t540 + C_j[4] * t543 + C_j[5] * t544;
+    const jg_real t546 = C_j[0] * t540 + C_j[1] * t543 + C_j[2] * t544;
+    const jg_real t547 = C_j[7] * t539 + C_j[6] * t541 + C_j[8] * t537;
+    const jg_real t548 = C_j[7] * t536 + C_j[6] * t542 + C_j[8] * t538;
+    const jg_real t549 = C_j[1] * t539 + C_j[0] * t541 + C_j[2] * t537;
+    const jg_real t550 = C_j[4] * t536 + C_j[3] * t542 + C_j[5] * t538;
+    const jg_real t551 = A_ji_4 * H_02;
+    const jg_real t552 = A_ji_5 * cosine_0;
+    const jg_real t553 = A_ji_5 * H_02;
+    const jg_real t554 = A_ji_4 * cosine_0;
     const jg_real t555 = t551 * f_star_in_j_2 + t552 * h_star_in_j_1 - (t553 * f_star_in_j_1 + t554 *
         h_star_in_j_2);
-    const jg_real t556 = A_ji_0 * cosine_0;
-    const jg_real t557 = A_ji_0 * H_02;
-    const jg_real t558 = t553 * f_star_in_j_0 + t556 * h_star_in_j_2 - (t557 * f_star_in_j_2 + t552 *
+    const jg_real t556 = A_ji_3 * cosine_0;
+    const jg_real t557 = A_ji_3 * H_02;
+    const jg_real t558 = t553 * f_star_in_j_0 + t556 * h_star_in_j_2 - (f_star_in_j_2 * t557 + t552 *
         h_star_in_j_0);
-    const jg_real t559 = t557 * f_star_in_j_1 + t554 * h_star_in_j_0 - (t551 * f_star_in_j_0 + t556 *
+    const jg_real t559 = f_star_in_j_1 * t557 + t554 * h_star_in_j_0 - (t551 * f_star_in_j_0 + t556 *
         h_star_in_j_1);
     const jg_real t560 = C_j[3] * t555 + C_j[4] * t558 + C_j[5] * t559;
     const jg_real t561 = C_j[0] * t555 + C_j[1] * t558 + C_j[2] * t559;
     const jg_real t562 = C_j[7] * t554 + C_j[6] * t556 + C_j[8] * t552;
     const jg_real t563 = C_j[7] * t551 + C_j[6] * t557 + C_j[8] * t553;
+    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t519 - omega_i_in_joint_j_0 * t517 + alphadot[0] * (cosine_1 *
+        t515 - sine_1 * t520) - (omega_j_in_joint_j_2 * t519 - omega_j_in_joint_j_0 * t517);
+    jac_phi_q_v_alpha[3] = omega_i_in_joint_j_0 * t532 - omega_i_in_joint_j_1 * t533 + t112 * f_star_dot_h_j +
+        alphadot[1] * t534 - (omega_j_in_joint_j_0 * t532 - omega_j_in_joint_j_1 * t533);
+    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t534 - omega_i_in_joint_j_2 * t535 + (t102 * f_star_dot_f_j -
+        alphadot[1] * t533) - (omega_j_in_joint_j_1 * t534 - omega_j_in_joint_j_2 * t535);
+    jac_phi_q_v_alpha[5] = alphadot[0] * (cosine_1 * t532 - sine_1 * g_star_dot_g_j - (cosine_1 * h_star_dot_g_j +
+        sine_1 * t535));
+    jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t545 - omega_j_in_joint_j_1 * t546 + (t102 * t547 -
+        (omega_i_in_joint_j_0 * t545 - omega_i_in_joint_j_1 * t546) - alphadot[1] * t548));
+    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t548 - omega_i_in_joint_j_2 * t550 + (t112 * t549 - alphadot[1]
+        * t546) - (omega_j_in_joint_j_1 * t548 - omega_j_in_joint_j_2 * t550);
+    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t549 - omega_i_in_joint_j_0 * t547 + alphadot[0] * (cosine_1 *
+        t545 - sine_1 * t550) - (omega_j_in_joint_j_2 * t549 - omega_j_in_joint_j_0 * t547);
+    jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t560 - omega_j_in_joint_j_1 * t561 + (t102 * t562 -
+        (omega_i_in_joint_j_0 * t560 - omega_i_in_joint_j_1 * t561) - alphadot[1] * t563));
     const jg_real t564 = C_j[1] * t554 + C_j[0] * t556 + C_j[2] * t552;
-    const jg_real t565 = C_j[3] * t557 + C_j[4] * t551 + C_j[5] * t553;
-    const jg_real t566 = A_ji_4 * H_02;
-    const jg_real t567 = A_ji_5 * cosine_0;
-    const jg_real t568 = A_ji_5 * H_02;
-    const jg_real t569 = A_ji_4 * cosine_0;
+    const jg_real t565 = C_j[4] * t551 + C_j[3] * t557 + C_j[5] * t553;
+    const jg_real t566 = A_ji_7 * H_02;
+    const jg_real t567 = A_ji_8 * cosine_0;
+    const jg_real t568 = A_ji_8 * H_02;
+    const jg_real t569 = A_ji_7 * cosine_0;
     const jg_real t570 = t566 * f_star_in_j_2 + t567 * h_star_in_j_1 - (t568 * f_star_in_j_1 + t569 *
         h_star_in_j_2);
-    const jg_real t571 = A_ji_3 * cosine_0;
-    const jg_real t572 = A_ji_3 * H_02;
-    const jg_real t573 = t568 * f_star_in_j_0 + t571 * h_star_in_j_2 - (t572 * f_star_in_j_2 + t567 *
+    const jg_real t571 = A_ji_6 * cosine_0;
+    const jg_real t572 = A_ji_6 * H_02;
+    const jg_real t573 = t568 * f_star_in_j_0 + t571 * h_star_in_j_2 - (f_star_in_j_2 * t572 + t567 *
         h_star_in_j_0);
-    const jg_real t574 = t572 * f_star_in_j_1 + t569 * h_star_in_j_0 - (t566 * f_star_in_j_0 + t571 *
+    const jg_real t574 = f_star_in_j_1 * t572 + t569 * h_star_in_j_0 - (t566 * f_star_in_j_0 + t571 *
         h_star_in_j_1);
     const jg_real t575 = C_j[3] * t570 + C_j[4] * t573 + C_j[5] * t574;
     const jg_real t576 = C_j[0] * t570 + C_j[1] * t573 + C_j[2] * t574;
     const jg_real t577 = C_j[7] * t569 + C_j[6] * t571 + C_j[8] * t567;
     const jg_real t578 = C_j[7] * t566 + C_j[6] * t572 + C_j[8] * t568;
-    jac_phi_q_v_alpha[2] = omega_i_in_joint_j_2 * t534 - omega_i_in_joint_j_0 * t532 + alphadot[0] * (cosine_1 *
-        t530 - sine_1 * t535) - (omega_j_in_joint_j_2 * t534 - omega_j_in_joint_j_0 * t532);
-    jac_phi_q_v_alpha[3] = omega_i_in_joint_j_0 * t547 - omega_i_in_joint_j_1 * t548 + t115 * f_star_dot_h_j +
-        alphadot[1] * t549 - (omega_j_in_joint_j_0 * t547 - omega_j_in_joint_j_1 * t548);
-    jac_phi_q_v_alpha[4] = omega_i_in_joint_j_1 * t549 - omega_i_in_joint_j_2 * t550 + (t105 * f_star_dot_f_j -
-        alphadot[1] * t548) - (omega_j_in_joint_j_1 * t549 - omega_j_in_joint_j_2 * t550);
-    jac_phi_q_v_alpha[5] = alphadot[0] * (cosine_1 * t547 - sine_1 * g_star_dot_g_j - (cosine_1 * h_star_dot_g_j +
-        sine_1 * t550));
-    jac_phi_q_v_geometry[0] = -(omega_j_in_joint_j_0 * t560 - omega_j_in_joint_j_1 * t561 + (t105 * t562 -
-        (omega_i_in_joint_j_0 * t560 - omega_i_in_joint_j_1 * t561) - alphadot[1] * t563));
-    jac_phi_q_v_geometry[1] = omega_i_in_joint_j_1 * t563 - omega_i_in_joint_j_2 * t565 + (t115 * t564 - alphadot[1]
-        * t561) - (omega_j_in_joint_j_1 * t563 - omega_j_in_joint_j_2 * t565);
-    jac_phi_q_v_geometry[2] = omega_i_in_joint_j_2 * t564 - omega_i_in_joint_j_0 * t562 + alphadot[0] * (cosine_1 *
-        t560 - sine_1 * t565) - (omega_j_in_joint_j_2 * t564 - omega_j_in_joint_j_0 * t562);
-    jac_phi_q_v_geometry[3] = -(omega_j_in_joint_j_0 * t575 - omega_j_in_joint_j_1 * t576 + (t105 * t577 -
-        (omega_i_in_joint_j_0 * t575 - omega_i_in_joint_j_1 * t576) - alphadot[1] * t578));
     const jg_real t579 = C_j[1] * t569 + C_j[0] * t571 + C_j[2] * t567;
-    const jg_real t580 = C_j[3] * t572 + C_j[4] * t566 + C_j[5] * t568;
-    const jg_real t581 = A_ji_7 * H_02;
-    const jg_real t582 = A_ji_8 * cosine_0;
-    const jg_real t583 = A_ji_8 * H_02;
-    const jg_real t584 = A_ji_7 * cosine_0;
-    const jg_real t585 = t581 * f_star_in_j_2 + t582 * h_star_in_j_1 - (t583 * f_star_in_j_1 + t584 *
-        h_star_in_j_2);
-    const jg_real t586 = A_ji_6 * cosine_0;
-    const jg_real t587 = A_ji_6 * H_02;
-    const jg_real t588 = t583 * f_star_in_j_0 + t586 * h_star_in_j_2 - (f_star_in_j_2 * t587 + t582 *
-        h_star_in_j_0);
-    const jg_real t589 = f_star_in_j_1 * t587 + t584 * h_star_in_j_0 - (t581 * f_star_in_j_0 + t586 *
-        h_star_in_j_1);
+    const jg_real t580 = C_j[4] * t566 + C_j[3] * t572 + C_j[5] * t568;
+    const jg_real t581 = A_ji_2 * sine_0;
+    const jg_real t582 = A_ji_1 * t72;
+    const jg_real t583 = A_ji_1 * sine_0;
+    const jg_real t584 = A_ji_2 * t72;
+    const jg_real t585 = t581 * h_star_in_j_1 - t582 * f_star_in_j_2 - (t583 * h_star_in_j_2 - t584 *
+        f_star_in_j_1);
+    const jg_real t586 = A_ji_0 * sine_0;
+    const jg_real t587 = A_ji_0 * t72;
+    const jg_real t588 = t586 * h_star_in_j_2 - t584 * f_star_in_j_0 - (t581 * h_star_in_j_0 - f_star_in_j_2 *
+        t587);
+    const jg_real t589 = t583 * h_star_in_j_0 - f_star_in_j_1 * t587 - (t586 * h_star_in_j_1 - t582 *
+        f_star_in_j_0);
     const jg_real t590 = C_j[3] * t585 + C_j[4] * t588 + C_j[5] * t589;
     const jg_real t591 = C_j[0] * t585 + C_j[1] * t588 + C_j[2] * t589;
-    const jg_real t592 = C_j[7] * t584 + C_j[6] * t586 + C_j[8] * t582;
-    const jg_real t593 = C_j[7] * t581 + C_j[6] * t587 + C_j[8] * t583;
-    const jg_real t594 = C_j[1] * t584 + C_j[0] * t586 + C_j[2] * t582;
-    const jg_real t595 = C_j[3] * t587 + C_j[4] * t581 + C_j[5] * t583;
-    const jg_real t596 = A_ji_2 * sine_0;
-    const jg_real t597 = A_ji_1 * t75;
-    const jg_real t598 = A_ji_1 * sine_0;
-    const jg_real t599 = A_ji_2 * t75;
+    const jg_real t592 = C_j[7] * t583 + C_j[6] * t586 + C_j[8] * t581;
+    const jg_real t593 = C_j[7] * t582 + C_j[6] * t587 + C_j[8] * t584;
+    const jg_real t594 = C_j[1] * t583 + C_j[0] * t586 + C_j[2] * t581;
+    const jg_real t595 = C_j[4] * t582 + C_j[3] * t587 + C_j[5] * t584;
+    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t563 - omega_i_in_joint_j_2 * t565 + (t112 * t564 - alphadot[1]
+        * t561) - (omega_j_in_joint_j_1 * t563 - omega_j_in_joint_j_2 * t565);
+    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t564 - omega_i_in_joint_j_0 * t562 + alphadot[0] * (cosine_1 *
+        t560 - sine_1 * t565) - (omega_j_in_joint_j_2 * t564 - omega_j_in_joint_j_0 * t562);
+    jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t575 - omega_j_in_joint_j_1 * t576 + (t102 * t577 -
+        (omega_i_in_joint_j_0 * t575 - omega_i_in_joint_j_1 * t576) - alphadot[1] * t578));
+    jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t578 - omega_i_in_joint_j_2 * t580 + (t112 * t579 - alphadot[1]
+        * t576) - (omega_j_in_joint_j_1 * t578 - omega_j_in_joint_j_2 * t580);
+    jac_phi_q_v_geometry[8] = omega_i_in_joint_j_2 * t579 - omega_i_in_joint_j_0 * t577 + alphadot[0] * (cosine_1 *
+        t575 - sine_1 * t580) - (omega_j_in_joint_j_2 * t579 - omega_j_in_joint_j_0 * t577);
+    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t590 - omega_j_in_joint_j_1 * t591 + (t102 * t592 -
+        (omega_i_in_joint_j_0 * t590 - omega_i_in_joint_j_1 * t591) + alphadot[1] * t593));
+    jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t595 - omega_i_in_joint_j_1 * t593 + (t112 * t594 -
+        alphadot[1] * t591) - (omega_j_in_joint_j_2 * t595 - omega_j_in_joint_j_1 * t593);
+    jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t594 - omega_i_in_joint_j_0 * t592 + alphadot[0] * (sine_1 *
+        t595 + cosine_1 * t590) - (omega_j_in_joint_j_2 * t594 - omega_j_in_joint_j_0 * t592);
+    const jg_real t596 = A_ji_5 * sine_0;
+    const jg_real t597 = A_ji_4 * t72;
+    const jg_real t598 = A_ji_4 * sine_0;
+    const jg_real t599 = A_ji_5 * t72;
     const jg_real t600 = t596 * h_star_in_j_1 - t597 * f_star_in_j_2 - (t598 * h_star_in_j_2 - t599 *
         f_star_in_j_1);
-    const jg_real t601 = A_ji_0 * sine_0;
-    const jg_real t602 = A_ji_0 * t75;
-    const jg_real t603 = t601 * h_star_in_j_2 - t599 * f_star_in_j_0 - (t596 * h_star_in_j_0 - t602 *
-        f_star_in_j_2);
-    const jg_real t604 = t598 * h_star_in_j_0 - t602 * f_star_in_j_1 - (t601 * h_star_in_j_1 - t597 *
+    const jg_real t601 = A_ji_3 * sine_0;
+    const jg_real t602 = A_ji_3 * t72;
+    const jg_real t603 = t601 * h_star_in_j_2 - t599 * f_star_in_j_0 - (t596 * h_star_in_j_0 - f_star_in_j_2 *
+        t602);
+    const jg_real t604 = t598 * h_star_in_j_0 - f_star_in_j_1 * t602 - (t601 * h_star_in_j_1 - t597 *
         f_star_in_j_0);
     const jg_real t605 = C_j[3] * t600 + C_j[4] * t603 + C_j[5] * t604;
     const jg_real t606 = C_j[0] * t600 + C_j[1] * t603 + C_j[2] * t604;
     const jg_real t607 = C_j[7] * t598 + C_j[6] * t601 + C_j[8] * t596;
     const jg_real t608 = C_j[7] * t597 + C_j[6] * t602 + C_j[8] * t599;
     const jg_real t609 = C_j[1] * t598 + C_j[0] * t601 + C_j[2] * t596;
-    const jg_real t610 = C_j[3] * t602 + C_j[4] * t597 + C_j[5] * t599;
-    jac_phi_q_v_geometry[4] = omega_i_in_joint_j_1 * t578 - omega_i_in_joint_j_2 * t580 + (t115 * t579 - alphadot[1]
-        * t576) - (omega_j_in_joint_j_1 * t578 - omega_j_in_joint_j_2 * t580);
-    jac_phi_q_v_geometry[5] = omega_i_in_joint_j_2 * t579 - omega_i_in_joint_j_0 * t577 + alphadot[0] * (cosine_1 *
-        t575 - sine_1 * t580) - (omega_j_in_joint_j_2 * t579 - omega_j_in_joint_j_0 * t577);
-    jac_phi_q_v_geometry[6] = -(omega_j_in_joint_j_0 * t590 - omega_j_in_joint_j_1 * t591 + (t105 * t592 -
-        (omega_i_in_joint_j_0 * t590 - omega_i_in_joint_j_1 * t591) - alphadot[1] * t593));
-    jac_phi_q_v_geometry[7] = omega_i_in_joint_j_1 * t593 - omega_i_in_joint_j_2 * t595 + (t115 * t594 - alphadot[1]
-        * t591) - (omega_j_in_joint_j_1 * t593 - omega_j_in_joint_j_2 * t595);
-    jac_phi_q_v_geometry[8] = omega_i_in_joint_j_2 * t594 - omega_i_in_joint_j_0 * t592 + alphadot[0] * (cosine_1 *
-        t590 - sine_1 * t595) - (omega_j_in_joint_j_2 * t594 - omega_j_in_joint_j_0 * t592);
-    jac_phi_q_v_geometry[9] = -(omega_j_in_joint_j_0 * t605 - omega_j_in_joint_j_1 * t606 + (t105 * t607 -
-        (omega_i_in_joint_j_0 * t605 - omega_i_in_joint_j_1 * t606) + alphadot[1] * t608));
-    jac_phi_q_v_geometry[10] = omega_i_in_joint_j_2 * t610 - omega_i_in_joint_j_1 * t608 + (t115 * t609 -
-        alphadot[1] * t606) - (omega_j_in_joint_j_2 * t610 - omega_j_in_joint_j_1 * t608);
-    jac_phi_q_v_geometry[11] = omega_i_in_joint_j_2 * t609 - omega_i_in_joint_j_0 * t607 + alphadot[0] * (sine_1 *
-        t610 + cosine_1 * t605) - (omega_j_in_joint_j_2 * t609 - omega_j_in_joint_j_0 * t607);
-    const jg_real t611 = A_ji_5 * sine_0;
-    const jg_real t612 = A_ji_4 * t75;
-    const jg_real t613 = A_ji_4 * sine_0;
-    const jg_real t614 = A_ji_5 * t75;
+    const jg_real t610 = C_j[4] * t597 + C_j[3] * t602 + C_j[5] * t599;
+    const jg_real t611 = A_ji_8 * sine_0;
+    const jg_real t612 = A_ji_7 * t72;
+    const jg_real t613 = A_ji_7 * sine_0;
+    const jg_real t614 = A_ji_8 * t72;
     const jg_real t615 = t611 * h_star_in_j_1 - t612 * f_star_in_j_2 - (t613 * h_star_in_j_2 - t614 *
         f_star_in_j_1);
-    const jg_real t616 = A_ji_3 * sine_0;
-    const jg_real t617 = A_ji_3 * t75;
-    const jg_real t618 = t616 * h_star_in_j_2 - t614 * f_star_in_j_0 - (t611 * h_star_in_j_0 - t617 *
-        f_star_in_j_2);
-    const jg_real t619 = t613 * h_star_in_j_0 - t617 * f_star_in_j_1 - (t616 * h_star_in_j_1 - t612 *
+    const jg_real t616 = A_ji_6 * sine_0;
+    const jg_real t617 = A_ji_6 * t72;
+    const jg_real t618 = t616 * h_star_in_j_2 - t614 * f_star_in_j_0 - (t611 * h_star_in_j_0 - f_star_in_j_2 *
+        t617);
+    const jg_real t619 = t613 * h_star_in_j_0 - f_star_in_j_1 * t617 - (t616 * h_star_in_j_1 - t612 *
         f_star_in_j_0);
     const jg_real t620 = C_j[3] * t615 + C_j[4] * t618 + C_j[5] * t619;
     const jg_real t621 = C_j[0] * t615 + C_j[1] * t618 + C_j[2] * t619;
     const jg_real t622 = C_j[7] * t613 + C_j[6] * t616 + C_j[8] * t611;
     const jg_real t623 = C_j[7] * t612 + C_j[6] * t617 + C_j[8] * t614;
     const jg_real t624 = C_j[1] * t613 + C_j[0] * t616 + C_j[2] * t611;
-    const jg_real t625 = C_j[3] * t617 + C_j[4] * t612 + C_j[5] * t614;
-    const jg_real t626 = A_ji_8 * sine_0;
-    const jg_real t627 = A_ji_7 * t75;
-    const jg_real t628 = A_ji_7 * sine_0;
-    const jg_real t629 = A_ji_8 * t75;
-    const jg_real t630 = t626 * h_star_in_j_1 - t627 * f_star_in_j_2 - (t628 * h_star_in_j_2 - t629 *
-        f_star_in_j_1);
-    const jg_real t631 = A_ji_6 * sine_0;
-    const jg_real t632 = A_ji_6 * t75;
-    const jg_real t633 = t631 * h_star_in_j_2 - t629 * f_star_in_j_0 - (t626 * h_star_in_j_0 - f_star_in_j_2 *
-        t632);
-    const jg_real t634 = t628 * h_star_in_j_0 - f_star_in_j_1 * t632 - (t631 * h_star_in_j_1 - t627 *
-        f_star_in_j_0);
-    const jg_real t635 = C_j[3] * t630 + C_j[4] * t633 + C_j[5] * t634;
-    const jg_real t636 = C_j[0] * t630 + C_j[1] * t633 + C_j[2] * t634;
-    const jg_real t637 = C_j[7] * t628 + C_j[6] * t631 + C_j[8] * t626;
-    const jg_real t638 = C_j[7] * t627 + C_j[6] * t632 + C_j[8] * t629;
-    const jg_real t639 = C_j[1] * t628 + C_j[0] * t631 + C_j[2] * t626;
-    const jg_real t640 = C_j[3] * t632 + C_j[4] * t627 + C_j[5] * t629;
-    const jg_real t641 = A_ji_1 * cosine_1;
-    const jg_real t642 = A_ji_2 * cosine_1;
-    const jg_real t643 = t641 * f_star_in_j_2 - t642 * f_star_in_j_1;
-    const jg_real t644 = A_ji_0 * cosine_1;
-    const jg_real t645 = t642 * f_star_in_j_0 - t644 * f_star_in_j_2;
-    const jg_real t646 = t644 * f_star_in_j_1 - t641 * f_star_in_j_0;
-    const jg_real t647 = C_j[3] * t643 + C_j[4] * t645 + C_j[5] * t646;
-    const jg_real t648 = C_j[0] * t643 + C_j[1] * t645 + C_j[2] * t646;
-    const jg_real t649 = C_j[7] * t641 + C_j[6] * t644 + C_j[8] * t642;
-    const jg_real t650 = C_j[3] * t644 + C_j[4] * t641 + C_j[5] * t642;
-    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t620 - omega_j_in_joint_j_1 * t621 + (t105 * t622 -
+    const jg_real t625 = C_j[4] * t612 + C_j[3] * t617 + C_j[5] * t614;
+    const jg_real t626 = A_ji_1 * cosine_1;
+    const jg_real t627 = A_ji_2 * cosine_1;
+    const jg_real t628 = t626 * f_star_in_j_2 - t627 * f_star_in_j_1;
+    const jg_real t629 = A_ji_0 * cosine_1;
+    const jg_real t630 = t627 * f_star_in_j_0 - f_star_in_j_2 * t629;
+    const jg_real t631 = f_star_in_j_1 * t629 - t626 * f_star_in_j_0;
+    const jg_real t632 = C_j[3] * t628 + C_j[4] * t630 + C_j[5] * t631;
+    const jg_real t633 = C_j[0] * t628 + C_j[1] * t630 + C_j[2] * t631;
+    const jg_real t634 = C_j[7] * t626 + C_j[6] * t629 + C_j[8] * t627;
+    const jg_real t635 = C_j[4] * t626 + C_j[3] * t629 + C_j[5] * t627;
+    jac_phi_q_v_geometry[12] = -(omega_j_in_joint_j_0 * t605 - omega_j_in_joint_j_1 * t606 + (t102 * t607 -
+        (omega_i_in_joint_j_0 * t605 - omega_i_in_joint_j_1 * t606) + alphadot[1] * t608));
+    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t610 - omega_i_in_joint_j_1 * t608 + (t112 * t609 -
+        alphadot[1] * t606) - (omega_j_in_joint_j_2 * t610 - omega_j_in_joint_j_1 * t608);
+    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t609 - omega_i_in_joint_j_0 * t607 + alphadot[0] * (sine_1 *
+        t610 + cosine_1 * t605) - (omega_j_in_joint_j_2 * t609 - omega_j_in_joint_j_0 * t607);
+    jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t620 - omega_j_in_joint_j_1 * t621 + (t102 * t622 -
         (omega_i_in_joint_j_0 * t620 - omega_i_in_joint_j_1 * t621) + alphadot[1] * t623));
-    jac_phi_q_v_geometry[13] = omega_i_in_joint_j_2 * t625 - omega_i_in_joint_j_1 * t623 + (t115 * t624 -
+    jac_phi_q_v_geometry[16] = omega_i_in_joint_j_2 * t625 - omega_i_in_joint_j_1 * t623 + (t112 * t624 -
         alphadot[1] * t621) - (omega_j_in_joint_j_2 * t625 - omega_j_in_joint_j_1 * t623);
-    jac_phi_q_v_geometry[14] = omega_i_in_joint_j_2 * t624 - omega_i_in_joint_j_0 * t622 + alphadot[0] * (sine_1 *
+    jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t624 - omega_i_in_joint_j_0 * t622 + alphadot[0] * (sine_1 *
         t625 + cosine_1 * t620) - (omega_j_in_joint_j_2 * t624 - omega_j_in_joint_j_0 * t622);
-    jac_phi_q_v_geometry[15] = -(omega_j_in_joint_j_0 * t635 - omega_j_in_joint_j_1 * t636 + (t105 * t637 -
-        (omega_i_in_joint_j_0 * t635 - omega_i_in_joint_j_1 * t636) + alphadot[1] * t638));
-    jac_phi_q_v_geometry[16] = omega_i_in_joint_j_2 * t640 - omega_i_in_joint_j_1 * t638 + (t115 * t639 -
-        alphadot[1] * t636) - (omega_j_in_joint_j_2 * t640 - omega_j_in_joint_j_1 * t638);
-    jac_phi_q_v_geometry[17] = omega_i_in_joint_j_2 * t639 - omega_i_in_joint_j_0 * t637 + alphadot[0] * (sine_1 *
-        t640 + cosine_1 * t635) - (omega_j_in_joint_j_2 * t639 - omega_j_in_joint_j_0 * t637);
-    jac_phi_q_v_geometry[18] = omega_i_in_joint_j_0 * t647 - omega_i_in_joint_j_1 * t648 + alphadot[1] * t649 -
-        (omega_j_in_joint_j_0 * t647 - omega_j_in_joint_j_1 * t648);
-    jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t649 - omega_i_in_joint_j_2 * t650 - alphadot[1] * t648 -
-        (omega_j_in_joint_j_1 * t649 - omega_j_in_joint_j_2 * t650);
-    const jg_real t651 = A_ji_4 * cosine_1;
-    const jg_real t652 = A_ji_5 * cosine_1;
-    const jg_real t653 = t651 * f_star_in_j_2 - t652 * f_star_in_j_1;
-    const jg_real t654 = A_ji_3 * cosine_1;
-    const jg_real t655 = t652 * f_star_in_j_0 - t654 * f_star_in_j_2;
-    const jg_real t656 = t654 * f_star_in_j_1 - t651 * f_star_in_j_0;
-    const jg_real t657 = C_j[3] * t653 + C_j[4] * t655 + C_j[5] * t656;
-    const jg_real t658 = C_j[0] * t653 + C_j[1] * t655 + C_j[2] * t656;
-    const jg_real t659 = C_j[7] * t651 + C_j[6] * t654 + C_j[8] * t652;
-    const jg_real t660 = C_j[3] * t654 + C_j[4] * t651 + C_j[5] * t652;
-    const jg_real t661 = A_ji_7 * cosine_1;
-    const jg_real t662 = A_ji_8 * cosine_1;
-    const jg_real t663 = t661 * f_star_in_j_2 - t662 * f_star_in_j_1;
-    const jg_real t664 = A_ji_6 * cosine_1;
-    const jg_real t665 = t662 * f_star_in_j_0 - f_star_in_j_2 * t664;
-    const jg_real t666 = f_star_in_j_1 * t664 - t661 * f_star_in_j_0;
-    const jg_real t667 = C_j[3] * t663 + C_j[4] * t665 + C_j[5] * t666;
-    const jg_real t668 = C_j[0] * t663 + C_j[1] * t665 + C_j[2] * t666;
-    const jg_real t669 = C_j[7] * t661 + C_j[6] * t664 + C_j[8] * t662;
-    const jg_real t670 = C_j[3] * t664 + C_j[4] * t661 + C_j[5] * t662;
-    const jg_real t671 = omega_i_in_j_2 - omega_j[2];
-    const jg_real t672 = omega_j[1] - omega_i_in_j_1;
-    jac_phi_q_v_geometry[20] = alphadot[0] * (cosine_1 * t647 - sine_1 * t650);
-    jac_phi_q_v_geometry[21] = omega_i_in_joint_j_0 * t657 - omega_i_in_joint_j_1 * t658 + alphadot[1] * t659 -
-        (omega_j_in_joint_j_0 * t657 - omega_j_in_joint_j_1 * t658);
-    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t659 - omega_i_in_joint_j_2 * t660 - alphadot[1] * t658 -
-        (omega_j_in_joint_j_1 * t659 - omega_j_in_joint_j_2 * t660);
-    jac_phi_q_v_geometry[23] = alphadot[0] * (cosine_1 * t657 - sine_1 * t660);
-    jac_phi_q_v_geometry[24] = omega_i_in_joint_j_0 * t667 - omega_i_in_joint_j_1 * t668 + alphadot[1] * t669 -
-        (omega_j_in_joint_j_0 * t667 - omega_j_in_joint_j_1 * t668);
-    jac_phi_q_v_geometry[25] = omega_i_in_joint_j_1 * t669 - omega_i_in_joint_j_2 * t670 - alphadot[1] * t668 -
-        (omega_j_in_joint_j_1 * t669 - omega_j_in_joint_j_2 * t670);
-    jac_phi_q_v_geometry[26] = alphadot[0] * (cosine_1 * t667 - sine_1 * t670);
-    jac_phi_q_v_geometry[27] = -(A_ji_1 * t671 + A_ji_2 * t672);
-    const jg_real t673 = omega_i_in_j_0 - omega_j[0];
-    jac_phi_q_v_geometry[28] = -(A_ji_4 * t671 + A_ji_5 * t672);
-    jac_phi_q_v_geometry[29] = -(A_ji_7 * t671 + A_ji_8 * t672);
-    jac_phi_q_v_geometry[30] = A_ji_0 * t671 - A_ji_2 * t673;
-    jac_phi_q_v_geometry[31] = A_ji_3 * t671 - A_ji_5 * t673;
-    jac_phi_q_v_geometry[32] = A_ji_6 * t671 - A_ji_8 * t673;
-    jac_phi_q_v_geometry[33] = A_ji_0 * t672 + A_ji_1 * t673;
-    jac_phi_q_v_geometry[34] = A_ji_3 * t672 + A_ji_4 * t673;
-    jac_phi_q_v_geometry[35] = A_ji_6 * t672 + A_ji_7 * t673;
+    jac_phi_q_v_geometry[18] = omega_i_in_joint_j_0 * t632 - omega_i_in_joint_j_1 * t633 + alphadot[1] * t634 -
+        (omega_j_in_joint_j_0 * t632 - omega_j_in_joint_j_1 * t633);
+    jac_phi_q_v_geometry[19] = omega_i_in_joint_j_1 * t634 - omega_i_in_joint_j_2 * t635 - alphadot[1] * t633 -
+        (omega_j_in_joint_j_1 * t634 - omega_j_in_joint_j_2 * t635);
+    const jg_real t636 = A_ji_4 * cosine_1;
+    const jg_real t637 = A_ji_5 * cosine_1;
+    const jg_real t638 = t636 * f_star_in_j_2 - t637 * f_star_in_j_1;
+    const jg_real t639 = A_ji_3 * cosine_1;
+    const jg_real t640 = t637 * f_star_in_j_0 - f_star_in_j_2 * t639;
+    const jg_real t641 = f_star_in_j_1 * t639 - t636 * f_star_in_j_0;
+    const jg_real t642 = C_j[3] * t638 + C_j[4] * t640 + C_j[5] * t641;
+    const jg_real t643 = C_j[0] * t638 + C_j[1] * t640 + C_j[2] * t641;
+    const jg_real t644 = C_j[7] * t636 + C_j[6] * t639 + C_j[8] * t637;
+    const jg_real t645 = C_j[4] * t636 + C_j[3] * t639 + C_j[5] * t637;
+    const jg_real t646 = A_ji_7 * cosine_1;
+    const jg_real t647 = A_ji_8 * cosine_1;
+    const jg_real t648 = t646 * f_star_in_j_2 - t647 * f_star_in_j_1;
+    const jg_real t649 = A_ji_6 * cosine_1;
+    const jg_real t650 = t647 * f_star_in_j_0 - f_star_in_j_2 * t649;
+    const jg_real t651 = f_star_in_j_1 * t649 - t646 * f_star_in_j_0;
+    const jg_real t652 = C_j[3] * t648 + C_j[4] * t650 + C_j[5] * t651;
+    const jg_real t653 = C_j[0] * t648 + C_j[1] * t650 + C_j[2] * t651;
+    const jg_real t654 = C_j[7] * t646 + C_j[6] * t649 + C_j[8] * t647;
+    const jg_real t655 = C_j[4] * t646 + C_j[3] * t649 + C_j[5] * t647;
+    const jg_real t656 = omega_i_in_j_2 - omega_j[2];
+    const jg_real t657 = omega_j[1] - omega_i_in_j_1;
+    jac_phi_q_v_geometry[20] = alphadot[0] * (cosine_1 * t632 - sine_1 * t635);
+    jac_phi_q_v_geometry[21] = omega_i_in_joint_j_0 * t642 - omega_i_in_joint_j_1 * t643 + alphadot[1] * t644 -
+        (omega_j_in_joint_j_0 * t642 - omega_j_in_joint_j_1 * t643);
+    jac_phi_q_v_geometry[22] = omega_i_in_joint_j_1 * t644 - omega_i_in_joint_j_2 * t645 - alphadot[1] * t643 -
+        (omega_j_in_joint_j_1 * t644 - omega_j_in_joint_j_2 * t645);
+    jac_phi_q_v_geometry[23] = alphadot[0] * (cosine_1 * t642 - sine_1 * t645);
+    jac_phi_q_v_geometry[24] = omega_i_in_joint_j_0 * t652 - omega_i_in_joint_j_1 * t653 + alphadot[1] * t654 -
+        (omega_j_in_joint_j_0 * t652 - omega_j_in_joint_j_1 * t653);
+    jac_phi_q_v_geometry[25] = omega_i_in_joint_j_1 * t654 - omega_i_in_joint_j_2 * t655 - alphadot[1] * t653 -
+        (omega_j_in_joint_j_1 * t654 - omega_j_in_joint_j_2 * t655);
+    jac_phi_q_v_geometry[26] = alphadot[0] * (cosine_1 * t652 - sine_1 * t655);
+    jac_phi_q_v_geometry[27] = -(A_ji_1 * t656 + A_ji_2 * t657);
+    const jg_real t658 = omega_i_in_j_0 - omega_j[0];
+    jac_phi_q_v_geometry[28] = -(A_ji_4 * t656 + A_ji_5 * t657);
+    jac_phi_q_v_geometry[29] = -(A_ji_7 * t656 + A_ji_8 * t657);
+    jac_phi_q_v_geometry[30] = A_ji_0 * t656 - A_ji_2 * t658;
+    jac_phi_q_v_geometry[31] = A_ji_3 * t656 - A_ji_5 * t658;
+    jac_phi_q_v_geometry[32] = A_ji_6 * t656 - A_ji_8 * t658;
+    jac_phi_q_v_geometry[33] = A_ji_0 * t657 + A_ji_1 * t658;
+    jac_phi_q_v_geometry[34] = A_ji_3 * t657 + A_ji_4 * t658;
+    jac_phi_q_v_geometry[35] = A_ji_6 * t657 + A_ji_7 * t658;
     jac_phi_q_v_geometry[36] = omega_i_in_j_0 * g_star_dot_g_j - omega_i_in_joint_j_1 * g_star_in_j_0 - (omega_j[0]
         * g_star_dot_g_j - omega_j_in_joint_j_1 * g_star_in_j_0);
-    jac_phi_q_v_geometry[37] = t115 * f_star_in_j_0 - alphadot[1] * g_star_in_j_0;
+    jac_phi_q_v_geometry[37] = t112 * f_star_in_j_0 - alphadot[1] * g_star_in_j_0;
     jac_phi_q_v_geometry[38] = omega_i_in_joint_j_2 * f_star_in_j_0 - omega_i_in_j_0 * f_star_dot_h_j -
         (omega_j_in_joint_j_2 * f_star_in_j_0 - omega_j[0] * f_star_dot_h_j);
     jac_phi_q_v_geometry[39] = omega_i_in_j_1 * g_star_dot_g_j - omega_i_in_joint_j_1 * g_star_in_j_1 - (omega_j[1]
         * g_star_dot_g_j - omega_j_in_joint_j_1 * g_star_in_j_1);
-    jac_phi_q_v_geometry[40] = t115 * f_star_in_j_1 - alphadot[1] * g_star_in_j_1;
+    jac_phi_q_v_geometry[40] = t112 * f_star_in_j_1 - alphadot[1] * g_star_in_j_1;
     jac_phi_q_v_geometry[41] = omega_i_in_joint_j_2 * f_star_in_j_1 - omega_i_in_j_1 * f_star_dot_h_j -
         (omega_j_in_joint_j_2 * f_star_in_j_1 - omega_j[1] * f_star_dot_h_j);
     jac_phi_q_v_geometry[42] = omega_i_in_j_2 * g_star_dot_g_j - omega_i_in_joint_j_1 * g_star_in_j_2 - (omega_j[2]
         * g_star_dot_g_j - omega_j_in_joint_j_1 * g_star_in_j_2);
-    jac_phi_q_v_geometry[43] = t115 * f_star_in_j_2 - alphadot[1] * g_star_in_j_2;
+    jac_phi_q_v_geometry[43] = t112 * f_star_in_j_2 - alphadot[1] * g_star_in_j_2;
     jac_phi_q_v_geometry[44] = omega_i_in_joint_j_2 * f_star_in_j_2 - omega_i_in_j_2 * f_star_dot_h_j -
         (omega_j_in_joint_j_2 * f_star_in_j_2 - omega_j[2] * f_star_dot_h_j);
     jac_phi_q_v_geometry[45] = omega_i_in_joint_j_0 * g_star_in_j_0 - omega_i_in_j_0 * g_star_dot_f_j -
@@ -1539,91 +1522,82 @@ static void jg_universal_parametric_phi_q_v_jacobian(const jg_real *JG_RESTRICT 
     jac_phi_q_v_geometry[52] = omega_i_in_j_2 * h_star_dot_h_j - omega_i_in_joint_j_2 * h_star_in_j_2 - (omega_j[2]
         * h_star_dot_h_j - omega_j_in_joint_j_2 * h_star_in_j_2);
     jac_phi_q_v_geometry[53] = alphadot[0] * (cosine_1 * g_star_in_j_2 - sine_1 * h_star_in_j_2);
-    jac_phi_q_v_geometry[54] = alphadot[1] * h_star_in_j_0 - t105 * f_star_in_j_0;
+    jac_phi_q_v_geometry[54] = alphadot[1] * h_star_in_j_0 - t102 * f_star_in_j_0;
     jac_phi_q_v_geometry[55] = omega_i_in_joint_j_1 * h_star_in_j_0 - omega_i_in_j_0 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_0 - omega_j[0] * h_star_dot_g_j);
     jac_phi_q_v_geometry[56] = omega_i_in_j_0 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_0 - (omega_j[0]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_0);
-    jac_phi_q_v_geometry[57] = alphadot[1] * h_star_in_j_1 - t105 * f_star_in_j_1;
+    jac_phi_q_v_geometry[57] = alphadot[1] * h_star_in_j_1 - t102 * f_star_in_j_1;
     jac_phi_q_v_geometry[58] = omega_i_in_joint_j_1 * h_star_in_j_1 - omega_i_in_j_1 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_1 - omega_j[1] * h_star_dot_g_j);
     jac_phi_q_v_geometry[59] = omega_i_in_j_1 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_1 - (omega_j[1]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_1);
-    const jg_real t674 = -(A_ji_0 * A_ji_3 + A_ji_1 * A_ji_4 + A_ji_2 * A_ji_5);
-    const jg_real t675 = -(A_ji_6 * A_ji_0 + A_ji_1 * A_ji_7 + A_ji_2 * A_ji_8);
-    jac_phi_q_v_geometry[60] = alphadot[1] * h_star_in_j_2 - t105 * f_star_in_j_2;
+    const jg_real t659 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
+    const jg_real t660 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
+    const jg_real t661 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
+    jac_phi_q_v_geometry[60] = alphadot[1] * h_star_in_j_2 - t102 * f_star_in_j_2;
     jac_phi_q_v_geometry[61] = omega_i_in_joint_j_1 * h_star_in_j_2 - omega_i_in_j_2 * h_star_dot_g_j -
         (omega_j_in_joint_j_1 * h_star_in_j_2 - omega_j[2] * h_star_dot_g_j);
     jac_phi_q_v_geometry[62] = omega_i_in_j_2 * f_star_dot_f_j - omega_i_in_joint_j_0 * f_star_in_j_2 - (omega_j[2]
         * f_star_dot_f_j - omega_j_in_joint_j_0 * f_star_in_j_2);
-    jac_phi_q_v_velocity[0] = -(A_ji_0 * A_ji_0 + A_ji_1 * A_ji_1 + A_ji_2 * A_ji_2);
-    jac_phi_q_v_velocity[1] = t674;
-    jac_phi_q_v_velocity[3] = t674;
-    jac_phi_q_v_velocity[2] = t675;
-    jac_phi_q_v_velocity[6] = t675;
-    const jg_real t676 = -(A_ji_6 * A_ji_3 + A_ji_7 * A_ji_4 + A_ji_8 * A_ji_5);
-    const jg_real t677 = A_ji_2 * e_ij_in_j_1 - A_ji_1 * e_ij_in_j_2;
-    const jg_real t678 = A_ji_0 * e_ij_in_j_2 - A_ji_2 * e_ij_in_j_0;
-    const jg_real t679 = A_ji_1 * e_ij_in_j_0 - A_ji_0 * e_ij_in_j_1;
-    const jg_real t680 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
-    const jg_real t681 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
-    jac_phi_q_v_velocity[4] = -(A_ji_3 * A_ji_3 + A_ji_4 * A_ji_4 + A_ji_5 * A_ji_5);
-    jac_phi_q_v_velocity[5] = t676;
-    jac_phi_q_v_velocity[7] = t676;
-    jac_phi_q_v_velocity[8] = -(A_ji_6 * A_ji_6 + A_ji_7 * A_ji_7 + A_ji_8 * A_ji_8);
-    jac_phi_q_v_velocity[9] = A_ji_0 * t677 + A_ji_1 * t678 + A_ji_2 * t679;
-    jac_phi_q_v_velocity[10] = A_ji_3 * t677 + A_ji_4 * t678 + A_ji_5 * t679;
-    jac_phi_q_v_velocity[11] = A_ji_6 * t677 + A_ji_7 * t678 + A_ji_8 * t679;
-    jac_phi_q_v_velocity[12] = t680 * g_star_dot_g_j - t681 * g_star_dot_f_j;
-    const jg_real t682 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
-    const jg_real t683 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
-    const jg_real t684 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
-    const jg_real t685 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
-    const jg_real t686 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
-    const jg_real t687 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
-    const jg_real t688 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
-    jac_phi_q_v_velocity[13] = t681 * h_star_dot_h_j - t682 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[14] = t682 * f_star_dot_f_j - t680 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[15] = A_ji_0 * t683 + A_ji_1 * t684 + A_ji_2 * t685;
-    jac_phi_q_v_velocity[16] = A_ji_3 * t683 + A_ji_4 * t684 + A_ji_5 * t685;
-    jac_phi_q_v_velocity[17] = A_ji_6 * t683 + A_ji_7 * t684 + A_ji_8 * t685;
-    jac_phi_q_v_velocity[18] = t686 * g_star_dot_g_j - t687 * g_star_dot_f_j;
-    jac_phi_q_v_velocity[19] = t687 * h_star_dot_h_j - t688 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[20] = t688 * f_star_dot_f_j - t686 * f_star_dot_h_j;
-    const jg_real t689 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
-    const jg_real t690 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
-    const jg_real t691 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
-    const jg_real t692 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
-    const jg_real t693 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
-    const jg_real t694 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
-    jac_phi_q_v_velocity[21] = A_ji_0 * t689 + A_ji_1 * t690 + A_ji_2 * t691;
-    jac_phi_q_v_velocity[22] = A_ji_3 * t689 + A_ji_4 * t690 + A_ji_5 * t691;
-    jac_phi_q_v_velocity[23] = A_ji_6 * t689 + A_ji_7 * t690 + A_ji_8 * t691;
-    jac_phi_q_v_velocity[24] = t692 * g_star_dot_g_j - t693 * g_star_dot_f_j;
-    jac_phi_q_v_velocity[25] = t693 * h_star_dot_h_j - t694 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[26] = t694 * f_star_dot_f_j - t692 * f_star_dot_h_j;
-    jac_phi_q_v_velocity[36] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
-    jac_phi_q_v_velocity[37] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
-    jac_phi_q_v_velocity[38] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
-    jac_phi_q_v_velocity[39] = C_j[3] * g_star_dot_f_j - C_j[0] * g_star_dot_g_j;
-    jac_phi_q_v_velocity[40] = C_j[6] * h_star_dot_g_j - C_j[3] * h_star_dot_h_j;
-    jac_phi_q_v_velocity[41] = C_j[0] * f_star_dot_h_j - C_j[6] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[42] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
-    jac_phi_q_v_velocity[43] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
-    jac_phi_q_v_velocity[44] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
-    jac_phi_q_v_velocity[45] = C_j[4] * g_star_dot_f_j - C_j[1] * g_star_dot_g_j;
-    jac_phi_q_v_velocity[46] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
-    jac_phi_q_v_velocity[47] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[48] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
-    jac_phi_q_v_velocity[49] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
-    jac_phi_q_v_velocity[50] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
-    jac_phi_q_v_velocity[51] = C_j[5] * g_star_dot_f_j - C_j[2] * g_star_dot_g_j;
-    jac_phi_q_v_velocity[52] = C_j[8] * h_star_dot_g_j - C_j[5] * h_star_dot_h_j;
-    jac_phi_q_v_velocity[53] = C_j[2] * f_star_dot_h_j - C_j[8] * f_star_dot_f_j;
-    jac_phi_q_v_velocity[54] = -(cosine_1 * f_star_dot_h_j);
-    jac_phi_q_v_velocity[55] = sine_1 * f_star_dot_f_j;
-    jac_phi_q_v_velocity[56] = cosine_1 * g_star_dot_g_j - sine_1 * h_star_dot_g_j;
-    jac_phi_q_v_velocity[58] = -g_star_dot_f_j;
+    jac_phi_q_v_velocity[0] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[1] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[2] = JG_REAL(-1.0);
+    jac_phi_q_v_velocity[3] = A_ji_0 * t659 + A_ji_1 * t660 + A_ji_2 * t661;
+    jac_phi_q_v_velocity[4] = A_ji_3 * t659 + A_ji_4 * t660 + A_ji_5 * t661;
+    const jg_real t662 = A_ji_0 * C_j[0] + A_ji_1 * C_j[1] + A_ji_2 * C_j[2];
+    const jg_real t663 = A_ji_0 * C_j[3] + A_ji_1 * C_j[4] + A_ji_2 * C_j[5];
+    const jg_real t664 = A_ji_0 * C_j[6] + A_ji_1 * C_j[7] + A_ji_2 * C_j[8];
+    const jg_real t665 = A_ji_5 * e_ij_in_j_1 - A_ji_4 * e_ij_in_j_2;
+    const jg_real t666 = A_ji_3 * e_ij_in_j_2 - A_ji_5 * e_ij_in_j_0;
+    const jg_real t667 = A_ji_4 * e_ij_in_j_0 - A_ji_3 * e_ij_in_j_1;
+    const jg_real t668 = A_ji_3 * C_j[0] + A_ji_4 * C_j[1] + A_ji_5 * C_j[2];
+    const jg_real t669 = A_ji_3 * C_j[3] + A_ji_4 * C_j[4] + A_ji_5 * C_j[5];
+    jac_phi_q_v_velocity[5] = A_ji_6 * t659 + A_ji_7 * t660 + A_ji_8 * t661;
+    jac_phi_q_v_velocity[6] = t662 * g_star_dot_g_j - t663 * g_star_dot_f_j;
+    jac_phi_q_v_velocity[7] = t663 * h_star_dot_h_j - t664 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[8] = t664 * f_star_dot_f_j - t662 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[9] = A_ji_0 * t665 + A_ji_1 * t666 + A_ji_2 * t667;
+    jac_phi_q_v_velocity[10] = A_ji_3 * t665 + A_ji_4 * t666 + A_ji_5 * t667;
+    jac_phi_q_v_velocity[11] = A_ji_6 * t665 + A_ji_7 * t666 + A_ji_8 * t667;
+    jac_phi_q_v_velocity[12] = t668 * g_star_dot_g_j - t669 * g_star_dot_f_j;
+    const jg_real t670 = A_ji_3 * C_j[6] + A_ji_4 * C_j[7] + A_ji_5 * C_j[8];
+    const jg_real t671 = A_ji_8 * e_ij_in_j_1 - A_ji_7 * e_ij_in_j_2;
+    const jg_real t672 = A_ji_6 * e_ij_in_j_2 - A_ji_8 * e_ij_in_j_0;
+    const jg_real t673 = A_ji_7 * e_ij_in_j_0 - A_ji_6 * e_ij_in_j_1;
+    const jg_real t674 = A_ji_6 * C_j[0] + A_ji_7 * C_j[1] + A_ji_8 * C_j[2];
+    const jg_real t675 = A_ji_6 * C_j[3] + A_ji_7 * C_j[4] + A_ji_8 * C_j[5];
+    const jg_real t676 = A_ji_6 * C_j[6] + A_ji_7 * C_j[7] + A_ji_8 * C_j[8];
+    jac_phi_q_v_velocity[13] = t669 * h_star_dot_h_j - t670 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[14] = t670 * f_star_dot_f_j - t668 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[15] = A_ji_0 * t671 + A_ji_1 * t672 + A_ji_2 * t673;
+    jac_phi_q_v_velocity[16] = A_ji_3 * t671 + A_ji_4 * t672 + A_ji_5 * t673;
+    jac_phi_q_v_velocity[17] = A_ji_6 * t671 + A_ji_7 * t672 + A_ji_8 * t673;
+    jac_phi_q_v_velocity[18] = t674 * g_star_dot_g_j - t675 * g_star_dot_f_j;
+    jac_phi_q_v_velocity[19] = t675 * h_star_dot_h_j - t676 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[20] = t676 * f_star_dot_f_j - t674 * f_star_dot_h_j;
+    jac_phi_q_v_velocity[30] = s_j[1] * A_ji_2 - A_ji_1 * s_j[2];
+    jac_phi_q_v_velocity[31] = s_j[1] * A_ji_5 - s_j[2] * A_ji_4;
+    jac_phi_q_v_velocity[32] = s_j[1] * A_ji_8 - s_j[2] * A_ji_7;
+    jac_phi_q_v_velocity[33] = C_j[3] * g_star_dot_f_j - C_j[0] * g_star_dot_g_j;
+    jac_phi_q_v_velocity[34] = C_j[6] * h_star_dot_g_j - C_j[3] * h_star_dot_h_j;
+    jac_phi_q_v_velocity[35] = C_j[0] * f_star_dot_h_j - C_j[6] * f_star_dot_f_j;
+    jac_phi_q_v_velocity[36] = s_j[2] * A_ji_0 - s_j[0] * A_ji_2;
+    jac_phi_q_v_velocity[37] = s_j[2] * A_ji_3 - s_j[0] * A_ji_5;
+    jac_phi_q_v_velocity[38] = s_j[2] * A_ji_6 - s_j[0] * A_ji_8;
+    jac_phi_q_v_velocity[39] = C_j[4] * g_star_dot_f_j - C_j[1] * g_star_dot_g_j;
+    jac_phi_q_v_velocity[40] = C_j[7] * h_star_dot_g_j - C_j[4] * h_star_dot_h_j;
+    jac_phi_q_v_velocity[41] = C_j[1] * f_star_dot_h_j - C_j[7] * f_star_dot_f_j;
+    jac_phi_q_v_velocity[42] = A_ji_1 * s_j[0] - s_j[1] * A_ji_0;
+    jac_phi_q_v_velocity[43] = s_j[0] * A_ji_4 - s_j[1] * A_ji_3;
+    jac_phi_q_v_velocity[44] = s_j[0] * A_ji_7 - s_j[1] * A_ji_6;
+    jac_phi_q_v_velocity[45] = C_j[5] * g_star_dot_f_j - C_j[2] * g_star_dot_g_j;
+    jac_phi_q_v_velocity[46] = C_j[8] * h_star_dot_g_j - C_j[5] * h_star_dot_h_j;
+    jac_phi_q_v_velocity[47] = C_j[2] * f_star_dot_h_j - C_j[8] * f_star_dot_f_j;
+    jac_phi_q_v_velocity[48] = -(cosine_1 * f_star_dot_h_j);
+    jac_phi_q_v_velocity[49] = sine_1 * f_star_dot_f_j;
+    jac_phi_q_v_velocity[50] = cosine_1 * g_star_dot_g_j - sine_1 * h_star_dot_g_j;
+    jac_phi_q_v_velocity[52] = -g_star_dot_f_j;
 }
 
 static void jg_universal_parametric_phi_q_t_lambda_jacobian(const jg_real *r_i, const jg_real *A_i,
@@ -3437,7 +3411,7 @@ int jac_jg_universal_parametric_phi_q_v_external(const double **arg, double **re
     double unwanted_3[54];
     double unwanted_4[6];
     double unwanted_5[63];
-    double unwanted_6[59];
+    double unwanted_6[53];
     (void)iw;
     (void)w;
     (void)mem;
@@ -3545,9 +3519,9 @@ const casadi_int *jac_jg_universal_parametric_phi_q_v_external_sparsity_out(casa
         3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5, 3, 4, 5
     };
     static const casadi_int pattern_6[] = {
-        6, 14, 0, 3, 6, 9, 15, 21, 27, 30, 33, 36, 42, 48, 54, 57, 59, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5,
-        0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2,
-        3, 4, 5, 3, 4, 5, 3, 4
+        6, 14, 0, 1, 2, 3, 9, 15, 21, 24, 27, 30, 36, 42, 48, 51, 53, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5,
+        0, 1, 2, 3, 4, 5, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 3, 4, 5,
+        3, 4
     };
     static const casadi_int *const patterns[] = {
         pattern_0,

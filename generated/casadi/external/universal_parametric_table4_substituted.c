@@ -289,7 +289,7 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     const jg_real omega_j_in_joint_j_0 = C_j[0] * omega_j[0] + omega_j[1] * C_j[1] + omega_j[2] * C_j[2];
     const jg_real t33 = v_j_in_joint_i_0 - s_j_cross_omega_j_in_joint_i_0;
     const jg_real t34 = omega_i[0] * sine_0;
-    jac_phi_q_v_alpha[11] = omega_i_in_joint_i_1 * t13 + omega_i_in_joint_i_0 * H_11 + alphadot[1] * cosine_1 -
+    jac_phi_q_v_alpha[11] = omega_i_in_joint_i_0 * H_11 + omega_i_in_joint_i_1 * t13 + alphadot[1] * cosine_1 -
         omega_j_in_joint_j_0 * cosine_1;
     jac_phi_q_v_geometry[0] = -omega_i[2];
     jac_phi_q_v_geometry[3] = -omega_i[0];
@@ -471,7 +471,7 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     jac_phi_q_v_velocity[4] = -s_i[1];
     jac_phi_q_v_velocity[5] = C_i[3] * cosine_0 - C_i[0] * sine_0;
     jac_phi_q_v_velocity[6] = C_i[6] * sine_0;
-    jac_phi_q_v_velocity[7] = C_i[3] * H_02 + C_i[0] * t11;
+    jac_phi_q_v_velocity[7] = C_i[0] * t11 + C_i[3] * H_02;
     jac_phi_q_v_velocity[8] = -s_i[2];
     jac_phi_q_v_velocity[9] = s_i[0];
     const jg_real t110 = C_j[0] * cosine_0 - C_j[3] * t13 + C_j[6] * H_02;
@@ -479,11 +479,11 @@ static void jg_universal_parametric_table4_substituted_phi_q_v_jacobian(const jg
     const jg_real t112 = C_j[3] * sine_1 + C_j[6] * cosine_1;
     jac_phi_q_v_velocity[10] = C_i[4] * cosine_0 - C_i[1] * sine_0;
     jac_phi_q_v_velocity[11] = C_i[7] * sine_0;
-    jac_phi_q_v_velocity[12] = C_i[4] * H_02 + C_i[1] * t11;
+    jac_phi_q_v_velocity[12] = C_i[1] * t11 + C_i[4] * H_02;
     jac_phi_q_v_velocity[14] = -s_i[0];
     jac_phi_q_v_velocity[15] = C_i[5] * cosine_0 - C_i[2] * sine_0;
     jac_phi_q_v_velocity[16] = C_i[8] * sine_0;
-    jac_phi_q_v_velocity[17] = C_i[5] * H_02 + C_i[2] * t11;
+    jac_phi_q_v_velocity[17] = C_i[2] * t11 + C_i[5] * H_02;
     jac_phi_q_v_velocity[18] = C_i[0] * t110 + C_i[3] * t111 + C_i[6] * t112;
     const jg_real t113 = C_j[1] * cosine_0 - C_j[4] * t13 + C_j[7] * H_02;
     const jg_real t114 = C_j[1] * sine_0 + C_j[4] * H_11 - C_j[7] * t11;

@@ -617,7 +617,7 @@ void jg_ball_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 686 (269 add, 414 mul, 3 sincos, 30 neg); temporaries: 199.
+ * @note Operations: 687 (269 add, 415 mul, 3 sincos, 27 neg); temporaries: 195.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -643,7 +643,7 @@ void jg_ball_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 686 (269 add, 414 mul, 3 sincos, 30 neg); temporaries: 111.
+ * @note Operations: 687 (269 add, 415 mul, 3 sincos, 27 neg); temporaries: 111.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -702,7 +702,7 @@ void jg_ball_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 328 (134 add, 191 mul, 3 sincos, 1 neg); temporaries: 77.
+ * @note Operations: 313 (128 add, 182 mul, 3 sincos, 1 neg); temporaries: 77.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -763,7 +763,7 @@ void jg_ball_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg_
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 111 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1150 (451 add, 696 mul, 3 sincos, 34 neg); temporaries: 275.
+ * @note Operations: 1148 (451 add, 694 mul, 3 sincos, 37 neg); temporaries: 286.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -801,7 +801,7 @@ void jg_ball_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RE
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 1150 (451 add, 696 mul, 3 sincos, 34 neg); temporaries: 164.
+ * @note Operations: 1148 (451 add, 694 mul, 3 sincos, 37 neg); temporaries: 164.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3; regular rows: SPEC S1.2
  */
 void jg_ball_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1178,7 +1178,7 @@ void jg_ball_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, const
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 73 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 344 (137 add, 204 mul, 3 sincos, 20 neg); temporaries: 94.
+ * @note Operations: 344 (137 add, 204 mul, 3 sincos, 20 neg); temporaries: 91.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1462,7 +1462,7 @@ void jg_ball_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRIC
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 306 (113 add, 190 mul, 3 sincos, 8 neg); temporaries: 92.
+ * @note Operations: 306 (113 add, 190 mul, 3 sincos, 8 neg); temporaries: 99.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1510,7 +1510,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 297 (118 add, 176 mul, 3 sincos, 2 neg); temporaries: 72.
+ * @note Operations: 296 (118 add, 175 mul, 3 sincos, 2 neg); temporaries: 75.
  * @see second time derivative of S1 Eq. (12); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -1556,7 +1556,7 @@ void jg_ball_parametric_table4_substituted_phi_q_v(const jg_real *JG_RESTRICT al
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda [15]; virtual displacements; translations in body axes, rotations in body axes; N, N
  *   m
- * @note Operations: 158 (60 add, 95 mul, 3 sincos, 3 neg); temporaries: 48.
+ * @note Operations: 157 (60 add, 94 mul, 3 sincos, 3 neg); temporaries: 51.
  * @see S1 Eqs. (1), (13); trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RESTRICT alpha,
@@ -1592,7 +1592,7 @@ void jg_ball_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_REST
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 34 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 781 (307 add, 471 mul, 3 sincos, 17 neg); temporaries: 179.
+ * @note Operations: 781 (307 add, 471 mul, 3 sincos, 17 neg); temporaries: 184.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot3
  */
 void jg_ball_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

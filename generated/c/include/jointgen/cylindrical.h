@@ -744,7 +744,7 @@ void jg_cylindrical_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_re
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 270 (114 add, 155 mul, 1 sincos); temporaries: 67.
+ * @note Operations: 246 (105 add, 140 mul, 1 sincos); temporaries: 70.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -805,7 +805,7 @@ void jg_cylindrical_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, co
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 769 (309 add, 459 mul, 1 sincos, 29 neg); temporaries: 192.
+ * @note Operations: 766 (309 add, 456 mul, 1 sincos, 29 neg); temporaries: 219.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -843,7 +843,7 @@ void jg_cylindrical_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 769 (309 add, 459 mul, 1 sincos, 29 neg); temporaries: 129.
+ * @note Operations: 766 (309 add, 456 mul, 1 sincos, 29 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_cylindrical_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1220,7 +1220,7 @@ void jg_cylindrical_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 81.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1553,7 +1553,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda_q_dense(const j
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 138 (54 add, 83 mul, 1 sincos, 2 neg); temporaries: 38.
+ * @note Operations: 136 (53 add, 82 mul, 1 sincos, 2 neg); temporaries: 38.
  * @see second time derivative of S1 Eq. (12); trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,
@@ -1635,7 +1635,7 @@ void jg_cylindrical_parametric_table4_substituted_phi_q_t_lambda(const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 13 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 402 (161 add, 240 mul, 1 sincos, 18 neg); temporaries: 106.
+ * @note Operations: 402 (161 add, 240 mul, 1 sincos, 17 neg); temporaries: 108.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i,
@@ -1674,7 +1674,7 @@ void jg_cylindrical_parametric_table4_substituted_all(const jg_real *JG_RESTRICT
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 402 (161 add, 240 mul, 1 sincos, 18 neg); temporaries: 62.
+ * @note Operations: 402 (161 add, 240 mul, 1 sincos, 17 neg); temporaries: 62.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_cylindrical_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

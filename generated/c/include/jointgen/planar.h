@@ -743,7 +743,7 @@ void jg_planar_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *J
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 267 (114 add, 152 mul, 1 sincos); temporaries: 67.
+ * @note Operations: 252 (108 add, 143 mul, 1 sincos); temporaries: 64.
  * @see S1 Eqs. (19), (27) along the velocity; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -804,7 +804,7 @@ void jg_planar_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const j
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 775 (312 add, 462 mul, 1 sincos, 32 neg); temporaries: 183.
+ * @note Operations: 772 (312 add, 459 mul, 1 sincos, 32 neg); temporaries: 219.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -842,7 +842,7 @@ void jg_planar_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_
  * @param[out] phi_q_t_lambda_q [15 x 15] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 775 (312 add, 462 mul, 1 sincos, 32 neg); temporaries: 132.
+ * @note Operations: 772 (312 add, 459 mul, 1 sincos, 32 neg); temporaries: 132.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn2 + rot1; regular rows: SPEC S1.2
  */
 void jg_planar_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1219,7 +1219,7 @@ void jg_planar_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [15 x 15] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 81.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1305,7 +1305,7 @@ void jg_planar_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [3] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 237 (103 add, 133 mul, 1 sin); temporaries: 57.
+ * @note Operations: 222 (97 add, 124 mul, 1 sin); temporaries: 54.
  * @see S1 Eqs. (19), (27) along the velocity; trn2 + rot1
  */
 void jg_planar_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -703,7 +703,7 @@ void jg_revolute_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real 
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 266 (112 add, 153 mul, 1 sincos); temporaries: 64.
+ * @note Operations: 257 (109 add, 147 mul, 1 sincos); temporaries: 64.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot1; regular rows: SPEC S1.2
  */
 void jg_revolute_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1179,7 +1179,7 @@ void jg_revolute_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, c
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 81.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot1
  */
 void jg_revolute_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1512,7 +1512,7 @@ void jg_revolute_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 132 (51 add, 80 mul, 1 sincos, 2 neg); temporaries: 35.
+ * @note Operations: 130 (50 add, 79 mul, 1 sincos, 2 neg); temporaries: 35.
  * @see second time derivative of S1 Eq. (12); trn0 + rot1
  */
 void jg_revolute_parametric_table4_substituted_gamma(const jg_real *JG_RESTRICT alpha,

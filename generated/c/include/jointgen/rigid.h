@@ -666,7 +666,7 @@ void jg_rigid_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, 
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 310 (132 add, 178 mul); temporaries: 75.
+ * @note Operations: 307 (129 add, 178 mul); temporaries: 90.
  * @see second time derivative of S1 Eq. (12); trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -693,7 +693,7 @@ void jg_rigid_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [6] v_j [3] velocity of body j, body axes (A^T rdot), m/s
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 240 (102 add, 138 mul); temporaries: 57.
+ * @note Operations: 231 (99 add, 132 mul); temporaries: 57.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot0; regular rows: SPEC S1.2
  */
 void jg_rigid_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -272,7 +272,7 @@ void jg_screw_conventional_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 72 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 983 (407 add, 574 mul, 1 div, 1 atan2, 31 neg); temporaries: 224.
+ * @note Operations: 983 (407 add, 574 mul, 1 div, 1 atan2, 30 neg); temporaries: 222.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -310,7 +310,7 @@ void jg_screw_conventional_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  * @param[out] phi_q_t_lambda_q [12 x 12] column-major; virtual displacements x virtual displacements; translations
  *   in world axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 983 (407 add, 574 mul, 1 div, 1 atan2, 31 neg); temporaries: 120.
+ * @note Operations: 983 (407 add, 574 mul, 1 div, 1 atan2, 30 neg); temporaries: 120.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -422,7 +422,7 @@ void jg_screw_conventional_world_phi_q_dense(const jg_real *JG_RESTRICT r_i, con
  * @param[in] lambda [5]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
- * @note Operations: 240 (104 add, 135 mul, 1 div, 21 neg); temporaries: 86.
+ * @note Operations: 240 (104 add, 135 mul, 1 div, 21 neg); temporaries: 80.
  * @see S1 Eq. (9), corrected
  */
 void jg_screw_conventional_world_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -572,7 +572,7 @@ void jg_screw_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 623 (264 add, 357 mul, 1 div, 1 atan2, 39 neg); temporaries: 160.
+ * @note Operations: 623 (264 add, 357 mul, 1 div, 1 atan2, 39 neg); temporaries: 159.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_screw_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -824,7 +824,7 @@ void jg_screw_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 262 (111 add, 150 mul, 1 sincos, 1 neg); temporaries: 71.
+ * @note Operations: 247 (105 add, 141 mul, 1 sincos, 1 neg); temporaries: 68.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -891,7 +891,7 @@ void jg_screw_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, const jg
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 79 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 775 (311 add, 463 mul, 1 sincos, 29 neg); temporaries: 196.
+ * @note Operations: 772 (311 add, 460 mul, 1 sincos, 29 neg); temporaries: 223.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -932,7 +932,7 @@ void jg_screw_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_R
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 775 (311 add, 463 mul, 1 sincos, 29 neg); temporaries: 129.
+ * @note Operations: 772 (311 add, 460 mul, 1 sincos, 29 neg); temporaries: 129.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1043,7 +1043,7 @@ void jg_screw_parametric_substituted_phi_q_dense(const jg_real *JG_RESTRICT alph
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 9 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 65 (23 add, 41 mul, 1 sincos, 6 neg); temporaries: 23.
+ * @note Operations: 62 (23 add, 38 mul, 1 sincos, 6 neg); temporaries: 24.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1068,7 +1068,7 @@ void jg_screw_parametric_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTR
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 65 (23 add, 41 mul, 1 sincos, 6 neg); temporaries: 9.
+ * @note Operations: 62 (23 add, 38 mul, 1 sincos, 6 neg); temporaries: 9.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1; regular rows: SPEC S1.2
  */
 void jg_screw_parametric_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1268,7 +1268,7 @@ const int *jg_screw_parametric_table4_phi_q_t_lambda_q_sparsity(void);
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 126 (57 add, 68 mul, 1 cos); temporaries: 37.
+ * @note Operations: 126 (57 add, 68 mul, 1 cos); temporaries: 31.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1351,7 +1351,7 @@ void jg_screw_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, cons
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 67 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 84.
+ * @note Operations: 332 (135 add, 196 mul, 1 cos, 18 neg); temporaries: 81.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1446,7 +1446,7 @@ void jg_screw_parametric_table4_gamma(const jg_real *JG_RESTRICT r_i, const jg_r
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 232 (100 add, 131 mul, 1 sin); temporaries: 58.
+ * @note Operations: 217 (94 add, 122 mul, 1 sin); temporaries: 58.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot1
  */
 void jg_screw_parametric_table4_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1593,7 +1593,7 @@ const int *jg_screw_parametric_table4_substituted_phi_q_t_lambda_q_sparsity(void
  *   [25] theta_0 [1] rad
  *   [26] revolutions [1] 1
  * @param[out] phi [6]; constraint rows; m or 1
- * @note Operations: 126 (57 add, 68 mul, 1 cos); temporaries: 37.
+ * @note Operations: 126 (57 add, 68 mul, 1 cos); temporaries: 31.
  * @see S1 Eqs. (12), (16)-(18), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1810,7 +1810,7 @@ void jg_screw_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG_RES
  * @param[out] phi_q_t_lambda_q [13 x 13] compressed-columns, 10 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 411 (166 add, 244 mul, 1 sincos, 17 neg); temporaries: 115.
+ * @note Operations: 408 (163 add, 244 mul, 1 sincos, 17 neg); temporaries: 109.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1852,7 +1852,7 @@ void jg_screw_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, 
  * @param[out] phi_q_t_lambda_q [13 x 13] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 411 (166 add, 244 mul, 1 sincos, 17 neg); temporaries: 59.
+ * @note Operations: 408 (163 add, 244 mul, 1 sincos, 17 neg); temporaries: 59.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn1 + rot1
  */
 void jg_screw_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

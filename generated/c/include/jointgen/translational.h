@@ -515,7 +515,7 @@ void jg_translational_conventional_world_phi_q_t_lambda(const jg_real *JG_RESTRI
  * @param[out] phi_q_t_lambda_q [12 x 12] compressed-columns, 60 nonzeros; virtual displacements x virtual
  *   displacements; translations in world axes, rotations in world axes; N/m, N, N m
  * @param[out] gamma [5]; constraint rows; translations in world axes, rotations in world axes; m/s^2 or 1/s^2
- * @note Operations: 434 (180 add, 254 mul, 30 neg); temporaries: 113.
+ * @note Operations: 434 (180 add, 254 mul, 30 neg); temporaries: 107.
  * @see S1 Table 1, Eqs. (4)-(9)
  */
 void jg_translational_conventional_world_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -709,7 +709,7 @@ void jg_translational_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRI
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 310 (132 add, 178 mul); temporaries: 75.
+ * @note Operations: 307 (129 add, 178 mul); temporaries: 90.
  * @see second time derivative of S1 Eq. (12); trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -737,7 +737,7 @@ void jg_translational_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [1] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 237 (102 add, 135 mul); temporaries: 60.
+ * @note Operations: 222 (96 add, 126 mul); temporaries: 60.
  * @see S1 Eqs. (19), (27) along the velocity; trn1 + rot0; regular rows: SPEC S1.2
  */
 void jg_translational_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,

@@ -619,7 +619,7 @@ void jg_universal_parametric_phi_q_dense(const jg_real *JG_RESTRICT r_i, const j
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 556 (215 add, 339 mul, 2 sincos, 26 neg); temporaries: 151.
+ * @note Operations: 555 (215 add, 338 mul, 2 sincos, 26 neg); temporaries: 152.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -645,7 +645,7 @@ void jg_universal_parametric_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 556 (215 add, 339 mul, 2 sincos, 26 neg); temporaries: 94.
+ * @note Operations: 555 (215 add, 338 mul, 2 sincos, 26 neg); temporaries: 94.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -704,7 +704,7 @@ void jg_universal_parametric_gamma(const jg_real *JG_RESTRICT r_i, const jg_real
  *   [9] omega_j [3] angular velocity of body j, body axes, rad/s
  *   [12] alphadot [2] rates of alpha, m/s or rad/s
  * @param[out] phi_q_v [6]; constraint rows; translations in body axes, rotations in body axes; m/s or 1/s
- * @note Operations: 295 (123 add, 170 mul, 2 sincos, 1 neg); temporaries: 72.
+ * @note Operations: 280 (117 add, 161 mul, 2 sincos, 1 neg); temporaries: 72.
  * @see S1 Eqs. (19), (27) along the velocity; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_phi_q_v(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -765,7 +765,7 @@ void jg_universal_parametric_phi_q_t_lambda(const jg_real *JG_RESTRICT r_i, cons
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 94 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 930 (364 add, 564 mul, 2 sincos, 32 neg); temporaries: 214.
+ * @note Operations: 929 (364 add, 563 mul, 2 sincos, 32 neg); temporaries: 229.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -803,7 +803,7 @@ void jg_universal_parametric_all(const jg_real *JG_RESTRICT r_i, const jg_real *
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 930 (364 add, 564 mul, 2 sincos, 32 neg); temporaries: 144.
+ * @note Operations: 929 (364 add, 563 mul, 2 sincos, 32 neg); temporaries: 144.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2; regular rows: SPEC S1.2
  */
 void jg_universal_parametric_all_dense(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1180,7 +1180,7 @@ void jg_universal_parametric_table4_phi_q_dense(const jg_real *JG_RESTRICT r_i, 
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 68 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 334 (135 add, 197 mul, 2 cos, 18 neg); temporaries: 84.
+ * @note Operations: 334 (135 add, 197 mul, 2 cos, 18 neg); temporaries: 81.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT r_i,
@@ -1423,7 +1423,7 @@ void jg_universal_parametric_table4_substituted_phi(const jg_real *JG_RESTRICT r
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] compressed-columns, 47 nonzeros; constraint rows x virtual displacements;
  *   translations in body axes, rotations in body axes; 1, m, 1/rad
- * @note Operations: 139 (46 add, 91 mul, 2 sincos, 9 neg); temporaries: 27.
+ * @note Operations: 136 (44 add, 90 mul, 2 sincos, 9 neg); temporaries: 29.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1443,7 +1443,7 @@ void jg_universal_parametric_table4_substituted_phi_q_nz(const jg_real *JG_RESTR
  *   [15] C_j [3 x 3] joint frame [f g h], body frame j
  * @param[out] phi_q [6 x 14] column-major; constraint rows x virtual displacements; translations in body axes,
  *   rotations in body axes; 1, m, 1/rad
- * @note Operations: 139 (46 add, 91 mul, 2 sincos, 9 neg); temporaries: 47.
+ * @note Operations: 136 (44 add, 90 mul, 2 sincos, 9 neg); temporaries: 47.
  * @see S1 Eqs. (13), (19)-(21), (26)-(33), (38); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1465,7 +1465,7 @@ void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RE
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 178 (65 add, 111 mul, 2 sincos, 3 neg); temporaries: 45.
+ * @note Operations: 183 (67 add, 114 mul, 2 sincos, 3 neg); temporaries: 49.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1487,7 +1487,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 178 (65 add, 111 mul, 2 sincos, 3 neg); temporaries: 20.
+ * @note Operations: 183 (67 add, 114 mul, 2 sincos, 3 neg); temporaries: 20.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,
@@ -1595,7 +1595,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda(const jg_real *JG
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 562 (217 add, 343 mul, 2 sincos, 12 neg); temporaries: 127.
+ * @note Operations: 554 (215 add, 337 mul, 2 sincos, 12 neg); temporaries: 127.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r_i, const jg_real *JG_RESTRICT A_i,
@@ -1634,7 +1634,7 @@ void jg_universal_parametric_table4_substituted_all(const jg_real *JG_RESTRICT r
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
  * @param[out] gamma [6]; constraint rows; translations in body axes, rotations in body axes; m/s^2 or 1/s^2
- * @note Operations: 562 (217 add, 343 mul, 2 sincos, 12 neg); temporaries: 67.
+ * @note Operations: 554 (215 add, 337 mul, 2 sincos, 12 neg); temporaries: 67.
  * @see S1 Eqs. (12)-(38), Tables 3-5; trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_all_dense(const jg_real *JG_RESTRICT r_i,

@@ -1,4 +1,4 @@
-"""The ways to know a vector in a frame: given, turned from another frame, a sum, a cross product, its components."""
+"""The ways to know a vector in a frame: given, turned from another frame, a sum, a cross product."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from codegen.ir.lower.collect import cross_products
 from codegen.ir.lower.frames import Components
 from codegen.ir.lower.layout import Layout, Signed
 from codegen.ir.lower.polynomial import ONE, Polynomial
-from codegen.ir.lower.quantities import Axis, Cross, Given, Named, Primitive, Vector, primitive_vector
+from codegen.ir.lower.quantities import Axis, Cross, Given, Named, Vector, primitive_vector
 
 _KNOWN = 60
 """How many sums are looked through for one that is part of another."""
@@ -67,44 +67,10 @@ def given(layout: Layout, description: Axis | Given, frame: str) -> Components |
     return None if matrix is None else matrix[description.k]
 
 
-def _is_of_axes(layout: Layout, vector: Vector, frame: str) -> bool:
-    """Whether a vector is an axis, or made of cross products with axes of the frame."""
-    parts = [layout.space.primitives[primitive] for primitive, _ in vector.terms]
-    is_axis = vector.single is not None and isinstance(parts[0], Axis)
-    return is_axis or (bool(parts) and all(_has_axis(layout, part, frame) for part in parts))
-
-
-def _has_axis(layout: Layout, description: Primitive, frame: str) -> bool:
-    """Whether a primitive is a cross product with an axis of the frame."""
-    if not isinstance(description, Cross):
-        return False
-    sides = (layout.space.primitives[p] for p in (description.left, description.right))
-    return any(isinstance(side, Axis) and side.frame == frame for side in sides)
-
-
-def _is_given(layout: Layout, vector: Vector, frame: str) -> bool:
-    description = layout.space.primitives[vector.single] if vector.single is not None else None
-    return isinstance(description, Axis | Given) and given(layout, description, frame) is not None
-
-
 def _by_other_axes(layout: Layout, axis: Axis, frame: str) -> Iterator[Alternative]:
     """``h = f x g``."""
     first, second = (layout.space.vector(Axis(axis.frame, (axis.k + n) % 3)) for n in (1, 2))
     yield cross(layout, layout.vector(first, frame), layout.vector(second, frame))
-
-
-def components(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]:
-    """Scalar products with the axes of the frame, where others need them too.
-
-    Those of an axis serve its own frame as well, and those of cross products with axes of the frame several such.
-    """
-    if frame not in layout.axes or _is_given(layout, vector, frame):
-        return
-    products = [layout.space.dot(layout.space.vector(Axis(frame, k)), vector) for k in range(3)]
-    needed = any(product.constant is None and layout.has_scalar(product) for product in products)
-    if needed or _is_of_axes(layout, vector, frame):
-        signs, nodes = zip(*(layout.scalar(product) for product in products), strict=True)
-        yield Alternative("components", nodes, 0.0, signs, f"components {frame}")
 
 
 def _raw(layout: Layout, vector: Vector, frame: str) -> Iterator[Alternative]:

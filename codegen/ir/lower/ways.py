@@ -6,7 +6,15 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from codegen.errors import InternalError
-from codegen.ir.lower import block_forms, finished_blocks, raw_forms, scalar_forms, scaled_vectors, vector_forms
+from codegen.ir.lower import (
+    block_forms,
+    component_forms,
+    finished_blocks,
+    raw_forms,
+    scalar_forms,
+    scaled_vectors,
+    vector_forms,
+)
 from codegen.ir.lower.alternatives import Alternative, Key
 from codegen.ir.lower.layout import Layout
 
@@ -58,7 +66,7 @@ def _early(layout: Layout, key: Key) -> Iterable[Alternative]:
 
 
 def _components(layout: Layout, key: Key) -> Iterable[Alternative]:
-    return vector_forms.components(layout, key[1], key[2]) if key[0] == "vector" else ()
+    return component_forms.components(layout, key[1], key[2]) if key[0] == "vector" else ()
 
 
 def _with_known(layout: Layout, key: Key) -> Iterable[Alternative]:

@@ -186,100 +186,93 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
     const jg_real *const C_j = geometry + 15;
     jg_real sine_0;
     jg_real cosine_0;
-    jg_sincos(alpha[1], &sine_0, &cosine_0);
+    jg_sincos(alpha[0], &sine_0, &cosine_0);
     jg_real sine_1;
     jg_real cosine_1;
-    jg_sincos(alpha[0], &sine_1, &cosine_1);
+    jg_sincos(alpha[1], &sine_1, &cosine_1);
     /* lambda_0_1_2_in_joint_i = lambda_0_1_2, axes of joint i */
     const jg_real lambda_0_1_2_in_joint_i_0 = C_i[0] * lambda[0] + C_i[1] * lambda[1] + C_i[2] * lambda[2];
     const jg_real lambda_0_1_2_in_joint_i_1 = C_i[3] * lambda[0] + C_i[4] * lambda[1] + C_i[5] * lambda[2];
     const jg_real lambda_0_1_2_in_joint_i_2 = C_i[6] * lambda[0] + C_i[7] * lambda[1] + C_i[8] * lambda[2];
-    /* s_j_in_joint_j = s_j, axes of joint j */
-    const jg_real s_j_in_joint_j_0 = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
-    const jg_real s_j_in_joint_j_1 = C_j[3] * s_j[0] + C_j[4] * s_j[1] + C_j[5] * s_j[2];
-    const jg_real s_j_in_joint_j_2 = C_j[6] * s_j[0] + C_j[7] * s_j[1] + C_j[8] * s_j[2];
-    const jg_real t10 = cosine_0 * lambda[3];
+    /* s_j_dot_f_j = s_j . f_j */
+    const jg_real s_j_dot_f_j = C_j[0] * s_j[0] + C_j[1] * s_j[1] + C_j[2] * s_j[2];
+    const jg_real t8 = cosine_0 * sine_1;
+    const jg_real t9 = sine_1 * lambda[3];
     /* H_11 =  */
     const jg_real H_11 = cosine_0 * cosine_1;
-    const jg_real t12 = lambda[3] * sine_0;
-    /* h_j_cross_f_i_in_joint_i = h_j x f_i, axes of joint i */
-    const jg_real h_j_cross_f_i_in_joint_i_2 = cosine_1 * sine_0;
+    /* v_0_in_joint_j = sin(alpha_1) lambda_5 f_j + cos(alpha_1) lambda_3 g_j - sin(alpha_1) lambda_3 h_j, axes of
+        ... */
+    const jg_real v_0_in_joint_j_1 = lambda[3] * cosine_1;
     /* H_02 =  */
-    const jg_real H_02 = sine_0 * sine_1;
-    /* g_j_cross_h_i_in_joint_i = g_j x h_i, axes of joint i */
-    const jg_real g_j_cross_h_i_in_joint_i_1 = cosine_0 * sine_1;
-    const jg_real t16 = cosine_0 * lambda[4];
-    const jg_real t17 = sine_0 * lambda[4];
+    const jg_real H_02 = sine_1 * sine_0;
+    const jg_real t13 = cosine_1 * sine_0;
     /* lambda_0_1_2_in_joint_j = lambda_0_1_2, axes of joint j */
-    const jg_real lambda_0_1_2_in_joint_j_0 = cosine_1 * lambda_0_1_2_in_joint_i_0 + sine_1 *
+    const jg_real lambda_0_1_2_in_joint_j_0 = cosine_0 * lambda_0_1_2_in_joint_i_0 + sine_0 *
         lambda_0_1_2_in_joint_i_1;
-    const jg_real t19 = cosine_1 * lambda[4];
-    /* v_1_in_joint_i = cos(alpha_1) lambda_4 g_j x f_i - sin(alpha_1) lambda_4 h_j x f_i, axes of joint i */
-    const jg_real v_1_in_joint_i_1 = sine_0 * t16 - cosine_0 * t17;
-    /* v_3_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
-    const jg_real v_3_in_joint_j = cosine_0 * lambda[5];
-    const jg_real t22 = H_11 * t16 + h_j_cross_f_i_in_joint_i_2 * t17;
-    /* v_0_in_joint_i = cos(alpha_1) lambda_3 g_j x h_i - sin(alpha_1) lambda_3 h_j x h_i + sin(alpha_1) lambda_5
+    const jg_real t15 = sine_1 * C_j[5];
+    const jg_real t16 = cosine_1 * C_j[8];
+    const jg_real t17 = sine_1 * C_j[4];
+    const jg_real t18 = cosine_1 * C_j[7];
+    const jg_real t19 = sine_1 * C_j[3];
+    const jg_real t20 = cosine_1 * C_j[6];
+    /* v_3_in_j = sin(alpha_1) g_j + cos(alpha_1) h_j, axes of body j */
+    const jg_real v_3_in_j_2 = t15 + t16;
+    const jg_real t22 = (cosine_1 * H_11 + sine_1 * t8) * lambda[4];
+    const jg_real v_3_in_j_1 = t17 + t18;
+    /* v_1_in_joint_i = cos(alpha_1) lambda_4 g_j x f_i + cos(alpha_1) lambda_3 g_j x h_i - sin(alpha_1) lambda_4
         ... */
-    const jg_real v_0_in_joint_i_0 = t10 * H_11 + t12 * h_j_cross_f_i_in_joint_i_2 + lambda[5] * H_02;
-    /* v_5_in_joint_j = sin(alpha_1) g_j x lambda_0_1_2 + cos(alpha_1) h_j x lambda_0_1_2, axes of joint j */
-    const jg_real v_5_in_joint_j_1 = cosine_0 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t25 = sine_0 * lambda_0_1_2_in_joint_j_0;
-    const jg_real t26 = lambda_0_1_2_in_joint_j_0 * s_j_in_joint_j_0;
-    const jg_real v_0_in_joint_i_1 = t10 * g_j_cross_h_i_in_joint_i_1 + t12 * H_02 - h_j_cross_f_i_in_joint_i_2 *
-        lambda[5];
-    const jg_real t28 = cosine_0 * s_j_in_joint_j_2 + sine_0 * s_j_in_joint_j_1;
-    /* v_3_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
-    const jg_real v_3_in_joint_i_0 = cosine_1 * v_3_in_joint_j;
-    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - h_j_cross_f_i_in_joint_i_2 *
-        lambda_0_1_2_in_joint_i_1 + cosine_0 * lambda_0_1_2_in_joint_i_2;
-    const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - g_j_cross_h_i_in_joint_i_1 *
-        lambda_0_1_2_in_joint_i_0 + sine_0 * lambda_0_1_2_in_joint_i_2;
-    /* v_2_in_joint_i = cos(alpha_1) lambda_4 g_j x f_i + cos(alpha_1) lambda_3 g_j x h_i - sin(alpha_1) lambda_4
-        ... */
-    const jg_real v_2_in_joint_i_1 = v_0_in_joint_i_1 + v_1_in_joint_i_1;
-    const jg_real t33 = lambda_0_1_2_in_joint_j_0 * t28;
-    const jg_real v_3_in_joint_i_1 = sine_1 * v_3_in_joint_j;
-    const jg_real v_5_in_joint_j_0 = sine_0 * lambda_0_1_2_in_joint_j_2 - cosine_0 * lambda_0_1_2_in_joint_j_1;
+    const jg_real v_1_in_joint_i = H_11 * v_0_in_joint_j_1 + lambda[5] * H_02 + t8 * t9;
+    const jg_real t25 = t8 * lambda[5] - v_0_in_joint_j_1 * t13 - t9 * H_02;
+    const jg_real t26 = cosine_0 * lambda[4];
+    /* v_2_in_joint_j = lambda_5 g_j x h_i, axes of joint j */
+    const jg_real v_2_in_joint_j = cosine_1 * lambda[5];
+    const jg_real lambda_0_1_2_in_joint_j_1 = H_11 * lambda_0_1_2_in_joint_i_1 - t13 * lambda_0_1_2_in_joint_i_0 +
+        sine_1 * lambda_0_1_2_in_joint_i_2;
+    const jg_real lambda_0_1_2_in_joint_j_2 = H_02 * lambda_0_1_2_in_joint_i_0 - t8 * lambda_0_1_2_in_joint_i_1 +
+        cosine_1 * lambda_0_1_2_in_joint_i_2;
+    const jg_real v_3_in_j_0 = t19 + t20;
+    /* v_2_in_joint_i = lambda_5 g_j x h_i, axes of joint i */
+    const jg_real v_2_in_joint_i_0 = cosine_0 * v_2_in_joint_j;
+    const jg_real v_2_in_joint_i_1 = sine_0 * v_2_in_joint_j;
+    const jg_real t33 = t9 - t13 * lambda[4];
+    /* lambda_0_1_2_in_j = lambda_0_1_2, axes of body j */
+    const jg_real lambda_0_1_2_in_j_1 = lambda_0_1_2_in_joint_j_0 * C_j[1] + lambda_0_1_2_in_joint_j_1 * C_j[4] +
+        lambda_0_1_2_in_joint_j_2 * C_j[7];
+    const jg_real lambda_0_1_2_in_j_2 = lambda_0_1_2_in_joint_j_0 * C_j[2] + lambda_0_1_2_in_joint_j_1 * C_j[5] +
+        lambda_0_1_2_in_joint_j_2 * C_j[8];
+    const jg_real lambda_0_1_2_in_j_0 = lambda_0_1_2_in_joint_j_0 * C_j[0] + lambda_0_1_2_in_joint_j_1 * C_j[3] +
+        lambda_0_1_2_in_joint_j_2 * C_j[6];
+    const jg_real t37 = v_3_in_j_0 * s_j[0] + v_3_in_j_1 * s_j[1] + v_3_in_j_2 * s_j[2];
+    const jg_real t38 = v_0_in_joint_j_1 + H_02 * lambda[4];
+    /* v_2_in_i = lambda_5 g_j x h_i, axes of body i */
+    const jg_real v_2_in_i_0 = C_i[0] * v_2_in_joint_i_0 + C_i[3] * v_2_in_joint_i_1;
+    const jg_real v_2_in_i_1 = C_i[1] * v_2_in_joint_i_0 + C_i[4] * v_2_in_joint_i_1;
+    phi_q_t_lambda_q[9] = t26;
+    phi_q_t_lambda_q[19] = v_2_in_joint_j;
+    phi_q_t_lambda_q[0] = t22 * C_i[6] - (v_1_in_joint_i * C_i[0] - t25 * C_i[3]);
+    phi_q_t_lambda_q[1] = t22 * C_i[7] - (v_1_in_joint_i * C_i[1] - t25 * C_i[4]);
+    phi_q_t_lambda_q[2] = t22 * C_i[8] - (v_1_in_joint_i * C_i[2] - t25 * C_i[5]);
+    phi_q_t_lambda_q[10] = v_2_in_i_0;
+    phi_q_t_lambda_q[11] = v_2_in_i_1;
+    phi_q_t_lambda_q[3] = lambda_0_1_2_in_j_1 * v_3_in_j_2 - lambda_0_1_2_in_j_2 * v_3_in_j_1;
+    const jg_real v_2_in_i_2 = C_i[2] * v_2_in_joint_i_0 + C_i[5] * v_2_in_joint_i_1;
     /* s_j_dot_lambda_0_1_2 = s_j . lambda_0_1_2 */
-    const jg_real s_j_dot_lambda_0_1_2 = t26 + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_1 +
-        lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_2;
-    /* v_3_in_i = lambda_5 g_j x h_i, axes of body i */
-    const jg_real v_3_in_i_0 = C_i[0] * v_3_in_joint_i_0 + C_i[3] * v_3_in_joint_i_1;
-    const jg_real v_3_in_i_1 = C_i[1] * v_3_in_joint_i_0 + C_i[4] * v_3_in_joint_i_1;
-    const jg_real v_3_in_i_2 = C_i[2] * v_3_in_joint_i_0 + C_i[5] * v_3_in_joint_i_1;
-    phi_q_t_lambda_q[9] = t19;
-    phi_q_t_lambda_q[19] = v_3_in_joint_j;
-    phi_q_t_lambda_q[0] = t22 * C_i[6] - (v_0_in_joint_i_0 * C_i[0] + v_2_in_joint_i_1 * C_i[3]);
-    phi_q_t_lambda_q[1] = t22 * C_i[7] - (v_0_in_joint_i_0 * C_i[1] + v_2_in_joint_i_1 * C_i[4]);
-    phi_q_t_lambda_q[2] = t22 * C_i[8] - (v_0_in_joint_i_0 * C_i[2] + v_2_in_joint_i_1 * C_i[5]);
-    phi_q_t_lambda_q[10] = v_3_in_i_0;
-    phi_q_t_lambda_q[11] = v_3_in_i_1;
-    phi_q_t_lambda_q[12] = v_3_in_i_2;
-    const jg_real t40 = s_j_dot_lambda_0_1_2 + t19;
-    /* v_7_in_joint_j = (cos(alpha_1) lambda_5 + (s_j . lambda_0_1_2)) f_j + (-H_01 lambda_4 - sin(alpha_1) ... */
-    const jg_real v_7_in_joint_j = s_j_dot_lambda_0_1_2 + v_3_in_joint_j - t26;
-    const jg_real t42 = t12 - g_j_cross_h_i_in_joint_i_1 * lambda[4] + lambda_0_1_2_in_joint_j_1 * s_j_in_joint_j_0;
-    const jg_real t43 = t10 + H_02 * lambda[4] + lambda_0_1_2_in_joint_j_2 * s_j_in_joint_j_0;
-    /* v_6_in_joint_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
-    const jg_real v_6_in_joint_j_2 = cosine_0 * t40 - lambda_0_1_2_in_joint_j_2 * t28;
-    const jg_real v_6_in_joint_j_1 = sine_0 * t40 - lambda_0_1_2_in_joint_j_1 * t28;
-    phi_q_t_lambda_q[13] = lambda_0_1_2_in_joint_j_2 * C_j[3] - lambda_0_1_2_in_joint_j_1 * C_j[6];
-    phi_q_t_lambda_q[14] = lambda_0_1_2_in_joint_j_2 * C_j[4] - lambda_0_1_2_in_joint_j_1 * C_j[7];
-    phi_q_t_lambda_q[3] = t25 * C_j[6] - (v_5_in_joint_j_0 * C_j[0] + v_5_in_joint_j_1 * C_j[3]);
-    phi_q_t_lambda_q[15] = lambda_0_1_2_in_joint_j_2 * C_j[5] - lambda_0_1_2_in_joint_j_1 * C_j[8];
-    phi_q_t_lambda_q[4] = t25 * C_j[7] - (v_5_in_joint_j_0 * C_j[1] + v_5_in_joint_j_1 * C_j[4]);
-    phi_q_t_lambda_q[5] = t25 * C_j[8] - (v_5_in_joint_j_0 * C_j[2] + v_5_in_joint_j_1 * C_j[5]);
-    phi_q_t_lambda_q[16] = C_j[6] * t43 - (C_j[0] * v_7_in_joint_j - C_j[3] * t42);
-    phi_q_t_lambda_q[17] = C_j[7] * t43 - (C_j[1] * v_7_in_joint_j - C_j[4] * t42);
-    /* v_6_in_j = (cos(alpha_0) sin(alpha_1) lambda_4 + sin(alpha_1) (s_j . lambda_0_1_2)) g_j + ... */
-    const jg_real v_6_in_j_0 = C_j[3] * v_6_in_joint_j_1 - C_j[0] * t33 + C_j[6] * v_6_in_joint_j_2;
-    const jg_real v_6_in_j_1 = C_j[4] * v_6_in_joint_j_1 - C_j[1] * t33 + C_j[7] * v_6_in_joint_j_2;
-    const jg_real v_6_in_j_2 = C_j[5] * v_6_in_joint_j_1 - C_j[2] * t33 + C_j[8] * v_6_in_joint_j_2;
-    phi_q_t_lambda_q[18] = C_j[8] * t43 - (C_j[2] * v_7_in_joint_j - C_j[5] * t42);
-    phi_q_t_lambda_q[6] = -v_6_in_j_0;
-    phi_q_t_lambda_q[7] = -v_6_in_j_1;
-    phi_q_t_lambda_q[8] = -v_6_in_j_2;
+    const jg_real s_j_dot_lambda_0_1_2 = lambda_0_1_2_in_j_0 * s_j[0] + lambda_0_1_2_in_j_1 * s_j[1] +
+        lambda_0_1_2_in_j_2 * s_j[2];
+    const jg_real t43 = s_j_dot_lambda_0_1_2 + t26;
+    const jg_real t44 = s_j_dot_lambda_0_1_2 + v_2_in_joint_j;
+    phi_q_t_lambda_q[12] = v_2_in_i_2;
+    phi_q_t_lambda_q[4] = lambda_0_1_2_in_j_2 * v_3_in_j_0 - v_3_in_j_2 * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[5] = v_3_in_j_1 * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_1 * v_3_in_j_0;
+    phi_q_t_lambda_q[13] = lambda_0_1_2_in_j_1 * C_j[2] - C_j[1] * lambda_0_1_2_in_j_2;
+    phi_q_t_lambda_q[14] = lambda_0_1_2_in_j_2 * C_j[0] - C_j[2] * lambda_0_1_2_in_j_0;
+    phi_q_t_lambda_q[15] = C_j[1] * lambda_0_1_2_in_j_0 - lambda_0_1_2_in_j_1 * C_j[0];
+    phi_q_t_lambda_q[6] = lambda_0_1_2_in_j_0 * t37 - (t19 * t43 + t20 * t43);
+    phi_q_t_lambda_q[7] = lambda_0_1_2_in_j_1 * t37 - (t17 * t43 + t18 * t43);
+    phi_q_t_lambda_q[8] = lambda_0_1_2_in_j_2 * t37 - (t15 * t43 + t16 * t43);
+    phi_q_t_lambda_q[16] = lambda_0_1_2_in_j_0 * s_j_dot_f_j - (C_j[0] * t44 - C_j[3] * t33 - C_j[6] * t38);
+    phi_q_t_lambda_q[17] = lambda_0_1_2_in_j_1 * s_j_dot_f_j - (C_j[1] * t44 - C_j[4] * t33 - C_j[7] * t38);
+    phi_q_t_lambda_q[18] = lambda_0_1_2_in_j_2 * s_j_dot_f_j - (C_j[2] * t44 - C_j[5] * t33 - C_j[8] * t38);
 }
 
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,

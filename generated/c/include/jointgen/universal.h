@@ -1465,7 +1465,7 @@ void jg_universal_parametric_table4_substituted_phi_q_dense(const jg_real *JG_RE
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] compressed-columns, 20 nonzeros; virtual displacements x virtual
  *   displacements; translations in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 183 (67 add, 114 mul, 2 sincos, 3 neg); temporaries: 49.
+ * @note Operations: 177 (65 add, 110 mul, 2 sincos); temporaries: 45.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_real *JG_RESTRICT alpha,
@@ -1487,7 +1487,7 @@ void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_nz(const jg_rea
  * @param[in] lambda [6]; constraint rows; N, N m
  * @param[out] phi_q_t_lambda_q [14 x 14] column-major; virtual displacements x virtual displacements; translations
  *   in body axes, rotations in body axes; N/m, N, N m
- * @note Operations: 183 (67 add, 114 mul, 2 sincos, 3 neg); temporaries: 20.
+ * @note Operations: 177 (65 add, 110 mul, 2 sincos); temporaries: 20.
  * @see S1 Eqs. (14), (22)-(25), (34)-(37); trn0 + rot2
  */
 void jg_universal_parametric_table4_substituted_phi_q_t_lambda_q_dense(const jg_real *JG_RESTRICT alpha,

@@ -183,6 +183,7 @@ def summary(mechanism: Mechanism, found: Record, done: Run, settings: Settings) 
         "iterations": done.iterations,
         "events": done.events,
         "evaluations": done.evaluations,
+        "exchanges": done.exchanges,
         "least_singular_value": float(np.min(found.least)),
     }
     if found.tau is not None:

@@ -47,6 +47,9 @@ class LinkEntry(RowEntry):
         inertia(),
         "inertia in kg m^2 about the centre of mass, axes of the link: three principal values or three rows of three",
     )
+    effective: bool = key(
+        FLAG, "whether the inertia is not that of one body: moments in a plane, identified ones, with a drive's", False
+    )
     prefer: Fraction | None = key(
         ANGLE, "value of a dependent coordinate in rad or m from which the loops are closed, to choose the branch"
     )

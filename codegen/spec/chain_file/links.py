@@ -8,7 +8,7 @@ from codegen.errors import Mistake
 from codegen.spec.chain import BASE, Link, Row
 from codegen.spec.chain_file.entries import ChainEntry, LinkEntry, RowEntry
 from codegen.spec.scene import ZERO_VECTOR, Matrix
-from codegen.spec.scene_file.bodies import inertia_mistakes, symmetric
+from codegen.spec.scene_file.bodies import TOLERANCE, definite_mistakes, symmetric, triangle_mistakes
 from codegen.spec.scene_file.text import nearest_known, quoted, shown
 
 _NO_INERTIA: Matrix = (ZERO_VECTOR, ZERO_VECTOR, ZERO_VECTOR)
@@ -53,11 +53,29 @@ def mass_mistakes(link: LinkEntry) -> Iterator[Mistake]:
         what = "a massless link has no centre of mass"
         yield Mistake(f"{link.place}: centre", what, "leave centre out, or give a mass")
     if link.inertia is not None and any(map(any, link.inertia)):
-        yield from inertia_mistakes(link.inertia, f"{link.place}: inertia")
+        yield from _inertia_mistakes(link, link.inertia)
+
+
+def _inertia_mistakes(link: LinkEntry, inertia: Matrix) -> Iterator[Mistake]:
+    """Check an inertia: a thin rod has none about its axis, and what is identified is that of no single body."""
+    place = f"{link.place}: inertia"
+    mistakes = definite_mistakes(inertia, place, -TOLERANCE)
+    if mistakes or link.effective:
+        yield from mistakes
+        return
+    for mistake in triangle_mistakes(inertia, place):
+        remedy = "correct it, or say effective = true: moments of motion in a plane, identified ones, or with a drive's"
+        yield Mistake(mistake.place, mistake.what, remedy)
 
 
 def massless_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
-    """Find coordinates that move no mass and that no cut holds: their accelerations would be undetermined."""
+    """Find coordinates that move no mass and that no cut holds: their accelerations would be undetermined.
+
+    Where a cut names a link that is not there, that is the mistake.
+    """
+    names = {BASE, *(link.name for link in entry.link)}
+    if any(frame.link not in names for cut in entry.cut for frame in (cut.base, cut.far) if frame is not None):
+        return
     children = {link.name: [other.name for other in entry.link if other.parent == link.name] for link in entry.link}
     held = {frame.link for cut in entry.cut for frame in (cut.base, cut.far) if frame is not None}
     heavy = {link.name for link in entry.link if link.mass or (link.inertia and any(map(any, link.inertia)))}

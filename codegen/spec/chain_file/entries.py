@@ -47,6 +47,9 @@ class LinkEntry(RowEntry):
         inertia(),
         "inertia in kg m^2 about the centre of mass, axes of the link: three principal values or three rows of three",
     )
+    rotor: Fraction = key(
+        number("kg m^2 or kg"), "inertia of a drive as the coordinate feels it, gear ratio squared times its own", _NONE
+    )
     effective: bool = key(
         FLAG, "whether the inertia is not that of one body: moments in a plane, identified ones, with a drive's", False
     )

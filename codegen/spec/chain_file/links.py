@@ -49,6 +49,9 @@ def mass_mistakes(link: LinkEntry) -> Iterator[Mistake]:
     """Check the mass properties of one link."""
     if link.mass < 0:
         yield Mistake(f"{link.place}: mass", f"is {shown(link.mass)} kg", "give a mass of 0 kg or more")
+    if link.rotor < 0:
+        unit = "kg" if link.type == "prismatic" else "kg m^2"
+        yield Mistake(f"{link.place}: rotor", f"is {shown(link.rotor)} {unit}", f"give 0 {unit} or more")
     if link.mass == 0 and "mass" not in link.wrong and any(link.centre):
         what = "a massless link has no centre of mass"
         yield Mistake(f"{link.place}: centre", what, "leave centre out, or give a mass")
@@ -78,7 +81,7 @@ def massless_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
         return
     children = {link.name: [other.name for other in entry.link if other.parent == link.name] for link in entry.link}
     held = {frame.link for cut in entry.cut for frame in (cut.base, cut.far) if frame is not None}
-    heavy = {link.name for link in entry.link if link.mass or (link.inertia and any(map(any, link.inertia)))}
+    heavy = {link.name for link in entry.link if _is_heavy(link)}
     weighty: set[str | None] = set()
     for link in reversed(entry.link):
         if link.name in held | heavy or weighty.intersection(children[link.name]):
@@ -87,6 +90,10 @@ def massless_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
         if link.name not in weighty and not {"name", "mass", "inertia"} & link.wrong:
             what = "neither it nor what hangs on it has mass, and no cut holds it"
             yield Mistake(link.place, what, "give a mass or an inertia, or leave it out")
+
+
+def _is_heavy(link: LinkEntry) -> bool:
+    return bool(link.mass or link.rotor or (link.inertia and any(map(any, link.inertia))))
 
 
 def make_row(entry: RowEntry) -> Row:
@@ -106,4 +113,5 @@ def make_link(entry: LinkEntry) -> Link:
         symmetric(entry.inertia or _NO_INERTIA),
         entry.prefer,
         entry.pitch,
+        entry.rotor,
     )

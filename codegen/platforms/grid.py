@@ -112,7 +112,8 @@ def poses_of_file(file: Path, platform: Platform) -> Poses:
     table = _table(file)
     if table.ndim != 2 or table.shape[1] != 3 + entries:
         what = f"has {table.shape[1] if table.ndim == 2 else 0} columns"
-        remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}, column by column)"
+        order = ", column by column" if name == "R" else ""
+        remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}{order}); attitude under [output] says which"
         raise SpecificationError([Mistake(str(file), what, remedy)])
     wrong = (
         first + k

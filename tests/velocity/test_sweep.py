@@ -23,6 +23,7 @@ from codegen.platforms.results import results_file
 from codegen.platforms.run import chosen_poses, evaluated
 from codegen.platforms.spool import CHUNK, spool
 from codegen.platforms.sweep import Kernel, Progress, kernel, sweep
+from codegen.report.index_maps import index_maps
 from codegen.report.platform_report import platform_report
 from codegen.spec.platform import ATTITUDES
 from codegen.spec.platform_file import read_platform
@@ -235,6 +236,12 @@ def test_every_example_is_read_and_is_not_singular_at_home(path: Path) -> None:
     assert matrices in ("ZYX", "matrix")
     plain = read_platform(path.read_text().replace('attitude = "quaternion"', ""), path.name)
     assert found(plain, ("status",), [where])["status"][0, 0] == 0
+
+
+def test_maps_of_more_than_two_axes_say_where_the_others_are_cut() -> None:
+    table = evaluated(chosen_poses(MATRICES, None, "x=-0.1:0.1:3,y=0:0.1:2,z=0.9,yaw=0:0.2:3", "csv"))  # type: ignore[arg-type]
+    drawn = index_maps(table)
+    assert drawn is not None and "At z 0.9 m, yaw 0.1 rad" in drawn
 
 
 def test_a_report_without_two_axes_has_no_maps() -> None:

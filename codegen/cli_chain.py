@@ -55,19 +55,20 @@ def generate_relative(file: Path, copies: int | None, real: str, target: Path, g
 def _generate_chain(file: Path, real: str, target: Path) -> None:
     from codegen import output
     from codegen.chains.read import read
-    from codegen.scenes.generate import check_options
 
-    check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
     _write_chain(described, real, target)
 
 
 def _write_chain(described: Any, real: str, target: Path) -> None:
+    """Generate; what is imported here takes seconds, and mistakes of a file have been told."""
     from codegen import output
     from codegen.chains.generate import generate_chain, steps
     from codegen.chains.stand import check_start
+    from codegen.scenes.generate import check_options
 
+    check_options(None, real)
     check_start(described)
     with progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
@@ -79,13 +80,19 @@ def _write_chain(described: Any, real: str, target: Path) -> None:
 def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:
     from codegen import output
     from codegen.chains.read import read
+
+    output.check_target(target)
+    _run(file, *read(file), target, animation, options)
+
+
+def _run(file: Path, read_chain: Any, tables: Any, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    """Run; what is imported here takes seconds, and mistakes of a file have been told."""
+    from codegen import output
     from codegen.chains.simulate import Settings, check, simulated
     from codegen.measure.compile import compiler
     from codegen.report.chain_pictures import chain_pictures
 
     settings = Settings(**options)
-    output.check_target(target)
-    read_chain, tables = read(file)
     check(read_chain, settings)
     compiler()
     with progress(settings.outputs, "running") as advance:

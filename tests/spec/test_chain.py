@@ -94,6 +94,15 @@ def test_an_effective_inertia_need_not_be_that_of_a_body(inertia):
     assert read_chain(text.replace(inertia, f"{inertia}\neffective = true"), "file").links[0].inertia[0][1] == 0
 
 
+def test_rounding_of_the_program_that_wrote_a_file_is_nothing():
+    text = QUICK_RETURN.replace("[2000.0, 2000.0, 2000.0]", "[[2, 0, 1.3e-33], [0, 2, 0], [1.3e-33, 0, 2]]")
+    chain = read_chain(text.replace('alpha = "-pi/2"', "alpha = -4.3e-35", 1), "file")
+    assert chain.links[2].row.alpha == 0 and chain.links[0].inertia[0][2] == 0
+    for size in ("1e31", "nan", "-inf"):
+        with pytest.raises(SpecificationError, match="out of range"):
+            read_chain(QUICK_RETURN.replace('alpha = "-pi/2"', f"alpha = {size}", 1), "file")
+
+
 def test_a_cut_on_an_unknown_link_is_told_alone():
     text = QUICK_RETURN.replace('far = { link = "slide" }', 'far = { link = "slid" }')
     with pytest.raises(SpecificationError) as caught:

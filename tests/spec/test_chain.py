@@ -56,7 +56,8 @@ MISTAKES = {
         "polynomial = [0.44]\ndriven = true",
         "starts with",
     ),
-    "an unknown joint": ('type = "prismatic"\nalpha', 'type = "ball"\nalpha', "there is no"),
+    "a ball joint": ('type = "prismatic"\nalpha', 'type = "ball"\nalpha', "write three revolute links whose axes meet"),
+    "an unknown joint": ('type = "prismatic"\nalpha', 'type = "balls"\nalpha', "there is no"),
 }
 
 

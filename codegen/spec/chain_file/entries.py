@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from codegen.spec.chain import BASE, BASES, CHAIN_QUANTITIES, JOINT_TYPES
 from codegen.spec.chain_file.angle import ANGLE
+from codegen.spec.chain_file.joint_type import JOINT_TYPE
 from codegen.spec.scene import ZERO_VECTOR, Matrix, Vector
 from codegen.spec.scene_file.entries import LimitEntry
 from codegen.spec.scene_file.entry import Entry, key, table_of, tables
@@ -43,7 +44,7 @@ class LinkEntry(RowEntry):
 
     name: str | None = key(TEXT, f'a text of 1 to 60 signs, unique among the links, not "{BASE}"', is_required=True)
     parent: str | None = key(TEXT, f'name of a link above in the file, or "{BASE}"', is_required=True)
-    type: str | None = key(choice(JOINT_TYPES), f"one of {', '.join(JOINT_TYPES)}", is_required=True)
+    type: str | None = key(JOINT_TYPE, f"one of {', '.join(JOINT_TYPES)}", is_required=True)
     pitch: Fraction = key(number("m/rad"), "screw: advance in m/rad, not 0; negative for a left-hand thread", _NONE)
     mass: Fraction = key(number("kg"), "mass in kg; 0 for a massless link", _NONE)
     centre: Vector = key(or_zero(vector("m")), "centre of mass in m from the origin of the link, its axes", ZERO_VECTOR)

@@ -1,14 +1,13 @@
 """Rows that stay independent while a mechanism goes a long way.
 
-Where rows are redundant because of special dimensions, those that are kept near the start may lose rank later, at a pose
-that is regular with all rows. So the mechanism is moved far to both sides, and rows are chosen anew where need be.
+Where rows are redundant because of special dimensions, those that are kept near the start may lose rank later, at a
+pose that is regular with all rows. So the mechanism is moved far to both sides, and rows are chosen anew where need be.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-import numpy as np
 import scipy.linalg
 
 from codegen.measure.constraints import Array, ConstraintSystem, Pose, Scales

@@ -226,8 +226,8 @@ SHORT, LONG = (0.3, np.radians(30.0)), (0.3 * np.sin(np.radians(80.0)) / np.sin(
 def bennett_axes(angle: float) -> Array:
     """Frames [4, 4, 4] of the hinges of Bennett's linkage, z along each, x along the link behind it.
 
-    Its closed form: tan(theta_1 / 2) tan(theta_2 / 2) = sin((b + a) / 2) / sin((b - a) / 2), theta_3 = -theta_1, theta_4 =
-    -theta_2 (rad), with the twists a and b.
+    Its closed form: tan(theta_1 / 2) tan(theta_2 / 2) = sin((b + a) / 2) / sin((b - a) / 2), theta_3 = -theta_1,
+    theta_4 = -theta_2 (rad), with the twists a and b.
 
     Args:
         angle: theta_1, rad, not 0.

@@ -17,21 +17,24 @@ from codegen.progress import progress
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--kinematics", "mode", flag_value="kinematics", help="Motion from that of the independent coordinates.")
-@click.option("--inverse", "mode", flag_value="inverse", help="Besides, efforts and reactions.")
-@click.option("--forward", "mode", flag_value="forward", help="Motion under forces.")
+@click.option("--kinematics", is_flag=True, help="Motion from that of the independent coordinates.")
+@click.option("--inverse", is_flag=True, help="Besides, efforts and reactions.")
+@click.option("--forward", is_flag=True, help="Motion under forces.")
 @click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the integrator.")
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to run, s.")
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
 @click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
 @click.option("--real", default="double", show_default=True, help="Number type of the routines: double or float.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
+def chain(file: Path, real: str, animation: bool, target: Path, **options: Any) -> None:
     """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
-    if mode is None:
+    modes = [mode for mode in ("kinematics", "inverse", "forward") if options.pop(mode)]
+    if len(modes) > 1:
+        raise SpecificationError([Mistake(f"--{modes[1]}", f"is given beside --{modes[0]}", "ask for one run")])
+    if not modes:
         _generate_chain(file, real, target)
     else:
-        _run_chain(file, target, animation, {"mode": mode, **options})
+        _run_chain(file, target, animation, {"mode": modes[0], **options})
 
 
 def generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
@@ -56,19 +59,20 @@ def generate_relative(file: Path, copies: int | None, real: str, target: Path, g
 def _generate_chain(file: Path, real: str, target: Path) -> None:
     from codegen import output
     from codegen.chains.read import read
-    from codegen.scenes.generate import check_options
 
-    check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
     _write_chain(file, described, real, target)
 
 
 def _write_chain(file: Path, described: Any, real: str, target: Path) -> None:
+    """Generate; what is imported here takes seconds, and mistakes of a file have been told."""
     from codegen import output
     from codegen.chains.generate import generate_chain, steps
     from codegen.chains.stand import check_start
+    from codegen.scenes.generate import check_options
 
+    check_options(None, real)
     with in_file(file):
         check_start(described)
     with progress(steps(described), "generating") as advance:
@@ -81,13 +85,19 @@ def _write_chain(file: Path, described: Any, real: str, target: Path) -> None:
 def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:
     from codegen import output
     from codegen.chains.read import read
+
+    output.check_target(target)
+    _run(file, *read(file), target, animation, options)
+
+
+def _run(file: Path, read_chain: Any, tables: Any, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    """Run; what is imported here takes seconds, and mistakes of a file have been told."""
+    from codegen import output
     from codegen.chains.simulate import Settings, check, simulated
     from codegen.measure.compile import compiler
     from codegen.report.chain_pictures import chain_pictures
 
     settings = Settings(**options)
-    output.check_target(target)
-    read_chain, tables = read(file)
     check(read_chain, settings)
     compiler()
     with progress(settings.outputs, "running") as advance, in_file(file):

@@ -62,4 +62,4 @@ def run(
     except Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure
-    return Run(tuple(states), words, motion.iterations, motion.events_met, motion.evaluations)
+    return Run(tuple(states), words, motion.iterations, motion.events_met, motion.evaluations, motion.exchanges)

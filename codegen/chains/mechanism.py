@@ -64,10 +64,20 @@ def mechanism(chain: Chain, equations: Equations) -> Mechanism:
         chain: as its file has it.
         equations: of the chain.
     """
+    return parted(chain, equations, [chain.index(one.joint) for one in chain.independents])
+
+
+def parted(chain: Chain, equations: Equations, independent: list[int]) -> Mechanism:
+    """Make a chain ready by independent coordinates of one's own.
+
+    Args:
+        chain: as its file has it.
+        equations: of the chain.
+        independent: their numbers, in the places of those that the file names.
+    """
     length = characteristic_length(chain)
     reach = max(lengths(chain), default=0.0) / length
     is_prismatic = [link.unit == "m" for link in chain.links]
-    independent = [chain.index(one.joint) for one in chain.independents]
     part = partition(is_prismatic, independent, list(equations.binding), length, reach)
     return Mechanism(chain, equations, part, Conditions(chain), length)
 

@@ -21,6 +21,7 @@ class Run:
         iterations: of Newton's method.
         events: of switched forces.
         evaluations: of the equation of motion, by the integrator.
+        exchanges: of independent coordinates that turned back.
     """
 
     states: tuple[State, ...]
@@ -28,3 +29,4 @@ class Run:
     iterations: int
     events: int = 0
     evaluations: int = 0
+    exchanges: int = 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codegen.cache import kept
 from codegen.emit.platform_subject import PlatformSubject
 from codegen.emit.routine import Routine
 from codegen.ir.program import Program
@@ -24,6 +25,10 @@ def program(platform: Platform, names: tuple[str, ...], real: str = "double", is
         real: ``double`` or ``float``: decides what is rounding.
         is_symbolic: whether the joints are arguments too.
     """
+    return kept(("platform", platform, names, real, is_symbolic), lambda: _program(platform, names, real, is_symbolic))
+
+
+def _program(platform: Platform, names: tuple[str, ...], real: str, is_symbolic: bool) -> Program:
     found = alternate(simplify(velocity_program(platform, names, real, is_symbolic)))
     return contract_fma(found) if platform.wanted.fma else found
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +49,11 @@ def generate_relative(file: Path, copies: int | None, real: str, target: Path, g
         raise SpecificationError(mistakes)
     output.check_target(target)
     read, left_out = scenes.read(file, copies)
-    found = relative(read)
+    with in_file(file):
+        found = relative(read)
     for line in (*left_out, *found.notes):
         click.echo(line, err=True)
-    _write_chain(found.chain, real, target)
+    _write_chain(file, found.chain, real, target)
 
 
 def _generate_chain(file: Path, real: str, target: Path) -> None:
@@ -58,10 +62,10 @@ def _generate_chain(file: Path, real: str, target: Path) -> None:
 
     output.check_target(target)
     described, _ = read(file)
-    _write_chain(described, real, target)
+    _write_chain(file, described, real, target)
 
 
-def _write_chain(described: Any, real: str, target: Path) -> None:
+def _write_chain(file: Path, described: Any, real: str, target: Path) -> None:
     """Generate; what is imported here takes seconds, and mistakes of a file have been told."""
     from codegen import output
     from codegen.chains.generate import generate_chain, steps
@@ -69,7 +73,8 @@ def _write_chain(described: Any, real: str, target: Path) -> None:
     from codegen.scenes.generate import check_options
 
     check_options(None, real)
-    check_start(described)
+    with in_file(file):
+        check_start(described)
     with progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
     output.replace(target, files)
@@ -95,7 +100,7 @@ def _run(file: Path, read_chain: Any, tables: Any, target: Path, animation: bool
     settings = Settings(**options)
     check(read_chain, settings)
     compiler()
-    with progress(settings.outputs, "running") as advance:
+    with progress(settings.outputs, "running") as advance, in_file(file):
         result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **chain_pictures(result.mechanism, result.record, animation)})
     told(file, target, result)
@@ -133,7 +138,7 @@ def simulate_relative(file: Path, target: Path, animation: bool, copies: int | N
     output.check_target(target)
     read = read_told(file, copies)
     compiler()
-    with progress(settings.outputs, "simulating") as advance:
+    with progress(settings.outputs, "simulating", "deriving and compiling") as advance, in_file(file):
         result = simulated_relative(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     told(file, target, result)
@@ -147,6 +152,16 @@ def read_told(file: Path, copies: int | None) -> Any:
     for line in left_out:
         click.echo(line, err=True)
     return read
+
+
+@contextmanager
+def in_file(file: Path) -> Iterator[None]:
+    """Say of mistakes that show only when a mechanism is put together which file has them."""
+    try:
+        yield
+    except SpecificationError as error:
+        told_of = (replace(mistake, place=f"{file}: {mistake.place}") for mistake in error.mistakes)
+        raise SpecificationError(told_of) from error
 
 
 def told(file: Path, target: Path, result: Any) -> None:

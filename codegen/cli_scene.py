@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from codegen.cli_chain import generate_relative, read_told, simulate_chain, simulate_relative, told
+from codegen.cli_chain import generate_relative, in_file, read_told, simulate_chain, simulate_relative, told
 from codegen.progress import progress
 
 
@@ -36,7 +36,7 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
         compiler()
     output.check_target(target)
     read = read_told(file, copies)
-    with progress(steps(read), "generating") as advance:
+    with progress(steps(read), "generating") as advance, in_file(file):
         files = generate_scene(read, form, real, advance, measure, loops)
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])
@@ -74,7 +74,7 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     output.check_target(target)
     read = read_told(file, copies)
     check_tools()
-    with progress(settings.outputs, "simulating") as advance:
+    with progress(settings.outputs, "simulating", "deriving and compiling") as advance, in_file(file):
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     told(file, target, result)

@@ -21,6 +21,9 @@ AXES = ("fx", "fy", "fz", "mx", "my", "mz")
 ROWS = ("x", "y", "z", "turn about x", "turn about y", "turn about z")
 """Rows of a cut, axes of its frames."""
 
+_ROUNDING = 1e-9
+"""A length below this part of the largest is what rounding left in place of a zero."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mechanism:
@@ -86,8 +89,10 @@ def characteristic_length(chain: Chain) -> float:
 
 
 def lengths(chain: Chain) -> list[float]:
-    """The lengths that the rows of a chain hold, m, without zeros and signs."""
-    return [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d) if value]
+    """The lengths that the rows of a chain hold, m, without signs, zeros and what rounding left in place of zeros."""
+    found = [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d)]
+    least = _ROUNDING * max(found, default=0.0)
+    return [value for value in found if value > least]
 
 
 def _rows(chain: Chain) -> Iterator[Row]:

@@ -21,10 +21,13 @@ from codegen.passes.select import select
 from codegen.spec.sections import alike
 from flopcount.count import count
 
+HURRY = 20_000
+"""Switches of a search in a hurry: about a second. Most mechanisms of a dozen bodies take fewer."""
+
 
 def estimate(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
-    """Choose among the ways to evaluate nodes in a hurry: to compare forms, not to emit."""
-    return [cheapest(graph, outputs, sweeps=1)]
+    """Choose among the ways to evaluate nodes in a hurry: to compare forms, and for a run."""
+    return [cheapest(graph, outputs, sweeps=1, switches=HURRY)]
 
 
 def without_zero_rows(assembly: Assembly) -> Assembly:

@@ -12,9 +12,10 @@ import codegen
 from codegen.cache import kept
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir.lower import Part, Prices, SymbolicOutput, definition_notation, lower, notation
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.lowering import Choose
 from codegen.ir.lower.record import Records, fingerprint, replayed
-from codegen.ir.lower.search import Choice, Graph, searched
+from codegen.ir.lower.search import searched
 from codegen.ir.program import Program
 from codegen.mechanics import frames
 from codegen.mechanics.derivation import AS_IT_STANDS, Derivation

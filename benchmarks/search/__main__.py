@@ -16,8 +16,9 @@ from rich.progress import Progress
 
 import codegen
 from codegen import build, models
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.record import fingerprint, recorded, replayed
-from codegen.ir.lower.search import Choice, Graph, searched
+from codegen.ir.lower.search import searched
 from codegen.mechanics.joints import JOINTS, PAIRS
 from codegen.parallel import parallel
 from codegen.spec.request import Options, Variant

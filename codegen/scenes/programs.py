@@ -10,8 +10,9 @@ from dataclasses import replace
 
 from codegen.cache import kept
 from codegen.ir.lower import lower, structural_rows
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.lowering import Choose
-from codegen.ir.lower.search import Choice, Graph, cheapest
+from codegen.ir.lower.search import cheapest
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System

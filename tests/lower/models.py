@@ -13,8 +13,8 @@ import pytest
 from codegen import models
 from codegen.ir.builder import Builder
 from codegen.ir.lower.demands import Demand, Demands
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.lowering import Part, _Searched
-from codegen.ir.lower.search import Choice, Graph
 from codegen.ir.program import Output, Program
 from codegen.mechanics import frames
 from codegen.spec.request import QUANTITIES, Variant

@@ -11,8 +11,8 @@ import numpy as np
 from codegen.ir.builder import Builder
 from codegen.ir.evaluate import evaluate
 from codegen.ir.lower.alternatives import UNIT, ZERO
+from codegen.ir.lower.graph import Choice
 from codegen.ir.lower.scalarise import Entries, Scalariser
-from codegen.ir.lower.search import Choice
 from codegen.ir.program import Argument, Output, Sparsity
 from codegen.passes import simplify
 from codegen.spec.request import QUANTITIES, Variant

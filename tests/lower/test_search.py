@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import Alternative
+from codegen.ir.lower.graph import Choice, Graph, price
 from codegen.ir.lower.record import fingerprint, recorded, replayed
-from codegen.ir.lower.search import Choice, Graph, cheapest, price, searched
+from codegen.ir.lower.search import cheapest, searched
 from codegen.spec.request import Variant
 
 from .models import laid_out, needed

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from codegen.ir.evaluate import evaluate
 from codegen.ir.lower import lower
-from codegen.ir.lower.search import Choice, Graph
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.models import PRICES

@@ -12,10 +12,10 @@ import sympy
 from codegen.ir.builder import Builder
 from codegen.ir.lower.alternatives import Prices
 from codegen.ir.lower.demands import Demand, Demands
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.outputs import SymbolicOutput
 from codegen.ir.lower.places import Places
 from codegen.ir.lower.scalarise import Entries, Scalariser
-from codegen.ir.lower.search import Choice, Graph
 from codegen.ir.lower.ways import lay_out
 from codegen.ir.ops import Constant, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity

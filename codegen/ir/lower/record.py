@@ -10,7 +10,7 @@ import hashlib
 from collections.abc import Callable, Mapping, Sequence
 
 from codegen.errors import InternalError
-from codegen.ir.lower.search import Choice, Graph
+from codegen.ir.lower.graph import Choice, Graph
 
 Records = Mapping[str, str]
 """Fingerprint of a graph and its outputs -> alternatives, one character each (two for the rare high number)."""

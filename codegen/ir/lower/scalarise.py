@@ -8,9 +8,9 @@ from typing import Any
 from codegen.errors import InternalError
 from codegen.ir.builder import Builder
 from codegen.ir.lower.alternatives import Alternative
+from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.polynomial import Coefficient
 from codegen.ir.lower.scalar_forms import Sum
-from codegen.ir.lower.search import Choice, Graph
 from codegen.ir.ops import Op
 
 Entries = tuple[int, ...]

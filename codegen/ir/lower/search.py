@@ -10,17 +10,11 @@ from __future__ import annotations
 
 import heapq
 import math
-import random
 from collections.abc import Callable, Iterable, Sequence
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import Alternative
-
-Choice = dict[int, int]
-"""Node -> position of its alternative."""
-
-Graph = Sequence[tuple[Alternative, ...]]
-"""Alternatives of each node, by its number."""
+from codegen.ir.lower.graph import Choice, Graph, Index, price, weighted
 
 _State = tuple[Choice, dict[int, int], float]
 """Choice, number of uses of each node, total."""
@@ -49,10 +43,10 @@ def cheapest(
     Returns:
         The choice of every node that the outputs need.
     """
-    return _searched(_Index(graph), outputs, seed, sweeps, switches)
+    return _searched(Index(graph), outputs, seed, sweeps, switches)
 
 
-def _searched(index: _Index, outputs: Sequence[int], seed: int, sweeps: int = 12, switches: float = math.inf) -> Choice:
+def _searched(index: Index, outputs: Sequence[int], seed: int, sweeps: int = 12, switches: float = math.inf) -> Choice:
     search = _Search(index, outputs, seed, switches)
     idle = 0
     for _ in range(sweeps):
@@ -77,71 +71,19 @@ def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: i
         The cheapest of the choices found, each once, the cheapest first.
     """
     ends: dict[tuple[tuple[int, int], ...], Choice] = {}
-    index = _Index(graph)
+    index = Index(graph)
     for seed in seeds:
         choice = _searched(index, outputs, seed)
         ends.setdefault(tuple(choice.items()), choice)
     return sorted(ends.values(), key=lambda choice: price(graph, choice))[:best]
 
 
-def price(graph: Graph, choice: Choice) -> float:
-    """What a choice costs."""
-    return sum(graph[node][k].cost for node, k in choice.items())
-
-
-def _weighted(graph: Graph, seed: int) -> list[list[float]]:
-    """Prices for a start: alternatives of one family are cheap or dear together."""
-    noise = random.Random(seed)
-    families: dict[str, float] = {}
-    weighted: list[list[float]] = []
-    for alternatives in graph:
-        weighted.append([])
-        for alternative in alternatives:
-            family = alternative.family or alternative.kind
-            if family not in families:
-                families[family] = math.exp(noise.uniform(-1.2, 1.2)) if seed else 1.0
-            weighted[-1].append(alternative.cost * families[family] * (1.0 + 0.3 * noise.random() * (seed > 0)))
-    return weighted
-
-
-class _Index:
-    """A graph with what every search in it looks up; alternatives are numbered through, node after node.
-
-    Attributes:
-        graph: alternatives of each node.
-        first: number of the first alternative of each node.
-        owner: of each alternative, its node.
-        sizes: of each alternative, how many nodes it takes.
-        leaves: alternatives that take none.
-        users: of each node, the alternatives that take it.
-        users_of: the same by node, as positions among its alternatives.
-    """
-
-    def __init__(self, graph: Graph) -> None:
-        self.graph = graph
-        self.first: list[int] = []
-        self.owner: list[int] = []
-        self.sizes: list[int] = []
-        self.users: list[list[int]] = [[] for _ in graph]
-        self.users_of: list[dict[int, list[int]]] = [{} for _ in graph]
-        for node, alternatives in enumerate(graph):
-            self.first.append(len(self.owner))
-            for k, alternative in enumerate(alternatives):
-                children = set(alternative.children)
-                for child in children:
-                    self.users[child].append(len(self.owner))
-                    self.users_of[child].setdefault(node, []).append(k)
-                self.owner.append(node)
-                self.sizes.append(len(children))
-        self.leaves = [number for number, size in enumerate(self.sizes) if not size]
-
-
 class _Search:
     """A choice under improvement, with counts of how often each node is used."""
 
-    def __init__(self, index: _Index, outputs: Sequence[int], seed: int, switches: float) -> None:
+    def __init__(self, index: Index, outputs: Sequence[int], seed: int, switches: float) -> None:
         graph = index.graph
-        self._weighted = [cost for costs in _weighted(graph, seed) for cost in costs]
+        self._weighted = [cost for costs in weighted(graph, seed) for cost in costs]
         self.choice: Choice = {}
         self.total = 0.0
         self._graph = graph

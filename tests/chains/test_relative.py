@@ -109,7 +109,7 @@ def test_joints_may_be_gone_through_from_their_second_body():
     assert np.abs(chain - tree).max() < 1e-12 * np.abs(tree).max()
 
 
-@pytest.mark.parametrize("name", ["four_bar", "spatial_slider_crank", "bricard"])
+@pytest.mark.parametrize("name", ["four_bar", "spatial_slider_crank", "bricard", "bennett"])
 def test_the_loops_of_an_example_are_closed_and_its_bodies_where_they_were(name):
     scene = read_scene((ROOT / "examples" / f"{name}.toml").read_text(), name)
     chain = relative(scene).chain

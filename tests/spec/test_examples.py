@@ -18,6 +18,7 @@ FREEDOM = {
     "four_bar": 1,
     "spatial_slider_crank": 1,
     "bricard": 1,
+    "bennett": 1,
     "stewart": 6,
 }
 

@@ -45,7 +45,9 @@ class Index:
         sizes: of each alternative, how many nodes it takes.
         leaves: alternatives that take none.
         users: of each node, the alternatives that take it.
-        users_of: the same by node, as positions among its alternatives.
+        users_of: the same by the node they belong to, nodes in ascending order.
+        children: of each alternative, the nodes it takes.
+        costs: of each alternative.
     """
 
     def __init__(self, graph: Graph) -> None:
@@ -55,13 +57,19 @@ class Index:
         self.sizes: list[int] = []
         self.users: list[list[int]] = [[] for _ in graph]
         self.users_of: list[dict[int, list[int]]] = [{} for _ in graph]
+        self.children = [alternative.children for alternatives in graph for alternative in alternatives]
+        self.costs = [alternative.cost for alternatives in graph for alternative in alternatives]
         for node, alternatives in enumerate(graph):
             self.first.append(len(self.owner))
-            for k, alternative in enumerate(alternatives):
+            for alternative in alternatives:
                 children = set(alternative.children)
                 for child in children:
                     self.users[child].append(len(self.owner))
-                    self.users_of[child].setdefault(node, []).append(k)
+                    self.users_of[child].setdefault(node, []).append(len(self.owner))
                 self.owner.append(node)
                 self.sizes.append(len(children))
         self.leaves = [number for number, size in enumerate(self.sizes) if not size]
+
+    def numbers(self, node: int) -> range:
+        """Numbers of the alternatives of a node."""
+        return range(self.first[node], self.first[node] + len(self.graph[node]))

@@ -13,11 +13,13 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 
 from codegen.errors import InternalError
-from codegen.ir.lower.alternatives import Alternative
 from codegen.ir.lower.graph import Choice, Graph, Index, price, weighted
 
-_State = tuple[Choice, dict[int, int], float]
-"""Choice, number of uses of each node, total."""
+_Logged = tuple[int, int, int]
+"""A node, how often it was used, and the number of its alternative."""
+
+_NONE = -1
+"""Number of the alternative of a node that is not in use, or that nothing leads to."""
 
 _LEAST_GAIN = 1e-9
 
@@ -55,7 +57,7 @@ def _searched(index: Index, outputs: Sequence[int], seed: int, sweeps: int = 12,
         idle = idle + 1 if search.total > before - _LEAST_GAIN else 0
         if idle == _PATIENCE:
             break
-    return dict(sorted(search.choice.items()))
+    return search.choice()
 
 
 def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: int = 2) -> list[Choice]:
@@ -79,34 +81,37 @@ def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: i
 
 
 class _Search:
-    """A choice under improvement, with counts of how often each node is used."""
+    """A choice under improvement, with counts of how often each node is used.
+
+    What changes is logged, so that a move is taken back at the price of what it did.
+    """
 
     def __init__(self, index: Index, outputs: Sequence[int], seed: int, switches: float) -> None:
-        graph = index.graph
-        self._weighted = [cost for costs in weighted(graph, seed) for cost in costs]
-        self.choice: Choice = {}
-        self.total = 0.0
-        self._graph = graph
+        self._index, self._children, self._costs = index, index.children, index.costs
+        self._weighted = [cost for costs in weighted(index.graph, seed) for cost in costs]
+        self._chosen = [_NONE] * len(index.graph)
+        self._uses = [0] * len(index.graph)
+        self._log: list[_Logged] = []
         self._switches = switches
         self._outputs = list(outputs)
-        self._sideways: set[tuple[int, int]] = set()
-        self._uses: dict[int, int] = {}
-        self._index, self._users_of = index, index.users_of
+        self._sideways: set[int] = set()
+        self.total = 0.0
         for position, output in enumerate(self._outputs):
             if position % 4 == 0:
                 self._replan()
-            self._use(output)
-        self._weighted = [alternative.cost for alternatives in graph for alternative in alternatives]
+            self._use((output,))
+        self._weighted = index.costs
 
-    def active(self) -> list[int]:
-        """The nodes in use, in ascending order."""
-        return sorted(self._uses)
+    def choice(self) -> Choice:
+        """The choice of every node in use, in ascending order."""
+        first = self._index.first
+        return {node: number - first[node] for node, number in enumerate(self._chosen) if number != _NONE}
 
     def sweep(self) -> None:
         """Try every move once."""
         for move in (self._close, self._others):
             self._replan()
-            for node in self.active():
+            for node in [node for node, count in enumerate(self._uses) if count]:
                 if self._switches > 0:
                     self._attempt(move, node)
 
@@ -114,119 +119,145 @@ class _Search:
 
     def _attempt(self, move: Callable[[int], None], node: int) -> None:
         """Make a move, and take it back if the total rises or something depends on itself."""
-        saved = self._state()
+        self._log.clear()
+        before = self.total
         move(node)
-        if self.total > saved[2] + _LEAST_GAIN or not self._is_acyclic(self._changed(saved)):
-            self.choice, self._uses, self.total = saved
+        if self.total > before + _LEAST_GAIN or not self._is_acyclic(self._changed(0)):
+            self._return_to(0, before)
 
     def _others(self, node: int) -> None:
         """Take another alternative of a node, and use what it brings wherever that is cheaper.
 
         One that leaves the total as it is is taken too, but never twice: it may open the way for others.
         """
-        if node not in self._uses:
+        if not self._uses[node]:
             return
-        start = best = self._state()
-        for k, alternative in enumerate(self._graph[node]):
-            if k == start[0][node] or not self._is_planned(alternative):
+        start, mark, best = self.total, len(self._log), self.total
+        found: list[_Logged] = []
+        for number in self._index.numbers(node):
+            if number == self._chosen[node] or self._missing[number]:
                 continue
-            self._switch(node, k)
-            for child in sorted(self._uses.keys() - start[1].keys()):
+            self._switch(node, number)
+            for child in self._opened(mark):
                 self._exploit(child, node)
-            limit = best[2] + (_LEAST_GAIN if best is start and (node, k) not in self._sideways else -_LEAST_GAIN)
-            if self.total < limit and self._is_acyclic(self._changed(start)):
-                if self.total > start[2] - _LEAST_GAIN:
-                    self._sideways.add((node, k))
-                best = self._state()
-            self._return_to(start)
-        self._return_to(best)
+            limit = best + (_LEAST_GAIN if not found and number not in self._sideways else -_LEAST_GAIN)
+            if self.total < limit and self._is_acyclic(self._changed(mark)):
+                if self.total > start - _LEAST_GAIN:
+                    self._sideways.add(number)
+                best = self.total
+                found = [(n, self._uses[n], self._chosen[n]) for n in self._before(mark)]
+            self._return_to(mark, start)
+        for state in found:
+            self._set(*state)
+        self.total = best
 
     def _exploit(self, node: int, spared: int) -> None:
         """Use a node wherever that is cheaper."""
-        users = self._users_of[node]
-        for user in sorted(users.keys() & self._uses.keys()):
+        uses, chosen = self._uses, self._chosen
+        for user, numbers in [item for item in self._index.users_of[node].items() if uses[item[0]]]:
             if user != spared:
-                for k in users[user]:
-                    if user in self._uses and k != self.choice[user] and self._is_promising(user, k):
-                        self._improve(user, k)
+                for number in numbers:
+                    if uses[user] and number != chosen[user] and self._is_promising(user, number):
+                        self._improve(user, number)
 
-    def _is_promising(self, node: int, k: int) -> bool:
+    def _is_promising(self, node: int, number: int) -> bool:
         """Whether an alternative takes little that is not there yet."""
-        new, old = self._graph[node][k], self._graph[node][self.choice[node]]
-        return self._is_planned(new) and self._estimate(new) <= old.cost + _REACH
+        return not self._missing[number] and self._estimate(number) <= self._costs[self._chosen[node]] + _REACH
 
-    def _improve(self, node: int, k: int) -> None:
+    def _improve(self, node: int, number: int) -> None:
         """Switch a node to an alternative, if that lowers the total."""
-        start = self._state()
-        self._switch(node, k)
-        if self.total > start[2] - _LEAST_GAIN or not self._is_acyclic([node]):
-            self.choice, self._uses, self.total = start
+        before, mark = self.total, len(self._log)
+        self._switch(node, number)
+        if self.total > before - _LEAST_GAIN or not self._is_acyclic([node]):
+            self._return_to(mark, before)
 
     def _close(self, node: int) -> None:
         """Switch everything that uses a node to its best alternative without it."""
         index = self._index
-        for number in index.users[node] if node in self._uses else ():
+        for number in index.users[node] if self._uses[node] else ():
             user = index.owner[number]
-            if user in self._uses and self.choice[user] == number - index.first[user]:
+            if self._chosen[user] == number:
                 others = [
                     other
-                    for other, alternative in enumerate(self._graph[user])
-                    if node not in alternative.children and self._is_planned(alternative)
+                    for other in index.numbers(user)
+                    if not self._missing[other] and node not in self._children[other]
                 ]
                 if others:
-                    self._switch(user, min(others, key=lambda other: self._estimate(self._graph[user][other])))
+                    self._switch(user, min(others, key=self._estimate))
 
     # --- bookkeeping
 
-    def _state(self) -> _State:
-        return dict(self.choice), dict(self._uses), self.total
+    def _set(self, node: int, count: int, number: int) -> None:
+        self._log.append((node, self._uses[node], self._chosen[node]))
+        self._uses[node], self._chosen[node] = count, number
 
-    def _return_to(self, state: _State) -> None:
-        self.choice, self._uses, self.total = dict(state[0]), dict(state[1]), state[2]
+    def _return_to(self, mark: int, total: float) -> None:
+        """Take back everything after a place in the log."""
+        uses, chosen, log = self._uses, self._chosen, self._log
+        for node, count, number in reversed(log[mark:]):
+            uses[node], chosen[node] = count, number
+        del log[mark:]
+        self.total = total
 
-    def _use(self, node: int) -> None:
-        count = self._uses.get(node, 0)
-        self._uses[node] = count + 1
-        if not count:
-            self.choice[node] = self._plan[node]
-            alternative = self._graph[node][self.choice[node]]
-            self.total += alternative.cost
-            for child in alternative.children:
-                self._use(child)
+    def _before(self, mark: int) -> dict[int, _Logged]:
+        """Nodes that were touched after a place in the log, as they were there."""
+        found: dict[int, _Logged] = {}
+        for state in self._log[mark:]:
+            found.setdefault(state[0], state)
+        return found
 
-    def _release(self, node: int) -> None:
-        self._uses[node] -= 1
-        if not self._uses[node]:
-            del self._uses[node]
-            alternative = self._graph[node][self.choice.pop(node)]
-            self.total -= alternative.cost
-            for child in alternative.children:
-                self._release(child)
+    def _opened(self, mark: int) -> list[int]:
+        """The nodes in use that were not at a place in the log, in ascending order."""
+        return sorted(node for node, state in self._before(mark).items() if self._uses[node] and not state[1])
 
-    def _switch(self, node: int, k: int) -> None:
+    def _changed(self, mark: int) -> list[int]:
+        """The nodes with another alternative than at a place in the log: a new cycle goes through one of them."""
+        chosen = self._chosen
+        return [n for n, state in self._before(mark).items() if chosen[n] != _NONE and chosen[n] != state[2]]
+
+    def _use(self, nodes: Sequence[int]) -> None:
+        uses, chosen, log = self._uses, self._chosen, self._log
+        stack = [*reversed(nodes)]
+        while stack:
+            node = stack.pop()
+            count = uses[node]
+            log.append((node, count, chosen[node]))
+            uses[node] = count + 1
+            if not count:
+                number = chosen[node] = self._plan[node]
+                self.total += self._costs[number]
+                stack += reversed(self._children[number])
+
+    def _release(self, nodes: Sequence[int]) -> None:
+        uses, chosen, log = self._uses, self._chosen, self._log
+        stack = [*reversed(nodes)]
+        while stack:
+            node = stack.pop()
+            count, number = uses[node], chosen[node]
+            log.append((node, count, number))
+            uses[node] = count - 1
+            if count == 1:
+                chosen[node] = _NONE
+                self.total -= self._costs[number]
+                stack += reversed(self._children[number])
+
+    def _switch(self, node: int, number: int) -> None:
         self._switches -= 1
-        old, new = self._graph[node][self.choice[node]], self._graph[node][k]
-        for child in new.children:
-            self._use(child)
-        self.choice[node] = k
-        self.total += new.cost - old.cost
-        for child in old.children:
-            self._release(child)
-
-    def _changed(self, before: _State) -> list[int]:
-        """The nodes with another alternative than before: a new cycle goes through one of them."""
-        known = before[0]
-        return [node for node, k in self.choice.items() if known.get(node) != k]
+        old = self._chosen[node]
+        self._use(self._children[number])
+        self._set(node, self._uses[node], number)
+        self.total += self._costs[number] - self._costs[old]
+        self._release(self._children[old])
 
     def _is_acyclic(self, roots: Sequence[int]) -> bool:
         """Whether nothing below the roots depends on itself."""
         done: set[int] = set()
         on_path: set[int] = set()
         stack = list(roots)
-        graph, choice = self._graph, self.choice
+        children, chosen = self._children, self._chosen
         while stack:
             node = stack[-1]
-            if node not in choice:
+            if chosen[node] == _NONE:
                 return False
             if node in done:
                 stack.pop()
@@ -236,7 +267,7 @@ class _Search:
                 stack.pop()
             else:
                 on_path.add(node)
-                for child in graph[node][choice[node]].children:
+                for child in children[chosen[node]]:
                     if child in on_path:
                         return False
                     if child not in done:
@@ -245,34 +276,34 @@ class _Search:
 
     # --- plans: the cheapest tree of every node, nodes in use being free
 
-    def _is_planned(self, alternative: Alternative) -> bool:
-        plan = self._plan
-        return all([child in plan for child in alternative.children])
-
-    def _estimate(self, alternative: Alternative) -> float:
+    def _estimate(self, number: int) -> float:
+        """What an alternative costs with the trees of what is not there yet."""
         uses, prices = self._uses, self._price
-        return alternative.cost + sum([prices[child] for child in alternative.children if child not in uses])
+        return self._costs[number] + sum([prices[child] for child in self._children[number] if not uses[child]])
 
     def _replan(self) -> None:
         """Knuth's generalisation of Dijkstra's algorithm over the whole graph."""
-        first, owner, users = self._index.first, self._index.owner, self._index.users
-        price: dict[int, float] = {}
-        plan: Choice = {}
-        missing, sums = self._index.sizes.copy(), self._weighted.copy()
-        queue = [(0.0, first[node] + self.choice[node]) for node in self._uses]
-        queue += [(sums[number], number) for number in self._index.leaves if owner[number] not in self._uses]
+        index, size = self._index, len(self._uses)
+        owner, users = index.owner, index.users
+        price, plan = [math.inf] * size, [_NONE] * size
+        missing, sums = index.sizes.copy(), self._weighted.copy()
+        queue = [(0.0, number) for number in self._chosen if number != _NONE]
+        queue += [(sums[number], number) for number in index.leaves if not self._uses[owner[number]]]
         heapq.heapify(queue)
+        pop, push = heapq.heappop, heapq.heappush
+        waiting = price.copy()  # the least that is in the queue of each node; less than anything once it is planned
         while queue:
-            cost, number = heapq.heappop(queue)
+            cost, number = pop(queue)
             node = owner[number]
-            if node in price:
+            if plan[node] != _NONE:
                 continue
-            price[node], plan[node] = cost, number - first[node]
+            price[node], plan[node], waiting[node] = cost, number, -math.inf
             for user in users[node]:
                 missing[user] -= 1
                 sums[user] += cost
-                if not missing[user] and owner[user] not in price:
-                    heapq.heappush(queue, (sums[user], user))
-        self._plan, self._price = plan, price
-        if any(output not in plan for output in self._outputs):
+                if not missing[user] and sums[user] <= waiting[owner[user]]:
+                    waiting[owner[user]] = sums[user]
+                    push(queue, (sums[user], user))
+        self._plan, self._price, self._missing = plan, price, missing
+        if any(plan[output] == _NONE for output in self._outputs):
             raise InternalError("an output cannot be computed from the inputs")

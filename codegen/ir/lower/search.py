@@ -152,17 +152,24 @@ class _Search:
         self.total = best
 
     def _exploit(self, node: int, spared: int) -> None:
-        """Use a node wherever that is cheaper."""
-        uses, chosen = self._uses, self._chosen
+        """Use a node wherever that is cheaper, trying alternatives that take little that is not there yet."""
+        uses, chosen, costs, children = self._uses, self._chosen, self._costs, self._children
+        missing, prices = self._missing, self._price
         for user, numbers in [item for item in self._index.users_of[node].items() if uses[item[0]]]:
-            if user != spared:
-                for number in numbers:
-                    if uses[user] and number != chosen[user] and self._is_promising(user, number):
-                        self._improve(user, number)
-
-    def _is_promising(self, node: int, number: int) -> bool:
-        """Whether an alternative takes little that is not there yet."""
-        return not self._missing[number] and self._estimate(number) <= self._costs[self._chosen[node]] + _REACH
+            if user == spared:
+                continue
+            for number in numbers:
+                old = chosen[user]
+                if old == _NONE:
+                    break
+                room = costs[old] + _REACH - costs[number]
+                if room < 0 or number == old or missing[number]:
+                    continue
+                for child in children[number]:
+                    if not uses[child]:
+                        room -= prices[child]
+                if room >= 0:
+                    self._improve(user, number)
 
     def _improve(self, node: int, number: int) -> None:
         """Switch a node to an alternative, if that lowers the total."""

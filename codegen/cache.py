@@ -45,6 +45,11 @@ def kept(what: object, make: Callable[[], T]) -> T:
     return made
 
 
+def is_kept(what: object) -> bool:
+    """Whether `kept` would give what was made before."""
+    return (cache_folder() / f"{_digest(repr(what).encode())}.pickle").exists()
+
+
 def kept_file(what: object, suffix: str, make: Callable[[], bytes]) -> Path:
     """Give a file that was made before, or make and keep it.
 

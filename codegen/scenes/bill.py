@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import chain
 
 from codegen import models
 from codegen.ir.looped import Looped
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.plan import parts_of
+from codegen.parallel import parallel
 from codegen.scenes.forms import alone, constraint_quantities
 from codegen.scenes.programs import program
 from codegen.spec.placement import IDENTITY
@@ -64,7 +66,6 @@ def bill(assembly: Assembly, undropped: Assembly, emitted: Program | Looped, has
         has_drives: whether it has the rows of drives besides.
     """
     spatial = replace(assembly, scene=replace(assembly.scene, motion="spatial"), dropped=frozenset())
-    names = constraint_quantities(assembly.scene)
     steps = [("joints evaluated together", spatial)] if len(assembly.scene.joints) > 1 else []
     if assembly.scene.motion == "planar":
         steps.append(("motion in the plane", undropped))
@@ -75,16 +76,14 @@ def bill(assembly: Assembly, undropped: Assembly, emitted: Program | Looped, has
     if isinstance(emitted, Looped):
         steps.append(("equal parts run in loops", assembly))
 
-    def together(part: Assembly) -> tuple[tuple[Program, ...], int]:
-        return (program(part, names),), 0
-
-    return (
-        _item("the library's routine of each joint", spatial, _each(_in_library)),
-        _item("geometry folded as constants", spatial, _each(_folded)),
-        _item("columns of the ground left out", spatial, _each(_grounded)),
-        *(_item(words, step, together) for words, step in steps[:-1]),
-        *(Item(words, _programs(emitted)) for words, _ in steps[-1:]),
-    )
+    joint_by_joint: list[_Step] = [  # in one process: most programs of one are those of another
+        ("the library's routine of each joint", spatial, _Each(_in_library)),
+        ("geometry folded as constants", spatial, _Each(_folded)),
+        ("columns of the ground left out", spatial, _Each(_grounded)),
+    ]
+    together: list[list[_Step]] = [[(words, step, _together)] for words, step in steps[:-1]]
+    found = parallel(_items, [joint_by_joint, *together], lambda _: None)
+    return (*chain(*found), *(Item(words, _programs(emitted)) for words, _ in steps[-1:]))
 
 
 def _programs(emitted: Program | Looped) -> tuple[Program, ...]:
@@ -94,8 +93,21 @@ def _programs(emitted: Program | Looped) -> tuple[Program, ...]:
     return tuple(loop.program for loop in emitted.loops for _ in range(loop.count))
 
 
-def _item(words: str, assembly: Assembly, evaluated: Callable[[Assembly], tuple[tuple[Program, ...], int]]) -> Item:
+_Step = tuple[str, Assembly, Callable[[Assembly], tuple[tuple[Program, ...], int]]]
+"""Words of an item, the scene, and what evaluates a section of it."""
+
+
+def _items(steps: list[_Step]) -> list[Item]:
+    return [_item(step) for step in steps]
+
+
+def _together(part: Assembly) -> tuple[tuple[Program, ...], int]:
+    return (program(part, constraint_quantities(part.scene)),), 0
+
+
+def _item(step: _Step) -> Item:
     """Evaluate the sections of a scene; those that differ in numbers only, once."""
+    words, assembly, evaluated = step
     known: dict[object, tuple[tuple[Program, ...], int]] = {}
     programs: list[Program] = []
     additions = 0
@@ -119,24 +131,25 @@ _Evaluate = Callable[[Scene, Joint, Variant], Program]
 _MOVING = "the ground, moving"
 
 
-def _each(evaluate: _Evaluate) -> Callable[[Assembly], tuple[tuple[Program, ...], int]]:
-    """Evaluate joint by joint; equal joints have one program."""
-    known: dict[tuple[object, ...], Program] = {}
+@dataclass(frozen=True, slots=True)
+class _Each:
+    """Evaluates joint by joint; equal joints have one program."""
 
-    def evaluated(part: Assembly) -> tuple[tuple[Program, ...], int]:
+    evaluate: _Evaluate
+    known: dict[tuple[object, ...], Program] = field(default_factory=dict)
+
+    def __call__(self, part: Assembly) -> tuple[tuple[Program, ...], int]:
         programs: list[Program] = []
         places: list[tuple[object, ...]] = []
         for joint in part.scene.joints:
             variant, moving = part.forms[joint.name], _moving(part.scene, joint)
             order = tuple(moving.index(name) if name in moving else -1 for name in joint.bodies)
             key = (variant, joint.marker_i, joint.marker_j, joint.pitch, order)
-            if key not in known:
-                known[key] = evaluate(part.scene, joint, variant)
-            programs.append(known[key])
-            places += _places(known[key], joint.bodies if evaluate is _in_library else moving)
+            if key not in self.known:
+                self.known[key] = self.evaluate(part.scene, joint, variant)
+            programs.append(self.known[key])
+            places += _places(self.known[key], joint.bodies if self.evaluate is _in_library else moving)
         return tuple(programs), len(places) - len(set(places))
-
-    return evaluated
 
 
 def _moving(scene: Scene, joint: Joint) -> tuple[str, ...]:

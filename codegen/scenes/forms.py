@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from codegen.errors import Mistake, SpecificationError
-from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
-from codegen.scenes.programs import estimate, program, without_zero_rows
+from codegen.scenes.programs import Lowered, estimate, lower_ahead, program, without_zero_rows
 from codegen.spec.request import Variant
 from codegen.spec.scene import GROUND, Joint, Scene
 from codegen.spec.sections import alike
@@ -17,6 +16,9 @@ from flopcount.counts import Counts
 
 TRIGONOMETRY = 20
 """Price of a sine and cosine of one angle, in additions: about what the C library takes on current processors."""
+
+FORMS = ("conventional", "parametric")
+"""Those that are weighed."""
 
 _CONSTRAINTS = ("phi", "phi_q", "phi_q_t_lambda_q", "gamma", "phi_q_v", "phi_q_t_lambda")
 
@@ -58,6 +60,7 @@ def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
     found: dict[str, Choice] = {}
     for sections in alike(scene):
         last = sections[-1].scene(scene)  # the first of several copies has no offset
+        lower_ahead(_to_weigh(last, form, known))
         choices = [_choice(last, joint, form, known) for joint in last.joints]
         for section in sections:
             joints = section.scene(scene).joints
@@ -69,12 +72,27 @@ def _choice(scene: Scene, joint: Joint, form: str | None, known: dict[tuple[obje
     asked = joint.form if form is None else form
     if joint.needs_coordinates:
         return Choice(_variant(scene, joint, "parametric"), "something acts on its coordinates", {})
-    if asked in ("conventional", "parametric"):
+    if asked in FORMS:
         return Choice(_variant(scene, joint, asked), "asked for", {})
     prices = _prices(scene, joint, known)
     chosen = min(prices, key=lambda name: prices[name])
     words = " against ".join(f"{prices[name]} ({name})" for name in sorted(prices, key=lambda name: prices[name]))
     return Choice(_variant(scene, joint, chosen), f"cheaper: {words}", prices)
+
+
+def _to_weigh(scene: Scene, form: str | None, known: Collection[tuple[object, ...]]) -> list[list[Lowered]]:
+    """What the prices of the joints of a scene take, by type and form; equal joints once."""
+    joints = {
+        _likeness(joint): joint
+        for joint in reversed(scene.joints)
+        if not joint.needs_coordinates and (form or joint.form) not in FORMS and _likeness(joint) not in known
+    }
+    types = dict.fromkeys(joint.type for joint in joints.values())
+    return [
+        [_alone(scene, joint, form) for joint in joints.values() if joint.type == name]
+        for form in reversed(FORMS)  # what takes longer first
+        for name in types
+    ]
 
 
 def _variant(scene: Scene, joint: Joint, form: str) -> Variant:
@@ -85,18 +103,19 @@ def _variant(scene: Scene, joint: Joint, form: str) -> Variant:
 
 def _prices(scene: Scene, joint: Joint, known: dict[tuple[object, ...], dict[str, int]]) -> dict[str, int]:
     """Price of a joint alone in both forms; equal joints are weighed once."""
-    sides = tuple(name == GROUND for name in joint.bodies)
-    key = (joint.type, joint.marker_i, joint.marker_j, joint.pitch, sides)
+    key = _likeness(joint)
     if key not in known:
-        known[key] = {
-            form: price(count(_estimated(scene, joint, _variant(scene, joint, form))))
-            for form in ("conventional", "parametric")
-        }
+        known[key] = {form: price(count(program(*_alone(scene, joint, form)))) for form in FORMS}
     return known[key]
 
 
-def _estimated(scene: Scene, joint: Joint, variant: Variant) -> Program:
-    return program(alone(scene, joint, variant), constraint_quantities(scene), estimate)
+def _likeness(joint: Joint) -> tuple[object, ...]:
+    sides = tuple(name == GROUND for name in joint.bodies)
+    return joint.type, joint.marker_i, joint.marker_j, joint.pitch, sides
+
+
+def _alone(scene: Scene, joint: Joint, form: str) -> Lowered:
+    return alone(scene, joint, _variant(scene, joint, form)), constraint_quantities(scene), estimate
 
 
 def alone(scene: Scene, joint: Joint, variant: Variant) -> Assembly:

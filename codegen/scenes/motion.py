@@ -63,7 +63,7 @@ def residual_program(
     system: System, form: str = "index2", beta: Fraction = BETA, choose: Choose = choices_for
 ) -> Program:
     """Compose the residual ``F(t, y, ydot)``, see `dae`."""
-    values = program(system, residual.INDEX1 if form == "index1" else residual.INDEX2, choose)
+    values = program(system, residual_quantities(form), choose)
     return simplify(residual.residual(system, layout(system, form), values, _inertia(system), beta))
 
 
@@ -75,11 +75,20 @@ def jacobian_program(
     choose: Choose = choices_for,
 ) -> Program:
     """Compose the Jacobian ``dF/dy + cj dF/dydot``, see `dae`."""
-    acting = ("force",) if form == "condensed" else ()
-    slopes = program(system, (*jacobian.INDEX2, *acting), choose)
+    slopes = program(system, jacobian_quantities(form), choose)
     gamma = simplify(by_motion(program(system, ("gamma",), choose), system)) if form == "index1" else None
     state, inertia = layout(system, form), _inertia(system)
     return simplify(jacobian.jacobian(system, state, slopes, inertia, left_out=left_out, gamma=gamma, beta=beta))
+
+
+def residual_quantities(form: str) -> tuple[str, ...]:
+    """The quantities of a system that the residual is composed of."""
+    return residual.INDEX1 if form == "index1" else residual.INDEX2
+
+
+def jacobian_quantities(form: str) -> tuple[str, ...]:
+    """The quantities of a system that the Jacobian is composed of; that of index 1 takes ``gamma`` besides."""
+    return (*jacobian.INDEX2, "force") if form == "condensed" else jacobian.INDEX2
 
 
 def _inertia(system: System) -> Program:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from codegen.cache import kept
+from codegen.cache import is_kept, kept
 from codegen.ir.lower import lower, structural_rows
 from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.lowering import Choose
@@ -17,6 +17,7 @@ from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
 from codegen.models import PRICES, choices_for
+from codegen.parallel import parallel
 from codegen.passes import simplify
 from codegen.passes.select import select
 from codegen.spec.sections import alike
@@ -55,8 +56,31 @@ def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = 
     wanted = tuple(names)
     if choose not in (choices_for, estimate):
         return _cheapest(assembly, wanted, choose)
-    what = ("program of a scene", assembly, wanted, choose.__name__)
-    return kept(what, lambda: _cheapest(assembly, wanted, choose))
+    return kept(_what(assembly, wanted, choose), lambda: _cheapest(assembly, wanted, choose))
+
+
+Lowered = tuple[Assembly | System, tuple[str, ...], Choose]
+"""What `program` is asked for."""
+
+
+def lower_ahead(groups: Iterable[Sequence[Lowered]]) -> None:
+    """Lower programs on all cores, so that `program` finds them kept.
+
+    Args:
+        groups: what derives the same in between is a group, which stays in one process; chosen among by `choices_for`
+            or `estimate`.
+    """
+    missing = [[job for job in group if not is_kept(_what(*job))] for group in groups]
+    parallel(_lower_all, [group for group in missing if group], lambda _: None)
+
+
+def _lower_all(group: Sequence[Lowered]) -> None:
+    for job in group:
+        program(*job)
+
+
+def _what(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> tuple[object, ...]:
+    return "program of a scene", assembly, names, getattr(choose, "__name__", "")
 
 
 def _cheapest(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> Program:

@@ -16,7 +16,7 @@ from codegen.measure.constraints import Array, Pose
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
 from codegen.scenes.driven import check_drives
-from codegen.scenes.equations import equations, quantities
+from codegen.scenes.equations import ACCELERATIONS, equations, lower_run, quantities
 from codegen.scenes.generate import Judged, judge
 from codegen.scenes.state import euler_parameters, program_arrays, rate_matrix
 from codegen.simulate.compiled import Compiled
@@ -141,7 +141,8 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     system = System(judged.assembly)
     form = "condensed" if settings.index == 2 else "index1"
     state = layout(system, form)
-    values = quantities(system, ("phi_q", "gamma", "force"))
+    lower_run(system, judged.undropped, form)
+    values = quantities(system, ACCELERATIONS)
     inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
     check_drives(system, values, judged.pose)
     motion = _motion(system, values, inertia, judged.pose, _velocity(system))

@@ -21,7 +21,7 @@ from codegen.ir.program import Program
 from codegen.measure.constraints import Array, characteristic_length
 from codegen.measure.threads import one_thread
 from codegen.mechanics.system import System
-from codegen.scenes.equations import quantities
+from codegen.scenes.equations import WATCHED, quantities
 from codegen.scenes.generate import Judged, row_names
 from codegen.scenes.numbers import constraint_system, coordinates, rows_of
 from codegen.scenes.state import bodies_of
@@ -71,7 +71,7 @@ class Watch:
 
     @cached_property
     def _program(self) -> Program:
-        return quantities(self.system, ("phi", "phi_q"))
+        return quantities(self.system, WATCHED)
 
     @cached_property
     def row_units(self) -> Array:

@@ -22,8 +22,8 @@ from codegen.simulate.library import library
 Pivots = tuple[tuple[int, ...], tuple[int, ...]]
 """Rows and columns of a block in the order of elimination, numbered in it."""
 
-MOST_PRODUCTS = 20_000
-"""Of an elimination; longer ones do not fit a processor's memory of instructions, and compilers take seconds."""
+MOST_PRODUCTS = 8_000
+"""Of an elimination; compilers take seconds for longer ones, which thousands of runs would have to earn."""
 
 
 @dataclass(frozen=True, slots=True)

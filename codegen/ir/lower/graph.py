@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from operator import itemgetter
 
 from codegen.ir.lower.alternatives import Alternative
 
@@ -68,7 +69,17 @@ class Index:
                     self.users_of[child].setdefault(node, []).append(len(self.owner))
                 self.owner.append(node)
                 self.sizes.append(len(children))
+        self._getters: dict[int, Callable[[Sequence[int]], Sequence[int]]] = {}
         self.leaves = [number for number, size in enumerate(self.sizes) if not size]
+
+    def used_by(self, node: int, uses: Sequence[int]) -> tuple[Iterable[tuple[int, list[int]]], Sequence[int]]:
+        """Give `users_of` of a node, node by node, and how often each of these is used."""
+        users = self.users_of[node]
+        if not users:
+            return (), ()
+        if node not in self._getters:
+            self._getters[node] = itemgetter(*users, node)  # one more, since a getter of one gives no tuple
+        return users.items(), self._getters[node](uses)
 
     def numbers(self, node: int) -> range:
         """Numbers of the alternatives of a node."""

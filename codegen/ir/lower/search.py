@@ -11,6 +11,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable, Iterable, Sequence
+from itertools import compress
 
 from codegen.errors import InternalError
 from codegen.ir.lower.graph import Choice, Graph, Index, price, weighted
@@ -155,7 +156,7 @@ class _Search:
         """Use a node wherever that is cheaper, trying alternatives that take little that is not there yet."""
         uses, chosen, costs, children = self._uses, self._chosen, self._costs, self._children
         missing, prices = self._missing, self._price
-        for user, numbers in [item for item in self._index.users_of[node].items() if uses[item[0]]]:
+        for user, numbers in list(compress(*self._index.used_by(node, uses))):
             if user == spared:
                 continue
             for number in numbers:
@@ -169,7 +170,15 @@ class _Search:
                     if not uses[child]:
                         room -= prices[child]
                 if room >= 0:
-                    self._improve(user, number)
+                    if costs[number] >= costs[old] and self._frees_nothing(old):
+                        self._switches -= 1  # as if it were tried
+                    else:
+                        self._improve(user, number)
+
+    def _frees_nothing(self, number: int) -> bool:
+        """Whether what an alternative takes is used by others too."""
+        uses, children = self._uses, self._children[number]
+        return len(children) == self._index.sizes[number] and all([uses[child] > 1 for child in children])
 
     def _improve(self, node: int, number: int) -> None:
         """Switch a node to an alternative, if that lowers the total."""

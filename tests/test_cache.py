@@ -32,6 +32,12 @@ def test_a_thing_is_made_once_for_each_description(home: Path) -> None:
     assert (found, made) == (["aa", "bb", "aa"], ["a", "b"])
 
 
+def test_what_is_kept_is_told_before_it_is_asked_for(home: Path) -> None:
+    assert not cache.is_kept("answer")
+    cache.kept("answer", lambda: 42)
+    assert cache.is_kept("answer") and not cache.is_kept("another answer")
+
+
 def test_a_file_is_made_once_and_has_the_content_it_was_made_with(home: Path) -> None:
     paths = [cache.kept_file("file", ".so", lambda: b"content") for _ in range(2)]
     assert paths[0] == paths[1] and paths[0].read_bytes() == b"content"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
 import os
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from hypothesis import given, settings
@@ -16,9 +18,9 @@ from hypothesis import strategies as st
 
 from codegen.errors import InternalError
 from codegen.ir.lower.alternatives import Alternative
-from codegen.ir.lower.graph import Choice, Graph, price
+from codegen.ir.lower.graph import Choice, Graph, Index, price
 from codegen.ir.lower.record import fingerprint, recorded, replayed
-from codegen.ir.lower.search import cheapest, searched
+from codegen.ir.lower.search import _Search, cheapest, searched
 from codegen.spec.request import Variant
 
 from .models import laid_out, needed
@@ -109,6 +111,32 @@ def test_a_search_that_may_switch_a_few_times_only_gives_a_choice_as_good_as_its
     assert is_acyclic(graph, choice)
     assert price(graph, choice) <= price(graph, cheapest(graph, outputs, switches=0))
     assert cheapest(graph, outputs, switches=0) == cheapest(graph, outputs, sweeps=0)
+
+
+@few
+@given(graphs(), st.integers(0, 1))
+def test_uses_and_total_stay_those_of_the_choice_while_moves_are_made_and_taken_back(
+    case: tuple[Graph, list[int]], seed: int
+) -> None:
+    graph, outputs = case
+    search = _Search(Index(graph), outputs, seed, math.inf)
+    for _ in range(3):
+        search.sweep()
+        choice = search.choice()
+        taken = [*outputs, *(child for node, k in choice.items() for child in graph[node][k].children)]
+        assert search._uses == [taken.count(node) for node in range(len(graph))]
+        assert search.total == price(graph, choice)
+
+
+@few
+@given(graphs(), st.integers(0, 60))
+def test_what_frees_nothing_and_is_no_cheaper_could_be_tried_with_the_same_end(
+    case: tuple[Graph, list[int]], switches: int
+) -> None:
+    graph, outputs = case
+    with mock.patch.object(_Search, "_frees_nothing", lambda *_: False):
+        tried = [cheapest(graph, outputs), cheapest(graph, outputs, switches=switches)]
+    assert tried == [cheapest(graph, outputs), cheapest(graph, outputs, switches=switches)]
 
 
 @few

@@ -15,7 +15,7 @@ from codegen.ir.lower import Part, Prices, SymbolicOutput, definition_notation, 
 from codegen.ir.lower.graph import Choice, Graph
 from codegen.ir.lower.lowering import Choose
 from codegen.ir.lower.record import Records, fingerprint, replayed
-from codegen.ir.lower.search import searched
+from codegen.ir.lower.search import PATIENCE, searched
 from codegen.ir.program import Program
 from codegen.mechanics import frames
 from codegen.mechanics.derivation import AS_IT_STANDS, Derivation
@@ -43,19 +43,28 @@ def records() -> Records:
     return found
 
 
-_FOUND: dict[str, list[Choice]] = {}
+_FOUND: dict[tuple[str, int], list[Choice]] = {}
 """Choices that this process has searched: equal joints of a scene have equal graphs."""
 
 
 def choices_for(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
     """Choose among the ways to evaluate nodes: what is on record, or the best that a short search finds."""
+    return _choices(graph, outputs, PATIENCE)
+
+
+def choices_for_scenes(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
+    """As `choices_for`, but a search ends with its first sweep without a gain: the graphs of scenes are large."""
+    return _choices(graph, outputs, 1)
+
+
+def _choices(graph: Graph, outputs: Sequence[int], patience: int) -> list[Choice]:
     key = fingerprint(graph, outputs)
     record = records().get(key)
     if record is not None:
         return [replayed(graph, outputs, record)]
-    if key not in _FOUND:
-        _FOUND[key] = searched(graph, outputs, STARTS)
-    return _FOUND[key]
+    if (key, patience) not in _FOUND:
+        _FOUND[key, patience] = searched(graph, outputs, STARTS, patience=patience)
+    return _FOUND[key, patience]
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from codegen.ir.lower.lowering import Choose
 from codegen.ir.program import Program
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
-from codegen.models import choices_for
+from codegen.models import choices_for_scenes
 from codegen.passes import simplify
 from codegen.scenes.programs import program
 
@@ -41,7 +41,7 @@ def dae(
     form: str = "index2",
     left_out: Collection[str] = (),
     beta: Fraction = BETA,
-    choose: Choose = choices_for,
+    choose: Choose = choices_for_scenes,
 ) -> Dae:
     """Compose the equations of motion.
 
@@ -60,7 +60,7 @@ def dae(
 
 
 def residual_program(
-    system: System, form: str = "index2", beta: Fraction = BETA, choose: Choose = choices_for
+    system: System, form: str = "index2", beta: Fraction = BETA, choose: Choose = choices_for_scenes
 ) -> Program:
     """Compose the residual ``F(t, y, ydot)``, see `dae`."""
     values = program(system, residual_quantities(form), choose)
@@ -72,7 +72,7 @@ def jacobian_program(
     form: str = "index2",
     left_out: Collection[str] = (),
     beta: Fraction = BETA,
-    choose: Choose = choices_for,
+    choose: Choose = choices_for_scenes,
 ) -> Program:
     """Compose the Jacobian ``dF/dy + cj dF/dydot``, see `dae`."""
     slopes = program(system, jacobian_quantities(form), choose)

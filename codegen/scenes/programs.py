@@ -16,7 +16,7 @@ from codegen.ir.lower.search import cheapest
 from codegen.ir.program import Program
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.system import System
-from codegen.models import PRICES, choices_for
+from codegen.models import PRICES, choices_for_scenes
 from codegen.parallel import parallel
 from codegen.passes import simplify
 from codegen.passes.select import select
@@ -45,16 +45,16 @@ def without_zero_rows(assembly: Assembly) -> Assembly:
     return replace(assembly, dropped=assembly.dropped | zero)
 
 
-def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = choices_for) -> Program:
+def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = choices_for_scenes) -> Program:
     """Lower quantities of the constraints of a scene to one simplified program, the cheapest that is found.
 
     Args:
         assembly: the scene with the forms of its joints; a `System` has its drives and forces too.
         names: ``phi``, ``phi_q``, ``phi_q_t_lambda_q``, ``gamma``, ``phi_q_v``, ``phi_q_t_lambda``.
-        choose: among the ways to evaluate them; what is chosen by `choices_for` and `estimate` is kept between runs.
+        choose: among the ways to evaluate them; what `choices_for_scenes` and `estimate` choose is kept between runs.
     """
     wanted = tuple(names)
-    if choose not in (choices_for, estimate):
+    if choose not in (choices_for_scenes, estimate):
         return _cheapest(assembly, wanted, choose)
     return kept(_what(assembly, wanted, choose), lambda: _cheapest(assembly, wanted, choose))
 
@@ -67,8 +67,8 @@ def lower_ahead(groups: Iterable[Sequence[Lowered]]) -> None:
     """Lower programs on all cores, so that `program` finds them kept.
 
     Args:
-        groups: what derives the same in between is a group, which stays in one process; chosen among by `choices_for`
-            or `estimate`.
+        groups: what derives the same in between is a group, which stays in one process; chosen among by
+            `choices_for_scenes` or `estimate`.
     """
     missing = [[job for job in group if not is_kept(_what(*job))] for group in groups]
     parallel(_lower_all, [group for group in missing if group], lambda _: None)

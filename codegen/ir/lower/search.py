@@ -24,7 +24,7 @@ _NONE = -1
 
 _LEAST_GAIN = 1e-9
 
-_PATIENCE = 2
+PATIENCE = 2
 """Sweeps without a gain after which the search ends."""
 
 _REACH = 10.0
@@ -49,19 +49,28 @@ def cheapest(
     return _searched(Index(graph), outputs, seed, sweeps, switches)
 
 
-def _searched(index: Index, outputs: Sequence[int], seed: int, sweeps: int = 12, switches: float = math.inf) -> Choice:
+def _searched(
+    index: Index,
+    outputs: Sequence[int],
+    seed: int,
+    sweeps: int = 12,
+    switches: float = math.inf,
+    patience: int = PATIENCE,
+) -> Choice:
     search = _Search(index, outputs, seed, switches)
     idle = 0
     for _ in range(sweeps):
         before = search.total
         search.sweep()
         idle = idle + 1 if search.total > before - _LEAST_GAIN else 0
-        if idle == _PATIENCE:
+        if idle == patience:
             break
     return search.choice()
 
 
-def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: int = 2) -> list[Choice]:
+def searched(
+    graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: int = 2, patience: int = PATIENCE
+) -> list[Choice]:
     """Search from several starts.
 
     Args:
@@ -69,6 +78,7 @@ def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: i
         outputs: nodes that must be computed.
         seeds: of the starts.
         best: how many of the choices are given at most.
+        patience: sweeps without a gain after which a search ends.
 
     Returns:
         The cheapest of the choices found, each once, the cheapest first.
@@ -76,7 +86,7 @@ def searched(graph: Graph, outputs: Sequence[int], seeds: Iterable[int], best: i
     ends: dict[tuple[tuple[int, int], ...], Choice] = {}
     index = Index(graph)
     for seed in seeds:
-        choice = _searched(index, outputs, seed)
+        choice = _searched(index, outputs, seed, patience=patience)
         ends.setdefault(tuple(choice.items()), choice)
     return sorted(ends.values(), key=lambda choice: price(graph, choice))[:best]
 

@@ -8,32 +8,40 @@ from typing import Any
 
 import click
 
-from codegen.errors import Mistake, SpecificationError
+from codegen.errors import Mistake, SpecificationError, of_file
 from codegen.progress import progress
 
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--kinematics", "mode", flag_value="kinematics", help="Motion from that of the independent coordinates.")
-@click.option("--inverse", "mode", flag_value="inverse", help="Besides, efforts and reactions.")
-@click.option("--forward", "mode", flag_value="forward", help="Motion under forces.")
+@click.option("--kinematics", is_flag=True, help="Motion from that of the independent coordinates.")
+@click.option("--inverse", is_flag=True, help="Besides, efforts and reactions.")
+@click.option("--forward", is_flag=True, help="Motion under forces.")
 @click.option("--tol", "tolerance", type=float, default=1e-8, show_default=True, help="Tolerance of the integrator.")
 @click.option("--duration", type=float, default=1.0, show_default=True, help="Time to run, s.")
 @click.option("--outputs", type=int, default=200, show_default=True, help="Output times after the start.")
 @click.option("--animation", is_flag=True, help="Write animation.html, a page that plays the run.")
 @click.option("--real", default="double", show_default=True, help="Number type of the routines: double or float.")
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
-def chain(file: Path, real: str, animation: bool, target: Path, mode: str | None, **options: Any) -> None:
+def chain(file: Path, real: str, animation: bool, target: Path, **options: Any) -> None:
     """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
+    mode = _mode(options)
     if mode is None:
         _generate_chain(file, real, target)
     else:
         _run_chain(file, target, animation, {"mode": mode, **options})
 
 
-def generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
-    """The routines of a scene by relative coordinates."""
-    from codegen import output, scenes
+def _mode(options: dict[str, Any]) -> str | None:
+    """Take out how a chain is to be run; None if its routines are wanted."""
+    asked = [name for name in ("kinematics", "inverse", "forward") if options.pop(name)]
+    if len(asked) > 1:
+        raise SpecificationError([Mistake(f"--{asked[1]}", f"stands beside --{asked[0]}", "give one of them")])
+    return asked[0] if asked else None
+
+
+def generate_relative(file: Path, read: Any, real: str, target: Path, given: dict[str, bool]) -> None:
+    """The routines of a scene, read from a file, by relative coordinates."""
     from codegen.chains.relative import relative
 
     mistakes = [
@@ -41,12 +49,10 @@ def generate_relative(file: Path, copies: int | None, real: str, target: Path, g
     ]
     if mistakes:
         raise SpecificationError(mistakes)
-    output.check_target(target)
-    read, left_out = scenes.read(file, copies)
     found = relative(read)
-    for line in (*left_out, *found.notes):
+    for line in found.notes:
         click.echo(line, err=True)
-    _write_chain(found.chain, real, target)
+    _write_chain(file, found.chain, real, target)
 
 
 def _generate_chain(file: Path, real: str, target: Path) -> None:
@@ -57,15 +63,16 @@ def _generate_chain(file: Path, real: str, target: Path) -> None:
     check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
-    _write_chain(described, real, target)
+    _write_chain(file, described, real, target)
 
 
-def _write_chain(described: Any, real: str, target: Path) -> None:
+def _write_chain(file: Path, described: Any, real: str, target: Path) -> None:
     from codegen import output
     from codegen.chains.generate import generate_chain, steps
     from codegen.chains.stand import check_start
 
-    check_start(described)
+    with of_file(file):
+        check_start(described)
     with progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
     output.replace(target, files)
@@ -83,9 +90,10 @@ def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any
     settings = Settings(**options)
     output.check_target(target)
     read_chain, tables = read(file)
-    check(read_chain, settings)
+    with of_file(file):
+        check(read_chain, settings)
     compiler()
-    with progress(settings.outputs, "running") as advance:
+    with of_file(file), progress(settings.outputs, "running") as advance:
         result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **chain_pictures(result.mechanism, result.record, animation)})
     told(file, target, result)
@@ -106,8 +114,8 @@ def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
     return {**found, "--index": options.pop("index") != 2}
 
 
-def simulate_relative(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
-    """A scene by relative coordinates."""
+def simulate_relative(file: Path, read: Any, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    """A scene, read from a file, by relative coordinates."""
     from codegen import output
     from codegen.chains.simulate import Settings
     from codegen.chains.simulate_scene import simulated_relative
@@ -120,10 +128,8 @@ def simulate_relative(file: Path, target: Path, animation: bool, copies: int | N
     if mistakes:
         raise SpecificationError(mistakes)
     settings = Settings("forward", **options)
-    output.check_target(target)
-    read = read_told(file, copies)
     compiler()
-    with progress(settings.outputs, "simulating") as advance:
+    with of_file(file), progress(settings.outputs, "simulating") as advance:
         result = simulated_relative(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     told(file, target, result)

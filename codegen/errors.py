@@ -7,8 +7,10 @@ line each, by the command line, which then leaves with exit code 2.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from os import PathLike
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +28,7 @@ class Mistake:
     remedy: str
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.what}; {self.remedy}"
+        return one_line(f"{self.place}: {self.what}; {self.remedy}")
 
 
 class JointgenError(Exception):
@@ -47,6 +49,24 @@ class OutputError(JointgenError):
 
 class InternalError(AssertionError):
     """A promise between two stages is broken: a defect of jointgen, not of its input."""
+
+
+def one_line(text: str) -> str:
+    """Write what would break a line, or does not print, as Python's escapes."""
+    return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in text)
+
+
+@contextmanager
+def of_file(file: PathLike[str]) -> Iterator[None]:
+    """Name the file of mistakes that show only once its content is worked on; those of options keep their place."""
+    try:
+        yield
+    except SpecificationError as error:
+        places = ("" if mistake.place.startswith("--") else f"{file}: " for mistake in error.mistakes)
+        raise SpecificationError(
+            replace(mistake, place=f"{place}{mistake.place}")
+            for place, mistake in zip(places, error.mistakes, strict=True)
+        ) from error
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -53,6 +53,7 @@ class Moving:
             self._code.drive(lambda t: np.concatenate(drives.at(t)), drives.longest)
         self._told: Callable[[], str] = str
         self.evaluations = 0
+        self.steps = 0
         self.events_met = 0
 
     @property
@@ -181,7 +182,9 @@ class Moving:
     def moved(self, solver: RateSolver) -> None:
         """Be where the compiled code went."""
         self._is_ahead, self._rates = True, (np.zeros(0), None)
-        self.evaluations += solver.counted()
+        evaluations, steps = solver.counted()
+        self.evaluations += evaluations
+        self.steps += steps
 
     def value(self, k: int, t: float, y: Array) -> float:
         """What is positive while a switch is on."""

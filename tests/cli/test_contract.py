@@ -131,3 +131,10 @@ def test_a_chain_under_forces_tells_how_far_its_energy_drifts(tmp_path: Path) ->
     assert 0.1 * drift < found["energy_drift"] < 10 * drift
     assert set(COUNTS) <= set(found)
     assert 11 * found["steps"] <= found["evaluations"] < 15 * found["steps"] + 15
+
+
+def test_rows_are_named_as_they_are_asked_for_where_nothing_rotates_too(tmp_path: Path) -> None:
+    asked = ("--rows", "table4", "--derivative", "exact", "--outputs", "phi")
+    assert invoke("generate", "translational", *asked, "-o", tmp_path / "rows").exit_code == 0
+    (function,) = json.loads((tmp_path / "rows" / "manifest.json").read_text())["functions"]
+    assert (function["symbol"], function["rows"]) == ("jg_translational_parametric_table4_phi", "table4")

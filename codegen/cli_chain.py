@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import click
 
-from codegen.errors import Mistake, SpecificationError, of_file
+from codegen.errors import Mistake, SpecificationError
 from codegen.progress import progress
 
 
@@ -25,19 +28,13 @@ from codegen.progress import progress
 @click.option("-o", "--output", "target", type=click.Path(path_type=Path), required=True)
 def chain(file: Path, real: str, animation: bool, target: Path, **options: Any) -> None:
     """Emit the routines of a kinematic chain, or run it: trajectory.csv, summary.json, plot.svg, animation.html."""
-    mode = _mode(options)
-    if mode is None:
+    modes = [mode for mode in ("kinematics", "inverse", "forward") if options.pop(mode)]
+    if len(modes) > 1:
+        raise SpecificationError([Mistake(f"--{modes[1]}", f"is given beside --{modes[0]}", "ask for one run")])
+    if not modes:
         _generate_chain(file, real, target)
     else:
-        _run_chain(file, target, animation, {"mode": mode, **options})
-
-
-def _mode(options: dict[str, Any]) -> str | None:
-    """Take out how a chain is to be run; None if its routines are wanted."""
-    asked = [name for name in ("kinematics", "inverse", "forward") if options.pop(name)]
-    if len(asked) > 1:
-        raise SpecificationError([Mistake(f"--{asked[1]}", f"stands beside --{asked[0]}", "give one of them")])
-    return asked[0] if asked else None
+        _run_chain(file, target, animation, {"mode": modes[0], **options})
 
 
 def generate_relative(file: Path, read: Any, real: str, target: Path, given: dict[str, bool]) -> None:
@@ -49,7 +46,8 @@ def generate_relative(file: Path, read: Any, real: str, target: Path, given: dic
     ]
     if mistakes:
         raise SpecificationError(mistakes)
-    found = relative(read)
+    with in_file(file):
+        found = relative(read)
     for line in found.notes:
         click.echo(line, err=True)
     _write_chain(file, found.chain, real, target)
@@ -58,20 +56,21 @@ def generate_relative(file: Path, read: Any, real: str, target: Path, given: dic
 def _generate_chain(file: Path, real: str, target: Path) -> None:
     from codegen import output
     from codegen.chains.read import read
-    from codegen.scenes.generate import check_options
 
-    check_options(None, real)
     output.check_target(target)
     described, _ = read(file)
     _write_chain(file, described, real, target)
 
 
 def _write_chain(file: Path, described: Any, real: str, target: Path) -> None:
+    """Generate; what is imported here takes seconds, and mistakes of a file have been told."""
     from codegen import output
     from codegen.chains.generate import generate_chain, steps
     from codegen.chains.stand import check_start
+    from codegen.scenes.generate import check_options
 
-    with of_file(file):
+    check_options(None, real)
+    with in_file(file):
         check_start(described)
     with progress(steps(described), "generating") as advance:
         files = generate_chain(described, real, advance)
@@ -83,17 +82,23 @@ def _write_chain(file: Path, described: Any, real: str, target: Path) -> None:
 def _run_chain(file: Path, target: Path, animation: bool, options: dict[str, Any]) -> None:
     from codegen import output
     from codegen.chains.read import read
+
+    output.check_target(target)
+    _run(file, *read(file), target, animation, options)
+
+
+def _run(file: Path, read_chain: Any, tables: Any, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    """Run; what is imported here takes seconds, and mistakes of a file have been told."""
+    from codegen import output
     from codegen.chains.simulate import Settings, check, simulated
     from codegen.measure.compile import compiler
     from codegen.report.chain_pictures import chain_pictures
 
     settings = Settings(**options)
-    output.check_target(target)
-    read_chain, tables = read(file)
-    with of_file(file):
+    with in_file(file):
         check(read_chain, settings)
     compiler()
-    with of_file(file), progress(settings.outputs, "running") as advance:
+    with progress(settings.outputs, "running") as advance, in_file(file):
         result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **chain_pictures(result.mechanism, result.record, animation)})
     told(file, target, result)
@@ -129,7 +134,7 @@ def simulate_relative(file: Path, read: Any, target: Path, animation: bool, opti
         raise SpecificationError(mistakes)
     settings = Settings("forward", **options)
     compiler()
-    with of_file(file), progress(settings.outputs, "simulating") as advance:
+    with progress(settings.outputs, "simulating", "deriving and compiling") as advance, in_file(file):
         result = simulated_relative(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     told(file, target, result)
@@ -143,6 +148,19 @@ def read_told(file: Path, copies: int | None) -> Any:
     for line in left_out:
         click.echo(line, err=True)
     return read
+
+
+@contextmanager
+def in_file(file: Path) -> Iterator[None]:
+    """Say of mistakes that show only when a mechanism is put together which file has them."""
+    try:
+        yield
+    except SpecificationError as error:
+        told_of = (
+            mistake if mistake.place.startswith("--") else replace(mistake, place=f"{file}: {mistake.place}")
+            for mistake in error.mistakes
+        )
+        raise SpecificationError(told_of) from error
 
 
 def told(file: Path, target: Path, result: Any) -> None:

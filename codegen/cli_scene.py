@@ -8,8 +8,7 @@ from typing import Any
 
 import click
 
-from codegen.cli_chain import generate_relative, read_told, simulate_chain, simulate_relative, told
-from codegen.errors import of_file
+from codegen.cli_chain import generate_relative, in_file, read_told, simulate_chain, simulate_relative, told
 from codegen.progress import progress
 
 
@@ -33,14 +32,14 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
     check_options(form, real, loops)
     output.check_target(target)
     read = read_told(file, copies)
-    with of_file(file):
+    with in_file(file):
         as_chain = is_relative(read, form)
     if as_chain:
         generate_relative(file, read, real, target, {"--loops": loops != "auto", "--measure": measure})
         return
     if measure:
         compiler()
-    with of_file(file), progress(steps(read), "generating") as advance:
+    with progress(steps(read), "generating") as advance, in_file(file):
         files = generate_scene(read, form, real, advance, measure, loops)
     output.replace(target, files)
     functions = len(json.loads(files[output.MANIFEST])["functions"])
@@ -75,13 +74,13 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     check_settings(settings)
     output.check_target(target)
     read = read_told(file, copies)
-    with of_file(file):
+    with in_file(file):
         as_chain = is_relative(read, settings.form)
     if as_chain:
         simulate_relative(file, read, target, animation, options)
         return
     check_tools()
-    with of_file(file), progress(settings.outputs, "simulating") as advance:
+    with progress(settings.outputs, "simulating", "deriving and compiling") as advance, in_file(file):
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))
     output.replace(target, {**result.files, **run_pictures(read, result.trajectory, animation)})
     told(file, target, result)

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from codegen.build import Progress
+from codegen.cache import kept
 from codegen.counted import Counted, counted
 from codegen.ir.lower import SymbolicOutput
 from codegen.mechanics.formulation import coordinate_count
@@ -70,6 +71,10 @@ def _derivatives(variant: Variant) -> Counted:
 
 def left_out_operations(joint: str) -> dict[str, Operations]:
     """Count what the paper takes as given: on the conventional side, and on the parametric side for this joint."""
+    return kept(("left out", joint), lambda: _left_out_operations(joint))
+
+
+def _left_out_operations(joint: str) -> dict[str, Operations]:
     conventional = model(Variant(joint, "conventional", None))
     counted = {name: _operations(conventional, outputs) for name, outputs in conventional_quantities().items()}
     parametric = model(Variant(joint, "parametric", "regular"))

@@ -7,10 +7,8 @@ line each, by the command line, which then leaves with exit code 2.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from os import PathLike
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,19 +52,6 @@ class InternalError(AssertionError):
 def one_line(text: str) -> str:
     """Write what would break a line, or does not print, as Python's escapes."""
     return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in text)
-
-
-@contextmanager
-def of_file(file: PathLike[str]) -> Iterator[None]:
-    """Name the file of mistakes that show only once its content is worked on; those of options keep their place."""
-    try:
-        yield
-    except SpecificationError as error:
-        places = ("" if mistake.place.startswith("--") else f"{file}: " for mistake in error.mistakes)
-        raise SpecificationError(
-            replace(mistake, place=f"{place}{mistake.place}")
-            for place, mistake in zip(places, error.mistakes, strict=True)
-        ) from error
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

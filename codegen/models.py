@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import resources
 
 import codegen
+from codegen.cache import kept
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.ir.lower import Part, Prices, SymbolicOutput, definition_notation, lower, notation
 from codegen.ir.lower.lowering import Choose
@@ -81,8 +82,10 @@ class Model:
         return "\n".join(lines) + "\n"
 
     def program(self, names: Iterable[str]) -> Program:
-        """Lower the named quantities to one simplified program."""
-        return self.lowered(self.outputs(names))
+        """Lower the named quantities to one simplified program; it is kept between runs."""
+        wanted = tuple(names)
+        lowered = replace(self.variant, geometry="runtime")  # what depends on it alone is split off later
+        return kept(("program", lowered, wanted), lambda: self.lowered(self.outputs(wanted)))
 
     def lowered(
         self,

@@ -8,8 +8,14 @@ from collections.abc import Callable, Iterator
 
 
 @contextlib.contextmanager
-def progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
-    """A progress bar on a terminal, silence in a pipe."""
+def progress(total: int, words: str, before: str = "") -> Iterator[Callable[[str], None]]:
+    """A progress bar on a terminal, silence in a pipe.
+
+    Args:
+        total: how often it is told.
+        words: what goes on.
+        before: what goes on until it is first told, where that is something else.
+    """
     if not sys.stderr.isatty():
         yield lambda _: None
         return
@@ -18,7 +24,7 @@ def progress(total: int, words: str) -> Iterator[Callable[[str], None]]:
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(words, total=total)
+        task = bar.add_task(before or words, total=total)
 
         def advance(name: str) -> None:
             bar.update(task, advance=1, description=f"{words} {name}")

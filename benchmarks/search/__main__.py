@@ -83,8 +83,9 @@ def _routines(variant: Variant) -> Iterator[tuple[str, Sequence[str]]]:
 def _on_request() -> list[Variant]:
     """Variants outside the library: world variation and quaternion rows of the parametric form, and all pairs."""
     world = Options(tuple(JOINTS), "parametric", variation="world")
-    quaternion = Options(("ball", "trn3_rot3"), "parametric", "quaternion")
-    turned = Options(("ball",), "parametric", "quaternion", "exact", "world")
+    free = tuple(name for name in PAIRS if name.endswith("rot3"))
+    quaternion = Options(("ball", *free), "parametric", "quaternion")
+    turned = Options(("ball", *free), "parametric", "quaternion", variation="world")
     pairs = Options(tuple(PAIRS), "parametric")
     return [variant for options in (world, quaternion, turned, pairs) for variant in build.variants(options)]
 

@@ -64,6 +64,5 @@ def run(
     except Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure
-    return Run(
-        tuple(states), words, motion.iterations, motion.events_met, motion.evaluations, motion.steps, tuple(work)
-    )
+    counts = motion.iterations, motion.events_met, motion.evaluations, motion.exchanges, motion.steps
+    return Run(tuple(states), words, *counts, tuple(work))

@@ -49,7 +49,7 @@ class Generated:
         names = [*dict.fromkeys(name for names in wanted.values() for name in names)]
         self._program = chain_program(chain, names)
         compiled = functions([quantities_of(self._program, names) for names in wanted.values()])
-        self._codes: dict[tuple[bool, ...], RateCode] = {}
+        self._codes: dict[tuple[int, ...], RateCode] = {}
         self._routines: dict[str, Evaluate] = dict(zip(wanted, compiled, strict=True))
 
     @property
@@ -92,8 +92,8 @@ class Generated:
         return Terms(gamma, found["M"].reshape(len(q), -1), found["f_C"], found["f_G"])
 
     def code(self, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]) -> RateCode:
-        """Compile the motion by the independent coordinates [nv], once."""
-        key = tuple(is_driven.tolist())
+        """Compile the motion by the independent coordinates [nv], once for each choice of them."""
+        key = (*part.v.tolist(), *is_driven.tolist())
         if key not in self._codes:
             self._codes[key] = RateCode(self._chain.name, self._program, part, is_driven, switches)
         return self._codes[key]

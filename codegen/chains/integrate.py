@@ -36,17 +36,20 @@ def outputs(motion: Moving, y: Array, first: State, times: Array, tolerance: flo
         Stopped: the integrator cannot go on, or forces switch without end.
     """
     t, end, met = float(times[0]), float(times[-1]), 0
-    tolerances = Tolerances(max(tolerance, 3e-14), _absolute(motion, first, tolerance, end - t))
+    relative, duration = max(tolerance, 3e-14), end - t
     left = [float(at) for at in times[1:]]
     while left:
         begun, event = t, None
+        tolerances = Tolerances(relative, _absolute(motion, first, tolerance, duration))
         for step in steps(motion, t, y, end, tolerances, left):
             event = _event(motion, step, tolerances)
             t, y = (event.t, event.y) if event else (step.t, step.y)
             while left and left[0] <= t:
                 at = left.pop(0)
                 yield at, y if at == t else step.between(at)
-            if event:
+            other = None if event else motion.exchange(t, y)
+            y = y if other is None else other
+            if event or other is not None:
                 break
         if event:
             motion.switch(event.switch)

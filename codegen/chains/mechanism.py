@@ -21,6 +21,9 @@ AXES = ("fx", "fy", "fz", "mx", "my", "mz")
 ROWS = ("x", "y", "z", "turn about x", "turn about y", "turn about z")
 """Rows of a cut, axes of its frames."""
 
+_ROUNDING = 1e-9
+"""A length below this part of the largest is what rounding left in place of a zero."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mechanism:
@@ -61,10 +64,20 @@ def mechanism(chain: Chain, equations: Equations) -> Mechanism:
         chain: as its file has it.
         equations: of the chain.
     """
+    return parted(chain, equations, [chain.index(one.joint) for one in chain.independents])
+
+
+def parted(chain: Chain, equations: Equations, independent: list[int]) -> Mechanism:
+    """Make a chain ready by independent coordinates of one's own.
+
+    Args:
+        chain: as its file has it.
+        equations: of the chain.
+        independent: their numbers, in the places of those that the file names.
+    """
     length = characteristic_length(chain)
     reach = max(lengths(chain), default=0.0) / length
     is_prismatic = [link.unit == "m" for link in chain.links]
-    independent = [chain.index(one.joint) for one in chain.independents]
     part = partition(is_prismatic, independent, list(equations.binding), length, reach)
     return Mechanism(chain, equations, part, Conditions(chain), length)
 
@@ -76,8 +89,10 @@ def characteristic_length(chain: Chain) -> float:
 
 
 def lengths(chain: Chain) -> list[float]:
-    """The lengths that the rows of a chain hold, m, without zeros and signs."""
-    return [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d) if value]
+    """The lengths that the rows of a chain hold, m, without signs, zeros and what rounding left in place of zeros."""
+    found = [abs(float(value)) for row in _rows(chain) for value in (row.c, row.a, row.d)]
+    least = _ROUNDING * max(found, default=0.0)
+    return [value for value in found if value > least]
 
 
 def _rows(chain: Chain) -> Iterator[Row]:

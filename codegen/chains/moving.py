@@ -12,7 +12,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from codegen.chains.factor import RankLoss
+from codegen.chains.exchange import bound, exchanged, steepest
+from codegen.chains.factor import RankLoss, least_singular_value
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.motion import Drives
 from codegen.chains.path import Branch, PathEnd, branch, follow
@@ -21,7 +22,7 @@ from codegen.chains.rate_code import FURTHEST
 from codegen.chains.rate_solver import RateSolver
 from codegen.chains.reduced import Reduced, reduced
 from codegen.chains.state import State, generalised, loaded
-from codegen.chains.stop import free_words, path_words
+from codegen.chains.stop import free_words, path_words, short_words
 from codegen.chains.switches import Switch, active
 
 Array = NDArray[np.float64]
@@ -41,20 +42,24 @@ class Moving:
     """
 
     def __init__(self, mechanism: Mechanism, start: Branch, found: tuple[Switch, ...], drives: Drives) -> None:
-        self.mechanism, self.switches, self.drives = mechanism, found, drives
+        self.switches, self.drives = found, drives
         self.is_on: tuple[bool, ...] = (False,) * len(found)
-        self._here = start
+        self._told: Callable[[], str] = str
+        self.evaluations = self.steps = self.events_met = self.exchanges = 0
+        self._take(mechanism, start)
+
+    def _take(self, mechanism: Mechanism, start: Branch) -> None:
+        """Go on from a pose by the independent coordinates of a mechanism."""
+        drives = self.drives
+        self.mechanism, self._here = mechanism, start
+        self._steepest = bound(start.slope, drives.is_driven)
         self._last: tuple[Array, Reduced] | None = None
-        self._code = mechanism.equations.code(mechanism.part, drives.is_driven, found)
+        self._code = mechanism.equations.code(mechanism.part, drives.is_driven, self.switches)
         self._has_entered = self._is_ahead = False
         self._rates: tuple[Array, Array | None] = (np.zeros(0), None)
         self._before = 0 if self._code is None else self._code.iterations
         if self._code is not None:
             self._code.drive(lambda t: np.concatenate(drives.at(t)), drives.longest)
-        self._told: Callable[[], str] = str
-        self.evaluations = 0
-        self.steps = 0
-        self.events_met = 0
 
     @property
     def is_compiled(self) -> bool:
@@ -118,7 +123,7 @@ class Moving:
             return None
         where = np.array([t, *y])
         if not np.array_equal(where, self._rates[0]):
-            self._has_entered = self._has_entered or code.enter(self.here.q, self.here.factor.A)
+            self._has_entered = self._has_entered or code.enter(self.here.q, self.here.factor.A, self._steepest)
             code.switch(self.is_on, self.active)
             self._rates = where, code.rate(t, y) if self._has_entered else None
             self._is_ahead = self._has_entered
@@ -171,6 +176,10 @@ class Moving:
         except PathEnd as further:
             return path_words(mechanism, further)
         return path_words(mechanism, end)
+
+    def closeness(self) -> str:
+        """Tell a pose near which steps lead nowhere."""
+        return short_words(self.mechanism, self.here.q, least_singular_value(self.here.factor.A))
 
     def solver(self, t: float, y: Array, end: float, h: float, relative: float, absolute: Array) -> RateSolver | None:
         """Begin to integrate by the compiled code; None if there is none, or it refuses."""
@@ -226,6 +235,29 @@ class Moving:
             found = self.at(t, y)
             q, qdd_v = self.here.q, self.acceleration(t, found)[0]
         return loaded(mechanism, t, q, found, qdd_v, self.active, self.drives.is_driven)
+
+    def exchange(self, t: float, y: Array) -> Array | None:
+        """Take other independent coordinates where free ones turn back: what is integrated then, None if all stay."""
+        if self._slope(t, y) <= self._steepest:
+            return None
+        qd, driven = self.at(t, y).rates.qd, self.drives.is_driven
+        here = replace(self.here, iterations=self.iterations)
+        try:
+            found, here = exchanged(self.mechanism, here, driven, self._steepest)
+        except RankLoss:
+            self._steepest, self._has_entered = np.inf, False
+            return None
+        self._take(found, here)
+        self.exchanges += 1
+        v = found.part.v[~driven]
+        return np.concatenate([here.q[v], qd[v], y[-1:]])
+
+    def _slope(self, t: float, y: Array) -> float:
+        """How steep the dependent coordinates are beside the free ones."""
+        if self._code is not None and self._compiled(t, y) is not None:
+            return steepest(self._code.slope, self.drives.is_driven)
+        self.at(t, y)
+        return steepest(self.here.slope, self.drives.is_driven)
 
     def begin(self, t: float, y: Array) -> None:
         """Set the switches as they are at the start."""

@@ -78,7 +78,8 @@ class RateCode:
             self._state.sense[k], self._state.asked[k] = switch.sign, switch.coordinate
             self._state.bound[k], self._state.of_rate[k] = switch.bound or 0.0, switch.bound is None
         self.q, self.qd, self.qdd = (np.ctypeslib.as_array(getattr(self._state, word)) for word in ("q", "qd", "qdd"))
-        self.size, self._driven, self._rows = sizes["Y"], 3 * sizes["D"], len(part.w)
+        self.size, self._driven = sizes["Y"], 3 * sizes["D"]
+        self._rows, self._independent = len(part.w), len(part.v)
 
     @property
     def motion(self) -> Any:
@@ -103,13 +104,21 @@ class RateCode:
 
         self._state.drive, self._state.longest = _DRIVE(driven), longest
 
-    def enter(self, q: Array, dependent: Array) -> bool:
+    @property
+    def slope(self) -> Array:
+        """[nw, nv] d q_w / d q_v where the motion is, without dimension."""
+        found = np.array(self._state.slope[: self._rows * self._independent])
+        return found.reshape(self._independent, self._rows).T
+
+    def enter(self, q: Array, dependent: Array, steepest: float) -> bool:
         """Take a closed pose; False if it is not sound.
 
         Args:
             q: [n].
             dependent: [m, nw] Jacobian of the dependent coordinates there, without dimension.
+            steepest: slope of a free coordinate behind which the integration stops.
         """
+        self._state.steepest = steepest
         self.q[:] = q
         order = scipy.linalg.qr(dependent.T, mode="r", pivoting=True)[-1] if self._rows else []
         self._state.rows[: self._rows] = sorted(map(int, order[: self._rows]))
@@ -147,7 +156,7 @@ def _state(sizes: dict[str, int]) -> type[ctypes.Structure]:
             ("sign", c_double),
             ("on", c_double * (sizes["S"] + 1)),
             *((word, c_double * (k + 1)) for word in ("sense", "bound")),
-            ("longest", c_double),
+            *((word, c_double) for word in ("longest", "steepest")),
             ("drive", _DRIVE),
             *((word, c_int * (w + 1)) for word in ("swaps", "rows")),
             *((word, c_int * (k + 1)) for word in ("asked", "of_rate", "is_on")),

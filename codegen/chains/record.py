@@ -84,7 +84,7 @@ def record(mechanism: Mechanism, equations: Generated, run: Run) -> Record:
 
 
 def balance(mechanism: Mechanism, found: Record) -> float:
-    """Give the largest ``h^T f - tau`` of a joint's wrench, relative to the largest component of all, 1 at least.
+    """Give the largest ``h^T f + rotor qdd - tau`` of a joint's wrench, relative to the largest component, 1 at least.
 
     The wrenches come link by link from the end of the tree; that their parts along the joints are what acts there
     checks accelerations and reactions.
@@ -92,6 +92,7 @@ def balance(mechanism: Mechanism, found: Record) -> float:
     if found.tau is None or found.wrenches is None:
         return 0.0
     parts = np.einsum("kij,ij->ki", found.wrenches, _directions(mechanism.chain))
+    parts += found.qdd * np.array([float(link.rotor) for link in mechanism.chain.links])
     return float(np.max(np.abs(parts - found.tau)) / max(1.0, float(np.max(np.abs(found.wrenches)))))
 
 

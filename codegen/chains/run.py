@@ -21,6 +21,7 @@ class Run:
         iterations: of Newton's method.
         events: of switched forces.
         evaluations: of the equation of motion, by the integrator.
+        exchanges: of independent coordinates that turned back.
         steps: of the integrator.
         work: J, of all forces and efforts since the start, at the times of the states; empty without an integrator.
     """
@@ -30,5 +31,6 @@ class Run:
     iterations: int
     events: int = 0
     evaluations: int = 0
+    exchanges: int = 0
     steps: int = 0
     work: tuple[float, ...] = ()

@@ -104,9 +104,8 @@ def simulated(
         "summary.json": json.dumps(numbers, indent=1) + "\n",
         "manifest.json": run_manifest("chain", chain.name),
     }
-    words = (
-        f"{settings.mode}, {found.t[-1]:g} s, {len(found.t)} outputs, {done.iterations} iterations of Newton's method"
-    )
+    words = f"{settings.mode}, {found.t[-1]:g} s, {len(found.t)} outputs"
+    words += f", {done.iterations} iterations of Newton's method" if chain.cuts else ""
     encoded = {path: text.encode() for path, text in files.items()}
     return SimulatedChain(encoded, words, tuple(_notes(loose)), done.failure, ready, found)
 
@@ -190,6 +189,7 @@ def summary(mechanism: Mechanism, found: Record, done: Run, settings: Settings) 
         "evaluations": done.evaluations,
         "constraint_drift": drift(chain, found),
         "energy_drift": energy_drift(found, done),
+        "exchanges": done.exchanges,
         "least_singular_value": float(np.min(found.least)),
     }
     if found.tau is not None:

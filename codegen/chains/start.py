@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from codegen.chains.factor import RankLoss
-from codegen.chains.mechanism import ROWS, Mechanism
+from codegen.chains.factor import RANK_TOLERANCE, RankLoss
+from codegen.chains.mechanism import ROWS, Mechanism, parted
 from codegen.chains.path import Branch, PathEnd, branch, follow
 from codegen.chains.position import Position, close, constraint, nearest
 from codegen.chains.stop import free_words, path_words, residual_words
@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 CLOSED = 1e-6
 """rad, or characteristic lengths: a cut that is less open with the coordinates of the file is closed without a word.
 It is closed by moving coordinates; what no coordinate closes is told however small it is."""
+
+_CLOSED = 1e-9
+"""rad, or characteristic lengths: less is left open where the cuts can be closed."""
 
 
 def start(mechanism: Mechanism, q_v: Array) -> Branch:
@@ -88,5 +91,26 @@ def _stuck(mechanism: Mechanism, q: Array) -> Iterator[Mistake]:
 
 
 def _not_closed(mechanism: Mechanism, found: Position) -> Mistake:
+    """Tell it; the independent coordinates may be to blame, where the cuts close with them free."""
+    loose = parted(mechanism.chain, mechanism.equations, [])
+    freed = nearest(mechanism.equations, loose.part, found.q)
     what = f"the cuts cannot be closed at t = 0: {residual_words(mechanism, found)}"
-    return Mistake("cuts", what, "correct the constants of the links, or give coordinates near the closed pose")
+    if freed.residual > _CLOSED:
+        remedy = "correct the constants of the links, or give coordinates near the closed pose"
+        return Mistake("cuts", what, remedy)
+    free, named = freedom(loose, freed.q), len(mechanism.part.v)
+    if named > free:
+        remedy = (
+            f"name {free} independent coordinates, as many as the cuts leave free where they close, instead of {named}"
+        )
+        return Mistake("independent", what, f"{remedy}; or correct the constants of the links")
+    remedy = f"correct the independent coordinates; with these free too the cuts close at {mechanism.pose(freed.q)}"
+    return Mistake("independent", what, remedy)
+
+
+def freedom(mechanism: Mechanism, q: Array) -> int:
+    """How many coordinates the cuts leave free at a closed pose."""
+    part = mechanism.part
+    J = mechanism.equations.jacobian(q)[part.rows] * part.units / part.row_units[part.rows, None]
+    values = np.linalg.svd(J, compute_uv=False)
+    return len(part.units) - int((values > RANK_TOLERANCE * values.max(initial=0.0)).sum())

@@ -18,6 +18,10 @@ Array = NDArray[np.float64]
 _FIRST = 0.1
 """The first step takes this part of the largest."""
 
+_ROW = 100
+_HARDLY = 1e-5
+"""So many steps in a row that compiled code refuses, of less than this part of the run in all, lead nowhere."""
+
 
 class Stopped(Exception):
     """The integrator cannot go on; the words say why."""
@@ -63,11 +67,13 @@ def steps(
     Of compiled steps those are told that reach the first of the times that are left, or change a switch; of others all.
 
     Raises:
-        Stopped: no step meets the tolerance.
+        Stopped: no step meets the tolerance, or steps become so short that they lead nowhere.
     """
     reach = motion.reach(t, y)
     h = _FIRST * reach if np.isfinite(reach) else None
+    refused: list[float] = []
     while t < end:
+        begun = t
         solver = None if h is None else motion.solver(t, y, end, h, tolerances.rtol, tolerances.atol)
         is_refused = solver is None
         while solver is not None and not is_refused and t < end:
@@ -76,11 +82,15 @@ def steps(
             if solver.t > t:
                 t, y, h = solver.t, solver.y, solver.h
                 yield _compiled(motion, solver, tolerances)
+        refused = [] if t > begun else refused[1 - _ROW :]
         for step, following in _careful(motion, t, y, end, h, tolerances) if is_refused else ():
             t, y, h = step.t, step.y, following
             yield step
             if motion.is_compiled:
+                refused.append(step.begun)
                 break
+        if len(refused) == _ROW and t - refused[0] < _HARDLY * end:
+            raise Stopped(motion.closeness())
 
 
 def taken(motion: Moving, step: Step, t: float, tolerances: Tolerances) -> Array:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from codegen.chains.factor import RankLoss
 from codegen.chains.mechanism import Mechanism
 from codegen.chains.path import PathEnd
 from codegen.chains.position import Position
 from codegen.chains.reduced import NoInertia
+
+Array = NDArray[np.float64]
 
 _SHARE = 0.1
 """A coordinate takes part in a direction of length 1 where its share is larger."""
@@ -31,6 +34,14 @@ def free_words(mechanism: Mechanism, loss: RankLoss) -> str:
     return (
         f"rank {loss.rank} of {loss.wanted} dependent coordinates (smallest singular value {loss.least:.1e} of the "
         f"largest); free to move besides: {', '.join(free)}"
+    )
+
+
+def short_words(mechanism: Mechanism, q: Array, least: float) -> str:
+    """Tell a pose near which the steps of an integrator lead nowhere."""
+    return (
+        f"steps become too short near a singular pose (smallest singular value {least:.1e} of the largest): "
+        f"{mechanism.pose(q)}"
     )
 
 

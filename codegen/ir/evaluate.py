@@ -7,6 +7,7 @@ and a sum are rounded at once; sums and products are the type's own operators.
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -138,52 +139,41 @@ def evaluate(
         ArithmeticError: the domain cannot represent an operation.
     """
     domain = domain or float_domain()
+    rules = _rules(domain)
     values: list[Number] = []
-    for instruction in program.instructions:
-        operands = [values[operand] for operand in instruction.operands]
-        if instruction.op is Op.CONSTANT:
-            if instruction.constant is None:
+    for op, operands, constant, source, _ in program.instructions:
+        if op is Op.CONSTANT:
+            if constant is None:
                 raise InternalError("a constant without a value")
-            values.append(domain.constant(instruction.constant))
-        elif instruction.op is Op.INPUT:
-            if instruction.source is None:
+            values.append(domain.constant(constant))
+        elif op is Op.INPUT:
+            if source is None:
                 raise InternalError("an input without a source")
-            values.append(inputs[instruction.source[0]][instruction.source[1]])
+            values.append(inputs[source[0]][source[1]])
+        elif len(operands) == 2:
+            first, second = operands
+            values.append(rules[op](values[first], values[second]))
         else:
-            values.append(_apply(instruction.op, operands, domain))
+            values.append(rules[op](*[values[operand] for operand in operands]))
     return {output.name: [values[position] for position in output.values] for output in program.outputs}
 
 
-def _apply(op: Op, operands: list[Number], domain: Domain) -> Number:
-    match op:
-        case Op.NEGATE:
-            return -operands[0]
-        case Op.ADD:
-            return operands[0] + operands[1]
-        case Op.SUBTRACT:
-            return operands[0] - operands[1]
-        case Op.MULTIPLY:
-            return operands[0] * operands[1]
-        case Op.DIVIDE:
-            return operands[0] / operands[1]
-        case Op.FMA:
-            return domain.fma(operands[0], operands[1], operands[2])
-        case Op.SQRT:
-            return domain.sqrt(operands[0])
-        case Op.SIN:
-            return domain.sin(operands[0])
-        case Op.COS:
-            return domain.cos(operands[0])
-        case Op.SINCOS:
-            return domain.sin(operands[0]), domain.cos(operands[0])
-        case Op.SINE_OF:
-            return operands[0][0]
-        case Op.COSINE_OF:
-            return operands[0][1]
-        case Op.ATAN2:
-            return domain.atan2(operands[0], operands[1])
-        case Op.ABS:
-            return abs(operands[0])
-        case Op.SELECT:
-            return domain.select(operands[0], operands[1], operands[2], operands[3])
-    raise InternalError(f"no evaluation for {op}")
+def _rules(domain: Domain) -> Mapping[Op, Callable[..., Number]]:
+    """What each operation does to its operands."""
+    return {
+        Op.NEGATE: operator.neg,
+        Op.ADD: operator.add,
+        Op.SUBTRACT: operator.sub,
+        Op.MULTIPLY: operator.mul,
+        Op.DIVIDE: operator.truediv,
+        Op.FMA: domain.fma,
+        Op.SQRT: domain.sqrt,
+        Op.SIN: domain.sin,
+        Op.COS: domain.cos,
+        Op.SINCOS: lambda angle: (domain.sin(angle), domain.cos(angle)),
+        Op.SINE_OF: operator.itemgetter(0),
+        Op.COSINE_OF: operator.itemgetter(1),
+        Op.ATAN2: domain.atan2,
+        Op.ABS: abs,
+        Op.SELECT: domain.select,
+    }

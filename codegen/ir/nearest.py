@@ -12,4 +12,4 @@ _PI = Fraction(_PI_DIGITS, 10 ** (len(str(_PI_DIGITS)) - 1))
 
 def nearest_double(constant: Constant) -> float:
     """Round an exact constant to the nearest double."""
-    return float(constant.rational * _PI**constant.pi_power)
+    return float(constant.rational * _PI**constant.pi_power if constant.pi_power else constant.rational)

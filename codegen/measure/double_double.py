@@ -33,6 +33,9 @@ PI = Fraction(
 _TERMS = 14
 """Of the series of sine and cosine up to an eighth of a turn: the next one is below 1e-34."""
 
+_SMALL = 10
+"""The terms from here on are below 1e-20: doubles are enough for them."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DoubleDouble:
@@ -157,10 +160,18 @@ def _nearest(value: Fraction) -> float:
 
 def _series(square: DoubleDouble, start: int) -> DoubleDouble:
     """Sum of ``(-x^2)^k / (2 k + start)!``."""
-    total = DoubleDouble.of(np.zeros_like(square.high))
-    for k in range(_TERMS, -1, -1):
-        total = total * square + DoubleDouble.exact(Fraction((-1) ** k, math.factorial(2 * k + start)))
+    small = np.zeros_like(square.high)
+    for k in range(_TERMS, _SMALL - 1, -1):
+        small = small * square.high + _coefficient(k, start).high
+    total = DoubleDouble.of(small)
+    for k in range(_SMALL - 1, -1, -1):
+        total = total * square + _coefficient(k, start)
     return total
+
+
+@cache
+def _coefficient(k: int, start: int) -> DoubleDouble:
+    return DoubleDouble.exact(Fraction((-1) ** k, math.factorial(2 * k + start)))
 
 
 def _chosen(condition: Any, first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:

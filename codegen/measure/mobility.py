@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from codegen.measure.assembly import assemble
 from codegen.measure.constraints import ConstraintSystem, Pose, scales
 from codegen.measure.gaps import Gap
+from codegen.measure.lasting import lasting_rows
 from codegen.measure.loops import Group, group, loops
 from codegen.measure.motion import consistent_poses, finite_freedoms, implied_rows
 from codegen.measure.parts import Part, likeness, parts
@@ -187,11 +188,13 @@ def _verdict(system: ConstraintSystem, pose: Pose) -> Verdict:
     regular = _regular(ranks)
     best = poses[max(regular, key=lambda k: ranks[k].kept)]
     kept = independent_rows([jacobians[k] for k in regular], system.row_ranges(), count)
-    redundant = implied_rows(system, best, units, kept)
     infinitesimal = system.column_count - count
     freedoms = finite_freedoms(system, best, units)
     groups = tuple(group(system, best, joints, units.length) for joints in loops(system))
     by_group = sum(6 - found.dimension for found in groups)
+    if len(kept) == count and system.row_count - count > by_group:
+        kept = lasting_rows(system, best, units, [jacobians[k] for k in regular], kept)
+    redundant = implied_rows(system, best, units, kept)
     is_shaky = infinitesimal > freedoms
     return Verdict(
         rows=system.row_count,

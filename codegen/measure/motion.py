@@ -6,6 +6,8 @@ constraints, arrives somewhere else. A shaky structure comes back to where it wa
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from codegen.measure.assembly import project
@@ -63,6 +65,29 @@ def consistent_poses(system: ConstraintSystem, start: Pose, units: Scales) -> tu
             found.append(following)
         origin = start if following is None else following
     return tuple(found)
+
+
+def walk(system: ConstraintSystem, start: Pose, units: Scales, side: float, count: int) -> Iterator[Pose]:
+    """Walk straight on from a pose: each step goes on along the one before.
+
+    Args:
+        system: a connected mechanism.
+        start: on the constraints.
+        units: of rows and columns.
+        side: 1 or -1, to which side the first step goes.
+        count: most poses; fewer where the way ends.
+    """
+    pose, heading = start, side * np.random.default_rng(_SEED).normal(size=system.column_count)
+    for _ in range(count):
+        basis = null_space(units.values(system, pose)[1])
+        direction = basis @ (basis.T @ heading)
+        largest = float(np.max(np.abs(direction), initial=0.0))
+        following = _walked(system, pose, units, direction / largest) if largest else None
+        if following is None:
+            return
+        heading = pose.step_to(following) / units.columns
+        pose = following
+        yield pose
 
 
 def _random_direction(

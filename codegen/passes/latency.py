@@ -1,4 +1,4 @@
-"""How long results take: the one model of a processor that passes share."""
+"""How long results take on a processor that runs a routine for one joint; lanes have theirs in `alternate`."""
 
 from __future__ import annotations
 

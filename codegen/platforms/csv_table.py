@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import tempfile
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 
 import numpy as np
 
 from codegen.platforms.attitudes import Array
+from codegen.platforms.headings import is_pose
 from codegen.platforms.spool import CHUNK
 
 
@@ -16,7 +17,7 @@ def table_of_csv(file: Path) -> Array:
     """Read numbers [rows, columns] piece by piece into a file without a name, which is gone with the table.
 
     Args:
-        file: a line of names, then lines of numbers with commas between.
+        file: a line of names or none, then lines of numbers with commas between.
 
     Raises:
         OSError: it cannot be read, or there is no room for the numbers.
@@ -25,8 +26,9 @@ def table_of_csv(file: Path) -> Array:
     rows = columns = 0
     with tempfile.TemporaryFile() as numbers:
         with file.open(encoding="utf-8") as lines:
-            next(lines, "")
-            while piece := list(islice(lines, CHUNK)):
+            first = next(lines, "")
+            left = chain([first] if is_pose(first) else [], lines)
+            while piece := list(islice(left, CHUNK)):
                 written = [line for line in piece if line.strip()]
                 if not written:
                     continue

@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 from codegen.errors import Mistake, SpecificationError, nearest
 from codegen.platforms.attitudes import Array, argument_name, attitude_array
 from codegen.platforms.csv_table import table_of_csv
+from codegen.platforms.headings import heading_mistakes
 from codegen.platforms.spool import pieces
 from codegen.spec.placement import IDENTITY
 from codegen.spec.platform import Platform
@@ -102,18 +103,23 @@ def grid(text: str) -> Poses:
 
 
 def poses_of_file(file: Path, platform: Platform) -> Poses:
-    """Read poses: CSV with a line of names, or npy; columns o (3), then the attitude as the routines take it.
+    """Read poses: CSV or npy, columns o (3), then the attitude as the routines take it.
 
     Raises:
-        SpecificationError: the file cannot be read, or an attitude is none; the first ten mistakes at once.
+        SpecificationError: the file cannot be read, names of its columns say another order, or an attitude is none;
+            the first ten mistakes at once.
     """
     name = argument_name(platform.wanted.attitude)
     entries = {"R": 9, "q": 4, "angles": 3}[name]
     table = _table(file)
     if table.ndim != 2 or table.shape[1] != 3 + entries:
         what = f"has {table.shape[1] if table.ndim == 2 else 0} columns"
-        remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}, column by column)"
+        order = ", column by column" if name == "R" else ""
+        remedy = f"give {3 + entries}: x y z in m, then {name} ({entries}{order}); attitude under [output] says which"
         raise SpecificationError([Mistake(str(file), what, remedy)])
+    contradicted = heading_mistakes(file, platform.wanted.attitude) if file.suffix != ".npy" else []
+    if contradicted:
+        raise SpecificationError(contradicted)
     wrong = (
         first + k
         for first, last in pieces(len(table))

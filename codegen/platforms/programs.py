@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from codegen.cache import kept
 from codegen.emit.platform_subject import PlatformSubject
 from codegen.emit.routine import Routine
 from codegen.ir.program import Program
 from codegen.mechanics.velocity.model import velocity_program
 from codegen.passes import simplify
+from codegen.passes.alternate import alternate
 from codegen.passes.contract_fma import contract_fma
-from codegen.passes.pipelines import pipeline
 from codegen.spec.platform import Platform
 from flopcount.count import count
 
@@ -24,7 +25,11 @@ def program(platform: Platform, names: tuple[str, ...], real: str = "double", is
         real: ``double`` or ``float``: decides what is rounding.
         is_symbolic: whether the joints are arguments too.
     """
-    found = pipeline(simplify(velocity_program(platform, names, real, is_symbolic)))
+    return kept(("platform", platform, names, real, is_symbolic), lambda: _program(platform, names, real, is_symbolic))
+
+
+def _program(platform: Platform, names: tuple[str, ...], real: str, is_symbolic: bool) -> Program:
+    found = alternate(simplify(velocity_program(platform, names, real, is_symbolic)))
     return contract_fma(found) if platform.wanted.fma else found
 
 

@@ -102,7 +102,7 @@ def _matrix(values: Array) -> Matrix:
 
 
 def as_trajectory(mechanism: Mechanism, record: Record, has_bodies: bool) -> Trajectory:
-    """Give a run as a trajectory of the scene.
+    """Give a run as a trajectory of the scene; independent coordinates come first, since plots end somewhere.
 
     Args:
         mechanism: the chain.
@@ -117,14 +117,15 @@ def as_trajectory(mechanism: Mechanism, record: Record, has_bodies: bool) -> Tra
         q[:, k] = quaternions(record.frames[:, k, :, :3])
     none = np.zeros((count, len(links), 3))
     names = [link.name for link in mechanism.chain.links]
+    order = [*mechanism.part.v.tolist(), *mechanism.part.w.tolist()]
     tau = record.tau if record.tau is not None else np.zeros_like(record.q)
     return Trajectory(
         tuple(_name(link.name) for link in links),
         record.t,
         *(r, q, none, none, none, none),
-        alpha={name: _settled(record.q[:, k])[:, None] for k, name in enumerate(names)},
-        alphadot={name: record.qd[:, k, None] for k, name in enumerate(names)},
-        effort={name: tau[:, k, None] for k, name in enumerate(names) if np.any(tau[:, k])},
+        alpha={names[k]: _settled(record.q[:, k])[:, None] for k in order},
+        alphadot={names[k]: record.qd[:, k, None] for k in order},
+        effort={names[k]: tau[:, k, None] for k in order if np.any(tau[:, k])},
         reaction={},
     )
 

@@ -31,7 +31,8 @@ _UNITS = {"x": "m", "y": "m", "z": "m", "roll": "rad", "pitch": "rad", "yaw": "r
 def index_maps(table: Table) -> str | None:
     """Draw C of the four blocks over the first two axes of a grid that have several values; None if there are not two.
 
-    Further axes are cut in the middle of their values; of a long axis every second, or third, ... value is drawn.
+    Further axes are cut in the middle of their values, which the title says; of a long axis every second, or third, ...
+    value is drawn.
     """
     long = [k for k, axis in enumerate(table.poses.axes) if len(axis) > 1][:2]
     if len(long) < 2 or "C_sigma" not in table.columns:
@@ -43,10 +44,15 @@ def index_maps(table: Table) -> str | None:
     names = [table.poses.names[k] for k in long]
     ends = [table.poses.axes[k][shown[k]] for k in long]
 
+    at = {table.poses.names[k]: axis[len(axis) // 2] for k, axis in enumerate(table.poses.axes) if k not in long}
+    where = ", ".join(f"{name} {value:.4g} {_UNITS[name]}" for name, value in at.items())
+
     greatest = max(float(np.max(values, where=np.isfinite(values), initial=1.0)) for values in maps)
     end = min(max(greatest, _FLOOR), _CEILING)
 
     def draw(figure: Figure) -> None:
+        if where:
+            figure.suptitle(f"At {where}", x=0.02, ha="left", fontsize=10)
         axes = figure.subplots(2, 2, sharex=True, sharey=True)
         for axis, values, words in zip(axes.ravel(), maps, _BLOCKS, strict=True):
             image = _map(axis, ends, values, end)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from codegen import models
+from codegen.cache import kept
 from codegen.ir.evaluate import evaluate
 from codegen.ir.program import Program
 from codegen.measure.constraints import Array, ConstraintSystem, Evaluate, Frame, JointConstraint, Pose, Row
@@ -122,8 +123,12 @@ def _in_plane(name: str, body: int) -> JointConstraint:
 @cache
 def constraint_program(variant: Variant) -> Program:
     """``phi`` and ``phi_q`` of a joint, lowered in a hurry: it is evaluated here and not emitted."""
-    model = models.model(variant)
-    return model.lowered(model.outputs(_QUANTITIES), choose=estimate)
+
+    def lowered() -> Program:
+        model = models.model(variant)
+        return model.lowered(model.outputs(_QUANTITIES), choose=estimate)
+
+    return kept(("constraint", variant), lowered)
 
 
 def exact(variant: Variant) -> Variant:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from codegen.cache import kept
 from codegen.ir.lower import lower, structural_rows
 from codegen.ir.lower.lowering import Choose
 from codegen.ir.lower.search import Choice, Graph, cheapest
@@ -20,10 +21,13 @@ from codegen.passes.select import select
 from codegen.spec.sections import alike
 from flopcount.count import count
 
+HURRY = 20_000
+"""Switches of a search in a hurry: about a second. Most mechanisms of a dozen bodies take fewer."""
+
 
 def estimate(graph: Graph, outputs: Sequence[int]) -> list[Choice]:
-    """Choose among the ways to evaluate nodes in a hurry: to compare forms, not to emit."""
-    return [cheapest(graph, outputs, sweeps=1)]
+    """Choose among the ways to evaluate nodes in a hurry: to compare forms, and for a run."""
+    return [cheapest(graph, outputs, sweeps=1, switches=HURRY)]
 
 
 def without_zero_rows(assembly: Assembly) -> Assembly:
@@ -45,13 +49,16 @@ def program(assembly: Assembly | System, names: Iterable[str], choose: Choose = 
     Args:
         assembly: the scene with the forms of its joints; a `System` has its drives and forces too.
         names: ``phi``, ``phi_q``, ``phi_q_t_lambda_q``, ``gamma``, ``phi_q_v``, ``phi_q_t_lambda``.
-        choose: among the ways to evaluate them.
+        choose: among the ways to evaluate them; what is chosen by `choices_for` and `estimate` is kept between runs.
     """
-    return cheapest_of(assembly, tuple(names), choose)
+    wanted = tuple(names)
+    if choose not in (choices_for, estimate):
+        return _cheapest(assembly, wanted, choose)
+    what = ("program of a scene", assembly, wanted, choose.__name__)
+    return kept(what, lambda: _cheapest(assembly, wanted, choose))
 
 
-def cheapest_of(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> Program:
-    """Lower as `program` does; tests keep what this gives."""
+def _cheapest(assembly: Assembly | System, names: tuple[str, ...], choose: Choose) -> Program:
     chosen = {name: assembly.selection(name) for name in names}
     parts = assembly.parts(names)
     programs = lower(assembly.arguments(), assembly.inputs(), parts, PRICES, choose)

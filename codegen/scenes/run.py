@@ -15,6 +15,7 @@ from codegen.ir.program import Program
 from codegen.measure.constraints import Array, Pose
 from codegen.mechanics.mass import mass
 from codegen.mechanics.system import System
+from codegen.scenes.driven import check_drives
 from codegen.scenes.equations import equations, quantities
 from codegen.scenes.generate import Judged, judge
 from codegen.scenes.state import euler_parameters, program_arrays, rate_matrix
@@ -125,7 +126,8 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     """Derive, compile and start a scene.
 
     Raises:
-        SpecificationError: joints that cannot be closed, bodies without mass, no compiler, no SUNDIALS.
+        SpecificationError: joints that cannot be closed, bodies without mass, drives that have nothing left to move, no
+            compiler, no SUNDIALS.
     """
     massless = [body.name for body in scene.bodies if not body.mass]
     if massless:
@@ -141,6 +143,7 @@ def prepare(scene: Scene, settings: Settings) -> Prepared:
     state = layout(system, form)
     values = quantities(system, ("phi_q", "gamma", "force"))
     inertia = mass(judged.assembly.scene, judged.assembly.arrays, len(judged.assembly.columns), system.arguments())
+    check_drives(system, values, judged.pose)
     motion = _motion(system, values, inertia, judged.pose, _velocity(system))
     y, ydot = _state(system, state, judged.pose, motion)
     return Prepared(

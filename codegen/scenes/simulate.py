@@ -72,11 +72,19 @@ def _notes(prepared: Prepared, watched: Watched) -> Iterator[str]:
     if moved > _CHANGED:
         yield f"bodies were moved by up to {moved:.3g} m to close the joints at the start"
     if changed > _CHANGED:
-        yield f"velocities were changed by up to {changed:.3g} m/s or rad/s to satisfy the constraints at the start"
+        yield f"velocities were changed by up to {_most_changed(prepared)} to satisfy the constraints at the start"
     if prepared.dof == 0 and not prepared.system.drives:
         yield "the mechanism has no degree of freedom: it does not move"
     for passage in watched.passages:
         yield f"went through a {passage.words}"
+
+
+def _most_changed(prepared: Prepared) -> str:
+    """By how much the velocity of a body was changed at most, and whose."""
+    arrays, motion = prepared.system.assembly.arrays, prepared.motion
+    body, component = divmod(motion.most_changed, arrays.displacements)
+    unit = "m/s" if component < arrays.position else "rad/s"
+    return f'{motion.changed:.3g} {unit} (body "{prepared.scene.bodies[body].name}")'
 
 
 def check_tools() -> None:

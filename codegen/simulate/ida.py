@@ -28,12 +28,12 @@ _TOO_MANY = -1
 FAILURES = {
     _TOO_MANY: "took too many steps",
     -2: "cannot reach the accuracy asked for",
-    -3: "the error test failed too often, or the step became too small",
-    -4: "Newton's iteration did not converge, or the step became too small",
-    -5: "the linear solver could not be set up",
-    -6: "the linear system cannot be solved: the Jacobian is singular",
-    -8: "the residual cannot be evaluated",
-    -9: "the residual is no number wherever a step leads",
+    -3: "failed the error test too often, or its step became too small",
+    -4: "stopped: Newton's iteration did not converge, or the step became too small",
+    -5: "cannot set up the linear solver",
+    -6: "cannot solve the linear system: the Jacobian is singular",
+    -8: "cannot evaluate the residual",
+    -9: "finds a residual that is no number wherever a step leads",
 }
 """Return codes of IDASolve in words."""
 

@@ -28,13 +28,15 @@ class Motion:
         velocity: [n] of all displacements.
         acceleration: [n] classical accelerations.
         multipliers: [m] lambda.
-        changed: how much the velocities asked for had to change, the largest entry.
+        changed: how much the velocities asked for had to change, the largest entry of those of bodies.
+        most_changed: number of that entry.
     """
 
     velocity: Array
     acceleration: Array
     multipliers: Array
     changed: float
+    most_changed: int
 
 
 def consistent_motion(
@@ -55,9 +57,9 @@ def consistent_motion(
     force = _evaluated(program, arrays, projected, "force").ravel()
     gamma = _evaluated(program, arrays, projected, "gamma").ravel()
     acceleration, multipliers = saddle(M, phi_q, force, gamma)
-    moving = np.diag(M) > 0
-    changed = float(np.max(np.abs(projected - velocity)[moving], initial=0.0))
-    return Motion(projected, acceleration, multipliers, changed)
+    changed = np.abs(projected - velocity) * (np.diag(M) > 0)
+    most = int(np.argmax(changed))
+    return Motion(projected, acceleration, multipliers, float(changed[most]), most)
 
 
 def dense(output: Output, values: Sequence[float]) -> Array:

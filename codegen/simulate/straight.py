@@ -25,9 +25,6 @@ Pivots = tuple[tuple[int, ...], tuple[int, ...]]
 MOST_PRODUCTS = 20_000
 """Of an elimination; longer ones do not fit a processor's memory of instructions, and compilers take seconds."""
 
-_FLAGS = ("-std=c99", "-O1")
-"""Straight-line code of sums is compiled in half the time and no slower than at -O2."""
-
 
 @dataclass(frozen=True, slots=True)
 class Straight:
@@ -75,6 +72,6 @@ def _compiled(kinds: list[Elimination], kind: NDArray[np.intc]) -> Straight:
     if not kinds:
         return Straight(None, kind, None)
     source = render("simulate/straight.c.j2", banner=banner(codegen.__version__), kinds=kinds)
-    loaded = library(source, lu_headers(), _FLAGS)
+    loaded = library(source, lu_headers())
     loaded.jg_straight_kinds.restype = c_void_p
     return Straight(loaded.jg_straight_kinds(), kind, loaded)

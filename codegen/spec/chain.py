@@ -95,6 +95,7 @@ class Link:
         prefer: value from which the coordinate is sought at t = 0 instead of that in the row, if it is dependent:
             selects the branch on which the loops are closed.
         pitch: of a screw, m/rad: its coordinate is theta, and ``d`` of the row belongs to ``theta`` of the row.
+        rotor: kg m^2, of a prismatic joint kg: inertia of a drive, times the square of its gear ratio.
     """
 
     name: str
@@ -106,6 +107,7 @@ class Link:
     inertia: Matrix
     prefer: Fraction | None = None
     pitch: Fraction = Fraction(0)
+    rotor: Fraction = Fraction(0)
 
     @property
     def coordinate(self) -> Fraction:

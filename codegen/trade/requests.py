@@ -8,6 +8,7 @@ from functools import partial
 from typing import Protocol
 
 from codegen import build
+from codegen.cache import kept
 from codegen.dynamics.layout import layout
 from codegen.emit.routine import Routine
 from codegen.errors import InternalError, Mistake, SpecificationError, nearest
@@ -27,7 +28,7 @@ from codegen.spec.plane import flattened
 from codegen.spec.request import OUTPUTS, QUANTITIES, Options, Variant
 from codegen.spec.scene import Scene
 from codegen.trade.builds import builds
-from codegen.trade.programs import kept, routines
+from codegen.trade.programs import routines
 from codegen.trade.specimens import SampledScene
 from flopcount.count import count
 

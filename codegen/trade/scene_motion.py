@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from codegen.cache import kept
 from codegen.ir.program import Program
 from codegen.measure.attitudes import turned
 from codegen.measure.constraints import Pose
@@ -17,7 +18,6 @@ from codegen.measure.judge import by_program
 from codegen.mechanics.system import System
 from codegen.scenes.equations import quantities
 from codegen.spec.scene import COORDINATE_UNITS
-from codegen.trade.programs import kept
 
 Array = NDArray[np.float64]
 

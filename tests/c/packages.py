@@ -34,8 +34,8 @@ STRICT = (
 """The flags of DESIGN 3.2, all of them."""
 NATIVE = ("-O1", "-fPIC", "-Wvla")
 """Further flags for the number type that a package is made for. No routine has an array of variable length."""
-FLOAT = ("-O0", "-Wvla", "-DJG_REAL_IS_FLOAT")
-DOUBLE = ("-O0", "-Wvla", "-DJG_REAL_IS_DOUBLE")
+FLOAT = ("-Wvla", "-DJG_REAL_IS_FLOAT")
+DOUBLE = ("-Wvla", "-DJG_REAL_IS_DOUBLE")
 
 REQUESTS: dict[str, Options] = {
     "pairs": Options(tuple(PAIRS), rows="regular", derivative="exact", outputs=("all",)),
@@ -104,6 +104,11 @@ class Package:
 
         with only_one(self.cache / f"{self.root.name}-{self.joint}.lock"), ThreadPoolExecutor(max_workers=2) as pool:
             return list(pool.map(compile_one, self.externals if externals else self.sources))
+
+    def parse(self, *flags: str) -> None:
+        """Let the compiler read every source, without output: whatever it says is a `HarnessError`."""
+        for source in self.sources:
+            compile_silently(["gcc", *flags, f"-I{self.root / 'c/include'}", "-fsyntax-only", str(source)])
 
     def library(self) -> Library:
         """Its routines, to be called from Python."""

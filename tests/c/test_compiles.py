@@ -21,7 +21,7 @@ def test_sources_compile_silently_in_the_number_type_they_are_for(generated: Pac
 
 
 def test_sources_compile_silently_in_the_other_number_type(generated: Package) -> None:
-    generated.objects(*STRICT, *(FLOAT if generated.real == "double" else DOUBLE))
+    generated.parse(*STRICT, *(FLOAT if generated.real == "double" else DOUBLE))
 
 
 def test_externals_of_casadi_compile_silently_and_are_double_only(generated: Package) -> None:

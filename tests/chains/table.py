@@ -124,7 +124,8 @@ class TableEquations:
             gamma.append(np.kron(np.eye(2), TC[:3, :3].T) @ (cR - cC))
         M, f_C, f_G = np.zeros((n, n)), np.zeros(n), np.zeros(n)
         g = np.array([float(x) for x in self.chain.gravity])
-        for link in self.chain.links:
+        for k, link in enumerate(self.chain.links):
+            M[k, k] += float(link.rotor)
             T, D, c = table.frames[link.name]
             R, m = T[:3, :3], float(link.mass)
             I = R @ np.array([[float(x) for x in row] for row in link.inertia]) @ R.T

@@ -11,11 +11,12 @@ import pytest
 from codegen.chains.position import nearest
 from codegen.chains.start import coordinates, start
 from codegen.errors import SpecificationError
+from codegen.spec.chain import Chain, Frame
 from codegen.spec.chain_motions import Harmonic, Independent, Polynomial
 from tests.reference import quick_return as planar
 from tests.reference import spatial_slider_crank as spatial
 
-from .mechanisms import PI, RIGHT, four_bar, quick_return, spatial_slider_crank, three_cranks
+from .mechanisms import PI, RIGHT, four_bar, quick_return, row, spatial_slider_crank, three_cranks
 from .runs import by_table, prescribed_run
 
 LOCK = F(str(spatial.lock_up().evalf(30)))
@@ -60,6 +61,27 @@ def test_a_start_beyond_lock_up_is_refused_with_the_nearest_pose() -> None:
     ready = by_table(spatial_slider_crank(LOCK - F("1e-4"), q=angle))
     with pytest.raises(SpecificationError, match="no solution; the nearest pose leaves"):
         start(ready, np.array([angle - float(RIGHT)]))
+
+
+def refusal(chain: Chain) -> str:
+    ready = by_table(chain)
+    with pytest.raises(SpecificationError) as caught:
+        start(ready, coordinates(ready)[ready.part.v])
+    return str(caught.value)
+
+
+def test_too_many_independent_coordinates_are_told_where_they_open_the_cuts() -> None:
+    chain = four_bar()
+    links = tuple(replace(one, row=row(a=2, theta=F("0.8"))) if one.name == "crank 2" else one for one in chain.links)
+    told = refusal(replace(chain, links=links, independents=(*chain.independents, Independent("crank 2"))))
+    assert told.startswith("independent: ") and "name 1 independent coordinates" in told and "instead of 2" in told
+
+
+def test_an_independent_coordinate_out_of_reach_is_told_with_a_pose_in_reach() -> None:
+    chain = four_bar(angle=3.0)
+    (cut,) = chain.cuts
+    told = refusal(replace(chain, cuts=(replace(cut, base=Frame("coupler", row(a=F("1.2")))),)))
+    assert told.startswith("independent: ") and "with these free too the cuts close at crank 1 " in told
 
 
 def test_at_lock_up_branches_meet_and_the_run_stops_with_the_pose() -> None:

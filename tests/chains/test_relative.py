@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from codegen.chains.mechanism import characteristic_length
 from codegen.chains.programs import FUSED, program
 from codegen.chains.relative import relative
 from codegen.chains.stand import check_start
@@ -129,6 +131,14 @@ def test_the_page_tells_what_scenes_become(name, coordinates, rows, operations):
     chain = relative(read_scene((ROOT / "examples" / f"{name}.toml").read_text(), name)).chain
     assert (len(chain.links), len(kept_rows(chain))) == (int(coordinates), int(rows))
     assert count(program(chain, FUSED)).total == int(operations)
+
+
+def test_lengths_that_rounding_left_in_place_of_zeros_do_not_count():
+    chain = relative(read_scene((ROOT / "examples" / "bricard.toml").read_text(), "bricard")).chain
+    tiny = Fraction(1, 10**17)
+    rows = [replace(link.row, c=link.row.c or tiny, a=link.row.a or tiny) for link in chain.links]
+    links = tuple(replace(link, row=row) for link, row in zip(chain.links, rows, strict=True))
+    assert characteristic_length(replace(chain, links=links)) == characteristic_length(chain) > 0.1
 
 
 def test_a_body_that_nothing_holds_is_free():

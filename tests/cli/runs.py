@@ -6,6 +6,7 @@ import io
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -20,6 +21,9 @@ GENERATED = REPOSITORY / "generated"
 COMMAND = [sys.executable, "-m", "codegen"]
 SMALL = ("generate", "ball", "--form", "conventional", "--variation", "body", "--outputs", "phi")
 """The smallest request: one routine."""
+
+
+_CACHES = tempfile.TemporaryDirectory(prefix="jointgen-caches-")
 
 
 @dataclass(frozen=True)
@@ -44,15 +48,20 @@ def invoke(*arguments: str | Path) -> Result:
     return Result(leaving.value.code, out.getvalue(), err.getvalue())
 
 
+def empty_cache() -> str:
+    """A folder for what a command keeps, with nothing in it."""
+    return tempfile.mkdtemp(dir=_CACHES.name)
+
+
 def spawn(*arguments: str | Path, **variables: str) -> subprocess.Popen[str]:
-    """Start the command in a process group of its own, with its output in pipes."""
+    """Start the command in a process group of its own, with its output in pipes and nothing kept from other runs."""
     return subprocess.Popen(
         [*COMMAND, *map(str, arguments)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         cwd=REPOSITORY,
-        env={**os.environ, **variables},
+        env={**os.environ, "XDG_CACHE_HOME": empty_cache(), **variables},
         start_new_session=True,
     )
 

@@ -13,7 +13,7 @@ import termios
 import time
 from pathlib import Path
 
-from .runs import COMMAND, REPOSITORY
+from .runs import COMMAND, REPOSITORY, empty_cache
 
 CTRL_C = b"\x03"
 _ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
@@ -31,7 +31,7 @@ class Terminal:
             stdout=follower,
             stderr=follower,
             cwd=REPOSITORY,
-            env={**os.environ, "TERM": "xterm"},
+            env={**os.environ, "TERM": "xterm", "XDG_CACHE_HOME": empty_cache()},
             start_new_session=True,
             preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
         )

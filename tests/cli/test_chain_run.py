@@ -56,6 +56,11 @@ def test_a_run_is_a_few_files_and_a_line(tmp_path: Path) -> None:
     assert sorted(contents(tmp_path / "run")) == names
 
 
+def test_two_kinds_of_runs_at_once_are_refused(tmp_path: Path) -> None:
+    told = refused(invoke("chain", CRANK, "--inverse", "--forward", "-o", tmp_path / "run"))
+    assert told == ["--forward: is given beside --inverse; ask for one run"]
+
+
 def test_inverse_dynamics_writes_efforts_reactions_and_wrenches(tmp_path: Path) -> None:
     invoke("chain", CRANK, "--inverse", "--outputs", "4", "-o", tmp_path / "run")
     columns = table(tmp_path / "run")

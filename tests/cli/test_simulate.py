@@ -52,6 +52,28 @@ def test_all_bad_options_are_told_at_once(stone: Path, tmp_path: Path) -> None:
     assert snapshot(tmp_path) == before
 
 
+def test_drives_that_leave_each_other_nothing_to_move_are_refused_with_their_file(tmp_path: Path) -> None:
+    rails = "".join(
+        f"""
+[[joint]]
+name = "rail {k}"
+type = "translational"
+bodies = ["ground", "stone"]
+point = [0.0, {k}.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+drive = {{ position = 0.0, speed = {k}.0 }}
+"""
+        for k in (1, 2)
+    )
+    file = tmp_path / "sledge.toml"
+    file.write_text(STONE + rails)
+    before = snapshot(tmp_path)
+    (line,) = refused(invoke("simulate", file, "-o", tmp_path / "run"))
+    assert line.startswith(f'{file}: joint "rail 2": drive: nothing is left to move at t = 0: ')
+    assert 'the joints and the drive of "rail 1" determine its coordinate; remove a drive' in line
+    assert snapshot(tmp_path) == before
+
+
 def test_relative_coordinates_refuse_what_only_equations_of_bodies_have(stone: Path, tmp_path: Path) -> None:
     wrong = ("--form", "relative", "--index", "1", "--through-singular", "--derivative", "exact")
     lines = refused(invoke("simulate", stone, *wrong, "-o", tmp_path / "run"))

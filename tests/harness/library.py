@@ -111,7 +111,7 @@ class Buffer:
         self.is_input = values is not None
         if values is not None:
             self.data[:] = values
-        self.before = self.words.copy()
+        self.before = self.words.copy() if self.is_input else self.words
 
     def check(self) -> list[str]:
         """What the call did to this buffer that it should not have done."""

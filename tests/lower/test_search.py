@@ -98,6 +98,19 @@ def test_more_sweeps_never_make_a_choice_dearer(case: tuple[Graph, list[int]], s
 
 
 @few
+@given(graphs(), st.integers(0, 20))
+def test_a_search_that_may_switch_a_few_times_only_gives_a_choice_as_good_as_its_start(
+    case: tuple[Graph, list[int]], switches: int
+) -> None:
+    graph, outputs = case
+    choice = cheapest(graph, outputs, switches=switches)
+    assert set(choice) == set(needed(graph, choice, outputs))
+    assert is_acyclic(graph, choice)
+    assert price(graph, choice) <= price(graph, cheapest(graph, outputs, switches=0))
+    assert cheapest(graph, outputs, switches=0) == cheapest(graph, outputs, sweeps=0)
+
+
+@few
 @given(graphs(), st.lists(st.integers(0, 5), min_size=1, max_size=4))
 def test_of_several_starts_the_best_ends_come_first(case: tuple[Graph, list[int]], seeds: list[int]) -> None:
     graph, outputs = case

@@ -219,6 +219,51 @@ def bricard(edge: float = 1.0) -> Drawing:
     return drawing
 
 
+SHORT, LONG = (0.3, np.radians(30.0)), (0.3 * np.sin(np.radians(80.0)) / np.sin(np.radians(30.0)), np.radians(80.0))
+"""Length (m) and twist (rad) of the links of Bennett's linkage; sine of the twist over length is the same for both."""
+
+
+def bennett_axes(angle: float) -> Array:
+    """Frames [4, 4, 4] of the hinges of Bennett's linkage, z along each, x along the link behind it.
+
+    Its closed form: tan(theta_1 / 2) tan(theta_2 / 2) = sin((b + a) / 2) / sin((b - a) / 2), theta_3 = -theta_1,
+    theta_4 = -theta_2 (rad), with the twists a and b.
+
+    Args:
+        angle: theta_1, rad, not 0.
+    """
+    a, b = SHORT[1], LONG[1]
+    other = 2 * np.arctan2(np.sin((b + a) / 2) * np.cos(angle / 2), np.sin((b - a) / 2) * np.sin(angle / 2))
+    frames = [np.eye(4)]
+    for theta, (length, twist) in zip((angle, other, -angle), (SHORT, LONG, SHORT), strict=True):
+        along = np.eye(4)
+        c, s = np.cos(twist), np.sin(twist)
+        along[:3, :] = [[1, 0, 0, length], [0, c, -s, 0], [0, s, c, 0]]
+        about = np.eye(4)
+        about[:3, :3] = about_z(theta)
+        frames.append(frames[-1] @ about @ along)
+    return np.array(frames)
+
+
+def bennett_bodies(angle: float) -> dict[str, tuple[Array, Array]]:
+    """Poses of the three moving links: midway between two hinges, z along the first of them."""
+    frames, found = bennett_axes(angle), {}
+    for k in range(3):
+        x = frames[k + 1, :3, 3] - frames[k, :3, 3]
+        x, z = x / np.linalg.norm(x), frames[k, :3, 2]
+        found[f"link {k + 1}"] = (frames[k, :3, 3] + frames[k + 1, :3, 3]) / 2, np.column_stack([x, np.cross(z, x), z])
+    return found
+
+
+def bennett(angle: float) -> Drawing:
+    """Bennett's linkage: four hinges on skew axes, three rows of which are redundant by its dimensions."""
+    drawing = Drawing(bennett_bodies(angle))
+    names = [None, "link 1", "link 2", "link 3", None]
+    for k, frame in enumerate(bennett_axes(angle)):
+        drawing.joint(f"hinge {k + 1}", "revolute", (names[k], names[k + 1]), frame[:3, 3], frame[:3, 2])
+    return drawing
+
+
 def spatial_slider_crank(at_slider: str = "universal") -> Drawing:
     """Haug's spatial slider-crank: revolute, ball, universal (or ball) and translational joint, from the crank on."""
     pin, slider = np.array([0.0, 0.1, 0.2]), np.array([0.2, 0.0, 0.0])

@@ -10,12 +10,15 @@ import sympy
 from sympy.polys.matrices import DomainMatrix
 
 from codegen.ir.evaluate import evaluate, fraction_domain
+from codegen.measure.constraints import Pose
 from codegen.measure.mobility import Mobility, Verdict, mobility
 from codegen.measure.mobility_text import as_data, lines
 from tests.measure.mechanisms import (
     Drawing,
     about_z,
     bars_that_are_too_short,
+    bennett,
+    bennett_bodies,
     bricard,
     dense,
     four_bar,
@@ -225,6 +228,18 @@ class TestKnownMechanisms:
         assert (found.freedoms, len(found.redundant), verdict(found).by_dimensions) == (1, 1, 1)
         assert [group.dimension for group in verdict(found).groups] == [6]
         assert not verdict(found).is_singular
+
+    def test_rows_kept_of_bennetts_linkage_are_independent_all_the_way_round(self):
+        system, pose = bennett(1.2).mechanism()
+        kept = list(mobility(system, pose).kept)
+        assert len(kept) == 17
+        for angle in np.radians(np.arange(0.5, 360.0, 3.0)):
+            bodies = bennett_bodies(float(angle)).values()
+            there = Pose(np.array([r for r, _ in bodies]), np.array([A for _, A in bodies]), np.zeros(0))
+            phi, phi_q = system.values(there)
+            assert np.max(np.abs(phi)) < 1e-12
+            every, own = (np.linalg.svd(rows, compute_uv=False) for rows in (phi_q, phi_q[kept]))
+            assert own[-1] > 0.03 * every[16]
 
     @each_form
     def test_a_spherical_four_bar_has_one_freedom_and_three_redundant_rows(self, form, rows):

@@ -18,12 +18,12 @@ from codegen.ir.ops import Op
 from codegen.ir.program import Program
 from codegen.passes import simplify
 from codegen.passes.absorb_negations import absorb_negations
+from codegen.passes.alternate import alternate
 from codegen.passes.drop_unused import drop_unused
 from codegen.passes.eliminate_zeros import compress, eliminate_zeros
 from codegen.passes.fold_constants import fold_constants
 from codegen.passes.overlap import overlap
 from codegen.passes.pair_sincos import pair_sincos
-from codegen.passes.pipelines import pipeline
 from codegen.passes.schedule import schedule
 from codegen.passes.share_subexpressions import share_subexpressions
 from tests.ir.programs import FUSED_OPS, OPS, RANDOM, bits, inputs_of, matrices, programs, small_fractions
@@ -36,7 +36,7 @@ BITWISE: tuple[Pass, ...] = (
     absorb_negations,
     schedule,
     overlap,
-    pipeline,
+    alternate,
     pair_sincos,
     drop_unused,
     compress,

@@ -259,6 +259,19 @@ def test_the_picture_shows_the_frame_of_the_slider():
     assert result["button"] == "Play"
 
 
+def test_a_slide_is_drawn_from_its_guide_to_what_slides():
+    scene, trajectory = engine()
+    html = page(scene, trajectory)
+    result = played(html, presses=[["slider", "input", {"set": {"value": "17"}}]])
+    data = data_of(html)
+    (slide,) = (line["points"] for line in result["lines"] if line["width"] == 2.5)
+    cylinder = next(joint for joint in scene.joints if joint.type == "translational")
+    guide = [float(x) for x in cylinder.marker_i.point]
+    for end, (x, y, _) in zip(slide, (guide, trajectory.r[17, 2]), strict=True):
+        middle, scale = np.array(data["centre"][:2]), 0.44 * 600 / data["radius"]
+        assert np.allclose(end, (400 + scale * (x - middle[0]), 300 - scale * (y - middle[1])), atol=0.1)
+
+
 def test_a_trace_is_the_path_of_its_point():
     scene, trajectory = engine()
     html = page(scene, trajectory)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from codegen.chains.mechanism import parted
 from codegen.chains.read import read
 from codegen.chains.simulate import Settings, SimulatedChain, simulated
 from codegen.report.animation import page_data
@@ -47,6 +48,13 @@ def test_joints_stand_at_one_place_on_both_bodies(name: str) -> None:
         if joint.type == "translational":
             apart -= (apart @ axes[0][:, 2]) * axes[0][:, 2]
         assert np.max(np.abs(apart)) < 1e-12
+
+
+def test_a_plot_that_has_no_room_for_all_coordinates_has_the_independent_ones() -> None:
+    done = run("quick_return")
+    mechanism = parted(done.mechanism.chain, done.mechanism.equations, [5, 3])
+    names = list(as_trajectory(mechanism, done.record, has_bodies=False).alpha)
+    assert names == ["pivot", "coupler", "crank", "block", "rocker", "slider", "slide"]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -34,6 +34,7 @@ MISTAKES = {
     "two links of a name": ('name = "pivot"', 'name = "crank"', "stands 2 times"),
     "a negative mass": ("mass = 1000.0", "mass = -1.0", "is -1 kg"),
     "an inertia of no body": ("[2000.0, 2000.0, 2000.0]", "[1.0, 1.0, 3.0]", "belongs to no body"),
+    "an inertia below 0": ("[2000.0, 2000.0, 2000.0]", "[-1.0, 1.0, 1.0]", "has a negative principal value"),
     "a cut on an unknown link": ('far = { link = "pivot" }', 'far = { link = "pivt" }', 'did you mean "pivot"'),
     "a cut within one link": ('far = { link = "slide" }', 'far = { link = "base" }', "both frames stand on"),
     "no independent coordinate": ('[[independent]]\njoint = "crank"\npolynomial = [0.44, "2*pi"]', "", "independent"),
@@ -55,7 +56,8 @@ MISTAKES = {
         "polynomial = [0.44]\ndriven = true",
         "starts with",
     ),
-    "an unknown joint": ('type = "prismatic"\nalpha', 'type = "ball"\nalpha', "there is no"),
+    "a ball joint": ('type = "prismatic"\nalpha', 'type = "ball"\nalpha', "write three revolute links whose axes meet"),
+    "an unknown joint": ('type = "prismatic"\nalpha', 'type = "balls"\nalpha', "there is no"),
 }
 
 
@@ -77,6 +79,36 @@ def test_a_link_that_nothing_holds_must_have_mass():
         read_chain(text, "file")
     read_chain(text + "mass = 0.1\ninertia = [0.1, 0.1, 0.1]\n", "file")
     read_chain(text + '[output]\nquantities = ["J"]\n', "file")
+
+
+@pytest.mark.parametrize("inertia", ["[0, 1.0, 1.0]", "[[0.5, 0.5, 0], [0.5, 0.5, 0], [0, 0, 1]]"])
+def test_a_thin_rod_may_have_no_inertia_about_its_axis(inertia):
+    chain = read_chain(QUICK_RETURN.replace("[2000.0, 2000.0, 2000.0]", inertia), "file")
+    assert chain.links[0].inertia[2][2] == 1
+
+
+@pytest.mark.parametrize("inertia", ["[0, 0, 2000.0]", "[0.066, 0.086, 0.0125]"])
+def test_an_effective_inertia_need_not_be_that_of_a_body(inertia):
+    text = QUICK_RETURN.replace("[2000.0, 2000.0, 2000.0]", inertia)
+    with pytest.raises(SpecificationError, match="effective = true"):
+        read_chain(text, "file")
+    assert read_chain(text.replace(inertia, f"{inertia}\neffective = true"), "file").links[0].inertia[0][1] == 0
+
+
+def test_rounding_of_the_program_that_wrote_a_file_is_nothing():
+    text = QUICK_RETURN.replace("[2000.0, 2000.0, 2000.0]", "[[2, 0, 1.3e-33], [0, 2, 0], [1.3e-33, 0, 2]]")
+    chain = read_chain(text.replace('alpha = "-pi/2"', "alpha = -4.3e-35", 1), "file")
+    assert chain.links[2].row.alpha == 0 and chain.links[0].inertia[0][2] == 0
+    for size in ("1e31", "nan", "-inf"):
+        with pytest.raises(SpecificationError, match="out of range"):
+            read_chain(QUICK_RETURN.replace('alpha = "-pi/2"', f"alpha = {size}", 1), "file")
+
+
+def test_a_cut_on_an_unknown_link_is_told_alone():
+    text = QUICK_RETURN.replace('far = { link = "slide" }', 'far = { link = "slid" }')
+    with pytest.raises(SpecificationError) as caught:
+        read_chain(text, "file")
+    assert len(caught.value.mistakes) == 1
 
 
 def test_the_quick_return_is_read_exactly():

@@ -123,7 +123,7 @@ def test_what_is_not_asked_for_is_not_emitted() -> None:
 def test_the_same_file_gives_the_same_bytes_in_another_process(tmp_path: Path) -> None:
     file = tmp_path / "p.toml"
     file.write_text(HEXAPOD + SMALL)
-    environment = {**os.environ, "PYTHONHASHSEED": "7"}
+    environment = {**os.environ, "PYTHONHASHSEED": "7", "XDG_CACHE_HOME": str(tmp_path / "empty")}
     command = [sys.executable, "-m", "codegen", "platform", str(file), "-o", str(tmp_path / "out")]
     subprocess.run(command, check=True, env=environment, capture_output=True)
     files = package(HEXAPOD + SMALL)

@@ -19,11 +19,13 @@ from codegen.platforms.attitudes import attitude_array, rotations_of
 from codegen.platforms.csv_table import table_of_csv
 from codegen.platforms.generate import home_arguments
 from codegen.platforms.grid import Poses, for_grid, grid, poses_of_file
+from codegen.platforms.headings import heading_mistakes
 from codegen.platforms.hexagons import conditions, hexagons
 from codegen.platforms.results import results_file
 from codegen.platforms.run import chosen_poses, evaluated
 from codegen.platforms.spool import CHUNK, spool
 from codegen.platforms.sweep import Kernel, Progress, kernel, sweep
+from codegen.report.index_maps import index_maps
 from codegen.report.platform_pictures import home_factors
 from codegen.report.platform_report import platform_report
 from codegen.spec.platform import ATTITUDES
@@ -122,6 +124,40 @@ def test_poses_of_a_file_are_evaluated_where_they_stand(tmp_path: Path) -> None:
         given = poses.arguments(MATRICES, 0, 7)
         assert (given["o"] == rows[:, :3].T).all()
         assert rotations_of("matrix", given["R"]) == pytest.approx(rotations.as_matrix(), abs=1e-16)
+
+
+@pytest.mark.parametrize(
+    "attitude, names, words",
+    [
+        ("quaternion", "x,y,z,qx,qy,qz,qw", "quaternion as x y z w"),
+        ("quaternion", "z,y,x,qw,qx,qy,qz", "positions as z y x"),
+        ("ZYX", "x,y,z,roll,pitch,yaw", "order roll pitch yaw, and the routines take ZYX"),
+        ("xyz", "x,y,z,a_deg,b_deg,c_deg", "degrees"),
+        ("matrix", "x,y,z,r11,r12,r13,r21,r22,r23,r31,r32,r33", "column by column"),
+        ("matrix", "x,y,z,r11,r21,r31,r12,r22,r32,r13,r23,r33", ""),
+        ("quaternion", "x,y,z,qw,qx,qy,qz", ""),
+        ("quaternion", "x,y,z,q0,q1,q2,q3", ""),
+        ("ZYX", "x,y,z,yaw,pitch,roll", ""),
+        ("xyz", "X,Y,Z,roll,pitch,yaw", ""),
+        ("xyz", "some,names,of,one's,own,here", ""),
+    ],
+)
+def test_names_of_columns_that_contradict_their_order_are_told(
+    attitude: str, names: str, words: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "poses.csv"
+    file.write_text(f"{names}\n")
+    told = heading_mistakes(file, attitude)
+    assert [words in mistake.what for mistake in told] == ([True] if words else [])
+
+
+def test_a_csv_without_names_loses_no_pose_and_one_that_contradicts_is_refused(tmp_path: Path) -> None:
+    file, line = tmp_path / "poses.csv", "0,0,1,1,0,0,0,1,0,0,0,1"
+    file.write_text(f"{line}\n{line}\n")
+    assert poses_of_file(file, MATRICES).count == 2
+    file.write_text(f"y,x,z,a,b,c,d,e,f,g,h,i\n{line}\n")
+    with pytest.raises(SpecificationError, match="line 1: gives positions as y x z"):
+        poses_of_file(file, MATRICES)
 
 
 def test_a_csv_is_read_piece_by_piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -237,6 +273,12 @@ def test_every_example_is_read_and_is_not_singular_at_home(path: Path) -> None:
     assert matrices in ("ZYX", "matrix")
     plain = read_platform(path.read_text().replace('attitude = "quaternion"', ""), path.name)
     assert found(plain, ("status",), [where])["status"][0, 0] == 0
+
+
+def test_maps_of_more_than_two_axes_say_where_the_others_are_cut() -> None:
+    table = evaluated(chosen_poses(MATRICES, None, "x=-0.1:0.1:3,y=0:0.1:2,z=0.9,yaw=0:0.2:3", "csv"))  # type: ignore[arg-type]
+    drawn = index_maps(table)
+    assert drawn is not None and "At z 0.9 m, yaw 0.1 rad" in drawn
 
 
 def test_a_report_without_two_axes_has_no_maps() -> None:

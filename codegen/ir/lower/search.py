@@ -34,7 +34,9 @@ _REACH = 10.0
 """How much dearer an alternative may look, before what it frees, to be tried beside others."""
 
 
-def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 12) -> Choice:
+def cheapest(
+    graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 12, switches: float = math.inf
+) -> Choice:
     """Search the cheapest acyclic choice for the outputs.
 
     Args:
@@ -42,15 +44,16 @@ def cheapest(graph: Graph, outputs: Sequence[int], seed: int = 0, sweeps: int = 
         outputs: nodes that must be computed.
         seed: changes where the search starts; 0 starts from the prices as they are.
         sweeps: how often all moves are tried at most.
+        switches: of a node to another alternative, tried or kept, after which no further move is made.
 
     Returns:
         The choice of every node that the outputs need.
     """
-    return _searched(_Index(graph), outputs, seed, sweeps)
+    return _searched(_Index(graph), outputs, seed, sweeps, switches)
 
 
-def _searched(index: _Index, outputs: Sequence[int], seed: int, sweeps: int = 12) -> Choice:
-    search = _Search(index, outputs, seed)
+def _searched(index: _Index, outputs: Sequence[int], seed: int, sweeps: int = 12, switches: float = math.inf) -> Choice:
+    search = _Search(index, outputs, seed, switches)
     idle = 0
     for _ in range(sweeps):
         before = search.total
@@ -136,12 +139,13 @@ class _Index:
 class _Search:
     """A choice under improvement, with counts of how often each node is used."""
 
-    def __init__(self, index: _Index, outputs: Sequence[int], seed: int) -> None:
+    def __init__(self, index: _Index, outputs: Sequence[int], seed: int, switches: float) -> None:
         graph = index.graph
         self._weighted = [cost for costs in _weighted(graph, seed) for cost in costs]
         self.choice: Choice = {}
         self.total = 0.0
         self._graph = graph
+        self._switches = switches
         self._outputs = list(outputs)
         self._sideways: set[tuple[int, int]] = set()
         self._uses: dict[int, int] = {}
@@ -161,7 +165,8 @@ class _Search:
         for move in (self._close, self._others):
             self._replan()
             for node in self.active():
-                self._attempt(move, node)
+                if self._switches > 0:
+                    self._attempt(move, node)
 
     # --- moves
 
@@ -257,6 +262,7 @@ class _Search:
                 self._release(child)
 
     def _switch(self, node: int, k: int) -> None:
+        self._switches -= 1
         old, new = self._graph[node][self.choice[node]], self._graph[node][k]
         for child in new.children:
             self._use(child)

@@ -193,7 +193,8 @@ class Model:
     # --- dynamics
 
     def _M(self) -> sympy.Matrix:
-        return self._composite.matrix()
+        rotors = sympy.diag(*(sympy.Rational(link.rotor) for link in self._chain.links))
+        return self._composite.matrix() + rotors
 
     def _f_C(self) -> sympy.Matrix:
         return sympy.Matrix(self._composite.bias())

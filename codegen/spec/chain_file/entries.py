@@ -8,10 +8,11 @@ from fractions import Fraction
 
 from codegen.spec.chain import BASE, BASES, CHAIN_QUANTITIES, JOINT_TYPES
 from codegen.spec.chain_file.angle import ANGLE
+from codegen.spec.chain_file.joint_type import JOINT_TYPE
 from codegen.spec.scene import ZERO_VECTOR, Matrix, Vector
 from codegen.spec.scene_file.entries import LimitEntry
 from codegen.spec.scene_file.entry import Entry, key, table_of, tables
-from codegen.spec.scene_file.values import FLAG, TEXT, choice, inertia, number, pair, several, vector, whole
+from codegen.spec.scene_file.values import FLAG, TEXT, choice, inertia, number, or_zero, pair, several, vector, whole
 
 _NONE = Fraction(0)
 _AXES = ("effector", "world")
@@ -22,12 +23,16 @@ _DIRECTIONS = ("either", "growing", "falling")
 class RowEntry(Entry):
     """The six constants that place a frame on a link (S2 Table 1)."""
 
-    psi: Fraction = key(ANGLE, "about z of the link, from its x to the common normal, in rad", _NONE)
-    c: Fraction = key(number("m"), "along z of the link, from its x to the common normal, in m", _NONE)
-    alpha: Fraction = key(ANGLE, "about the common normal, from z of the link to z of the frame, in rad", _NONE)
-    a: Fraction = key(number("m"), "along the common normal, from z of the link to z of the frame, in m", _NONE)
-    theta: Fraction = key(ANGLE, "about z of the frame, from the common normal to its x, in rad", _NONE)
-    d: Fraction = key(number("m"), "along z of the frame, from the common normal to its x, in m", _NONE)
+    psi: Fraction = key(or_zero(ANGLE), "about z of the link, from its x to the common normal, in rad", _NONE)
+    c: Fraction = key(or_zero(number("m")), "along z of the link, from its x to the common normal, in m", _NONE)
+    alpha: Fraction = key(
+        or_zero(ANGLE), "about the common normal, from z of the link to z of the frame, in rad", _NONE
+    )
+    a: Fraction = key(
+        or_zero(number("m")), "along the common normal, from z of the link to z of the frame, in m", _NONE
+    )
+    theta: Fraction = key(or_zero(ANGLE), "about z of the frame, from the common normal to its x, in rad", _NONE)
+    d: Fraction = key(or_zero(number("m")), "along z of the frame, from the common normal to its x, in m", _NONE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,13 +44,19 @@ class LinkEntry(RowEntry):
 
     name: str | None = key(TEXT, f'a text of 1 to 60 signs, unique among the links, not "{BASE}"', is_required=True)
     parent: str | None = key(TEXT, f'name of a link above in the file, or "{BASE}"', is_required=True)
-    type: str | None = key(choice(JOINT_TYPES), f"one of {', '.join(JOINT_TYPES)}", is_required=True)
+    type: str | None = key(JOINT_TYPE, f"one of {', '.join(JOINT_TYPES)}", is_required=True)
     pitch: Fraction = key(number("m/rad"), "screw: advance in m/rad, not 0; negative for a left-hand thread", _NONE)
     mass: Fraction = key(number("kg"), "mass in kg; 0 for a massless link", _NONE)
-    centre: Vector = key(vector("m"), "centre of mass in m from the origin of the link, its axes", ZERO_VECTOR)
+    centre: Vector = key(or_zero(vector("m")), "centre of mass in m from the origin of the link, its axes", ZERO_VECTOR)
     inertia: Matrix | None = key(
-        inertia(),
+        or_zero(inertia()),
         "inertia in kg m^2 about the centre of mass, axes of the link: three principal values or three rows of three",
+    )
+    rotor: Fraction = key(
+        number("kg m^2 or kg"), "inertia of a drive as the coordinate feels it, gear ratio squared times its own", _NONE
+    )
+    effective: bool = key(
+        FLAG, "whether the inertia is not that of one body: moments in a plane, identified ones, with a drive's", False
     )
     prefer: Fraction | None = key(
         ANGLE, "value of a dependent coordinate in rad or m from which the loops are closed, to choose the branch"

@@ -8,7 +8,7 @@ from codegen.errors import Mistake
 from codegen.spec.chain import BASE, Link, Row
 from codegen.spec.chain_file.entries import ChainEntry, LinkEntry, RowEntry
 from codegen.spec.scene import ZERO_VECTOR, Matrix
-from codegen.spec.scene_file.bodies import inertia_mistakes, symmetric
+from codegen.spec.scene_file.bodies import TOLERANCE, definite_mistakes, symmetric, triangle_mistakes
 from codegen.spec.scene_file.text import nearest_known, quoted, shown
 
 _NO_INERTIA: Matrix = (ZERO_VECTOR, ZERO_VECTOR, ZERO_VECTOR)
@@ -49,18 +49,39 @@ def mass_mistakes(link: LinkEntry) -> Iterator[Mistake]:
     """Check the mass properties of one link."""
     if link.mass < 0:
         yield Mistake(f"{link.place}: mass", f"is {shown(link.mass)} kg", "give a mass of 0 kg or more")
+    if link.rotor < 0:
+        unit = "kg" if link.type == "prismatic" else "kg m^2"
+        yield Mistake(f"{link.place}: rotor", f"is {shown(link.rotor)} {unit}", f"give 0 {unit} or more")
     if link.mass == 0 and "mass" not in link.wrong and any(link.centre):
         what = "a massless link has no centre of mass"
         yield Mistake(f"{link.place}: centre", what, "leave centre out, or give a mass")
     if link.inertia is not None and any(map(any, link.inertia)):
-        yield from inertia_mistakes(link.inertia, f"{link.place}: inertia")
+        yield from _inertia_mistakes(link, link.inertia)
+
+
+def _inertia_mistakes(link: LinkEntry, inertia: Matrix) -> Iterator[Mistake]:
+    """Check an inertia: a thin rod has none about its axis, and what is identified is that of no single body."""
+    place = f"{link.place}: inertia"
+    mistakes = definite_mistakes(inertia, place, -TOLERANCE)
+    if mistakes or link.effective:
+        yield from mistakes
+        return
+    for mistake in triangle_mistakes(inertia, place):
+        remedy = "correct it, or say effective = true: moments of motion in a plane, identified ones, or with a drive's"
+        yield Mistake(mistake.place, mistake.what, remedy)
 
 
 def massless_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
-    """Find coordinates that move no mass and that no cut holds: their accelerations would be undetermined."""
+    """Find coordinates that move no mass and that no cut holds: their accelerations would be undetermined.
+
+    Where a cut names a link that is not there, that is the mistake.
+    """
+    names = {BASE, *(link.name for link in entry.link)}
+    if any(frame.link not in names for cut in entry.cut for frame in (cut.base, cut.far) if frame is not None):
+        return
     children = {link.name: [other.name for other in entry.link if other.parent == link.name] for link in entry.link}
     held = {frame.link for cut in entry.cut for frame in (cut.base, cut.far) if frame is not None}
-    heavy = {link.name for link in entry.link if link.mass or (link.inertia and any(map(any, link.inertia)))}
+    heavy = {link.name for link in entry.link if _is_heavy(link)}
     weighty: set[str | None] = set()
     for link in reversed(entry.link):
         if link.name in held | heavy or weighty.intersection(children[link.name]):
@@ -69,6 +90,10 @@ def massless_mistakes(entry: ChainEntry) -> Iterator[Mistake]:
         if link.name not in weighty and not {"name", "mass", "inertia"} & link.wrong:
             what = "neither it nor what hangs on it has mass, and no cut holds it"
             yield Mistake(link.place, what, "give a mass or an inertia, or leave it out")
+
+
+def _is_heavy(link: LinkEntry) -> bool:
+    return bool(link.mass or link.rotor or (link.inertia and any(map(any, link.inertia))))
 
 
 def make_row(entry: RowEntry) -> Row:
@@ -88,4 +113,5 @@ def make_link(entry: LinkEntry) -> Link:
         symmetric(entry.inertia or _NO_INERTIA),
         entry.prefer,
         entry.pitch,
+        entry.rotor,
     )

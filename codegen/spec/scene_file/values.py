@@ -98,6 +98,24 @@ def number(unit: str = "") -> Kind[Fraction]:
     return Kind(read, {"type": "number"})
 
 
+def or_zero(kind: Kind[T]) -> Kind[T]:
+    """The same, of a value in which a size below 1e-30 is 0: rounding of a program that wrote the file."""
+    return Kind(lambda value, place, mistakes: kind.read(_with_zeros(value), place, mistakes), kind.schema)
+
+
+def _with_zeros(value: object) -> object:
+    if isinstance(value, list):
+        return [_with_zeros(entry) for entry in value]
+    return Fraction(0) if isinstance(value, Unusable) and _is_tiny(value.text) else value
+
+
+def _is_tiny(text: str) -> bool:
+    try:
+        return len(text) <= _DIGITS and Decimal(text).copy_abs() < _LEAST
+    except InvalidOperation:
+        return False
+
+
 def count(greatest: int) -> Kind[int]:
     """A whole number from 1 on."""
 

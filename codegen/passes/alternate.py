@@ -1,4 +1,4 @@
-"""Order the instructions for a processor that adds, multiplies and divides at the same time.
+"""Order the instructions so that units of a processor, which add, multiply and divide at the same time, alternate.
 
 As `codegen.passes.overlap` it issues, cycle by cycle, the first instruction in the given order whose operands have
 come; but of each kind only one a cycle, and a division or a root keeps the divider busy. So additions and
@@ -27,7 +27,7 @@ _BUSY = {Op.DIVIDE: 9, Op.SQRT: 16}
 """Cycles from a division or root to the next; of other operations one starts every cycle."""
 
 
-def pipeline(program: Program) -> Program:
+def alternate(program: Program) -> Program:
     """Give the program in an order that keeps all units at work; unused instructions are dropped.
 
     Args:

@@ -5,18 +5,18 @@ from __future__ import annotations
 from codegen.ir.builder import Builder
 from codegen.ir.ops import LEAVES, Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
-from codegen.passes.pipelines import pipeline
+from codegen.passes.alternate import alternate
 
 _COUNT = 6
 
 
 def test_additions_and_multiplications_that_wait_for_nothing_alternate() -> None:
-    ops = _ops(pipeline(_grouped([Op.ADD, Op.MULTIPLY])))
+    ops = _ops(alternate(_grouped([Op.ADD, Op.MULTIPLY])))
     assert ops == [Op.ADD, Op.MULTIPLY] * _COUNT
 
 
 def test_a_root_starts_while_others_add() -> None:
-    ops = _ops(pipeline(_grouped([Op.ADD, Op.SQRT])))
+    ops = _ops(alternate(_grouped([Op.ADD, Op.SQRT])))
     assert ops[:2] == [Op.ADD, Op.SQRT]
     assert ops[2 : _COUNT + 1] == [Op.ADD] * (_COUNT - 1)
 

@@ -126,7 +126,7 @@ def _estimated(scene: Scene, joint: Joint, variant: Variant) -> Program:
 def alone(scene: Scene, joint: Joint, variant: Variant) -> Assembly:
     """A joint of a scene with its two bodies and nothing else."""
     bodies = tuple(body for body in scene.bodies if body.name in joint.bodies)
-    only = replace(scene, bodies=bodies, joints=(joint,), springs=(), torques=())
+    only = replace(scene, bodies=bodies, joints=(joint,), springs=(), torques=(), forces=())
     return without_zero_rows(Assembly(only, {joint.name: variant}))
 
 

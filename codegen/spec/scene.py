@@ -205,6 +205,21 @@ class Torque:
 
 
 @dataclass(frozen=True, slots=True)
+class Force:
+    """A constant force at a point of a body.
+
+    Attributes:
+        body: name, not the ground.
+        vector: [3] N, world axes.
+        point: [3] m, from the centre of mass, body axes.
+    """
+
+    body: str
+    vector: Vector
+    point: Vector = ZERO_VECTOR
+
+
+@dataclass(frozen=True, slots=True)
 class Wanted:
     """What is generated of a scene.
 
@@ -235,6 +250,7 @@ class Scene:
         motion: one of `MOTIONS`.
         wanted: what is generated.
         assemble: whether the pose at t = 0 is a guess, from which joints that do not close are to be closed.
+        forces: at points of bodies.
     """
 
     name: str
@@ -246,6 +262,7 @@ class Scene:
     motion: str = "spatial"
     wanted: Wanted = field(default_factory=Wanted)
     assemble: bool = False
+    forces: tuple[Force, ...] = ()
 
     def body(self, name: str) -> Body | None:
         """Find a body; None for the ground."""

@@ -116,6 +116,43 @@ def test_springs_torques_stops_and_a_drive_of_one_freedom_move_bodies_as_in_abso
         assert np.max(np.abs(found.reaction[joint] - true.reaction[joint])) < 1e-5
 
 
+VANE = """
+name = "vane"
+gravity = [0.0, 0.0, -9.81]
+[[body]]
+name = "vane"
+mass = 2.0
+inertia = [[0.2, 0.01, 0.0], [0.01, 0.21, 0.02], [0.0, 0.02, 0.3]]
+position = [0.3, 0.4, 0.0]
+quaternion = [0.6, 0.0, 0.0, 0.8]
+[[joint]]
+name = "cross"
+type = "universal"
+bodies = ["ground", "vane"]
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+axis2 = [1.0, 0.0, 0.0]
+[[force]]
+body = "vane"
+vector = [8.0, -3.0, 30.0]
+point = [0.2, -0.1, 0.3]
+[[force]]
+body = "vane"
+vector = [0.0, 5.0, 0.0]
+"""
+"""Pushed off its centre of mass and at it."""
+
+
+def test_forces_at_points_move_a_body_as_in_absolute_coordinates() -> None:
+    scene = read_scene(VANE, "vane")
+    found = simulated_relative(scene, Settings("forward", 0.5, 5, 1e-10)).trajectory
+    true = simulated(scene, SceneSettings(duration=0.5, outputs=5, tolerance=1e-10)).trajectory
+    assert np.max(np.abs(true.w)) > 4  # it moves
+    for name, bound in {"r": 1e-8, "v": 1e-7, "w": 3e-7, "a": 1e-5, "al": 3e-5}.items():
+        assert np.max(np.abs(getattr(found, name) - getattr(true, name))) < bound, name
+    assert np.max(np.abs(found.reaction["cross"] - true.reaction["cross"])) < 1e-5
+
+
 JACK = """
 name = "jack"
 gravity = [0.0, 0.0, -9.81]

@@ -1,4 +1,4 @@
-"""What acts on joint coordinates: springs, dampers, torques, stops and drives, against equations of their own."""
+"""What acts on joint coordinates: springs, dampers, torques, forces, stops, drives; against equations of their own."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from codegen.scenes.motion_record import Record
+from codegen.scenes.summary import is_conservative
 
 from . import engine
 from .preparations import EXAMPLES, prepared, told
@@ -66,6 +67,38 @@ def test_a_pendulum_with_spring_damper_and_torque_follows_its_own_equation() -> 
 
 def test_a_pendulum_under_a_spring_keeps_its_energy() -> None:
     found = swing("stiffness = 40.0\ntorque = 5.0", 2.0, 3.0)
+    assert np.ptp(found.energy) < 1e-6 * np.max(np.abs(found.energy))
+
+
+PUSH = """
+[[force]]
+body = "bob"
+vector = [12.0, 0.0, 0.0]
+point = [0.25, 0.1, 0.0]
+"""
+"""At (0.75, 0.1) m from the hinge."""
+
+
+def test_a_pendulum_pushed_by_a_horizontal_force_off_its_centre_follows_its_own_equation() -> None:
+    found = swing(PUSH, 2.0)
+
+    def rates(_: float, state: np.ndarray) -> np.ndarray:
+        x, speed = state
+        push = -12.0 * (0.75 * np.sin(x) + 0.1 * np.cos(x))
+        return np.array([speed, (push - WEIGHT * np.cos(x)) / INERTIA])
+
+    x, speed = solve_ivp(rates, (0.0, 2.0), [0.0, 0.0], "DOP853", found.trajectory.t, rtol=1e-12, atol=1e-12).y
+    assert angle(found) == pytest.approx(x, abs=1e-6)
+    assert found.trajectory.alphadot["hinge"][:, 0] == pytest.approx(speed, abs=1e-5)
+    height, way = 0.5 * np.sin(x), 0.75 * np.cos(x) - 0.1 * np.sin(x)
+    stored = 2.0 * 9.81 * height - 12.0 * way
+    assert found.energy == pytest.approx(INERTIA * speed**2 / 2 + stored, abs=1e-5)
+
+
+def test_the_energy_of_a_pushed_pendulum_is_told_to_stay() -> None:
+    ready = prepared(PENDULUM.format(speed=3.0, velocity=1.5, loads=PUSH), "spatial", "conventional")
+    assert is_conservative(ready)
+    found = told(ready, 1.0, 1e-9)
     assert np.ptp(found.energy) < 1e-6 * np.max(np.abs(found.energy))
 
 

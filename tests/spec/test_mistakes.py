@@ -134,6 +134,21 @@ ONE = {
         "scene.toml: torque 1: body: a torque on the ground",
         "name a body",
     ),
+    "force on nothing": (
+        ("[[joint]]", '[[force]]\nbody = "rod"\nvector = [0, 0, 1]\n[[joint]]'),
+        'scene.toml: force 1: body: there is no body "rod"',
+        "bar",
+    ),
+    "force on the ground": (
+        ("[[joint]]", '[[force]]\nbody = "ground"\nvector = [0, 0, 1]\n[[joint]]'),
+        "scene.toml: force 1: body: a force on the ground",
+        "name a body",
+    ),
+    "force without direction": (
+        ("[[joint]]", '[[force]]\nbody = "bar"\npoint = [0, 0, 1]\n[[joint]]'),
+        "scene.toml: force 1: vector: is missing",
+        "in N",
+    ),
     "syntax": ((NAME, "name ="), "scene.toml: is no TOML: Invalid value (at line 1, ", "toml.io"),
     "deep": ((NAME, "name = " + "[" * 5000 + "]" * 5000), "scene.toml: is nested too deeply", "three levels"),
     "long key": ((NAME, ".".join("a" * 300) + " = 1"), "scene.toml: line 1: has more than 200 points", "several lines"),

@@ -19,6 +19,7 @@ from codegen.spec.scene import (
     Body,
     Coordinate,
     Drive,
+    Force,
     Joint,
     Limit,
     Scene,
@@ -77,6 +78,7 @@ def test_all_that_a_scene_holds_is_written():
         joint("cylindrical", *coordinates),
         springs=(Spring((GROUND, "a"), ((ONE, NOUGHT, ONE), ZERO_VECTOR), Fraction(100), ONE, Fraction("0.1")),),
         torques=(Torque("a", (NOUGHT, ONE, NOUGHT)),),
+        forces=(Force("a", (ONE, NOUGHT, NOUGHT)), Force("a", (ONE, ONE, NOUGHT), (NOUGHT, NOUGHT, ONE))),
         motion="planar",
         wanted=Wanted(("phi",), "table4"),
     )
@@ -107,6 +109,7 @@ def test_all_that_a_scene_holds_is_written():
             }
         ],
         "torque": [{"body": "a", "vector": [0, 1, 0]}],
+        "force": [{"body": "a", "vector": [1, 0, 0]}, {"body": "a", "vector": [1, 1, 0], "point": [0, 0, 1]}],
         "output": {"quantities": ["phi"], "rows": "table4", "derivative": "exact"},
     }
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from codegen.spec.scene import Coordinate, Drive, Limit, Wanted
+from codegen.spec.scene import Coordinate, Drive, Force, Limit, Wanted
 
 from .texts import PENDULUM, changed, joined, scene
 
@@ -29,7 +29,8 @@ def test_what_is_left_out_has_its_default() -> None:
     (body,) = least.bodies
     assert not any((*least.gravity, *body.position, *body.velocity, *body.angular_velocity))
     assert body.quaternion == (1, 0, 0, 0)
-    assert (least.joints, least.springs, least.torques, least.motion, least.assemble) == ((), (), (), "spatial", False)
+    assert (least.joints, least.springs, least.torques, least.forces) == ((), (), (), ())
+    assert (least.motion, least.assemble) == ("spatial", False)
     assert least.wanted == Wanted((), "regular", "exact")
 
 
@@ -92,7 +93,8 @@ def test_a_body_that_nothing_holds_is_no_mistake() -> None:
 def test_copies_repeat_everything_and_move_what_stands_on_the_ground() -> None:
     spring = '[[spring]]\nbodies = ["ground", "bar"]\npoints = [[0, 1, 0], [0.5, 0, 0]]\nstiffness = 3\n'
     torque = '[[torque]]\nbody = "bar"\nvector = [0, 0, 2]\n'
-    found = scene(PENDULUM + spring + torque + "[copies]\ncount = 3\noffset = [0, 0.1, 2]\n")
+    force = '[[force]]\nbody = "bar"\nvector = [0, 5, 0]\npoint = [0.25, 0, 0]\n'
+    found = scene(PENDULUM + spring + torque + force + "[copies]\ncount = 3\noffset = [0, 0.1, 2]\n")
     assert [body.name for body in found.bodies] == ["bar_1", "bar_2", "bar_3"]
     assert [joint.bodies for joint in found.joints] == [("ground", f"bar_{k}") for k in (1, 2, 3)]
     assert [joint.name for joint in found.joints] == ["pin_1", "pin_2", "pin_3"]
@@ -101,6 +103,13 @@ def test_copies_repeat_everything_and_move_what_stands_on_the_ground() -> None:
     assert found.joints[2].marker_j == found.joints[0].marker_j
     assert found.springs[2].points == ((0, Fraction("1.2"), 4), (Fraction("0.5"), 0, 0))
     assert [item.body for item in found.torques] == ["bar_1", "bar_2", "bar_3"]
+    assert found.forces == tuple(Force(f"bar_{k}", (0, 5, 0), (Fraction("0.25"), 0, 0)) for k in (1, 2, 3))
+
+
+def test_a_force_acts_on_the_centre_of_mass_if_no_point_is_given() -> None:
+    assert scene(PENDULUM + '[[force]]\nbody = "bar"\nvector = [1, 2, 3]\n').forces == (
+        Force("bar", (1, 2, 3), (0, 0, 0)),
+    )
 
 
 def test_one_copy_leaves_the_names_alone_and_the_caller_has_the_last_word() -> None:

@@ -46,11 +46,28 @@ def test_a_driven_scene_tells_the_effort_of_its_drive() -> None:
     assert np.max(np.abs(found.effort["main bearing"][:, 0] - effort)) < 1e-6 * np.max(np.abs(effort))
 
 
-def driven(scene: Scene, count: int = 1) -> Scene:
-    """The first joints of a scene turn at 15 rad/s."""
-    drive = Drive(Fraction(0), Fraction(15))
+def test_a_drive_that_swings_moves_by_relative_coordinates_as_it_is_told() -> None:
+    scene = example("in_line_engine")
+    swing = Drive(Fraction(0), Fraction(15), Fraction("0.3"), Fraction(20))
+    found = simulated_relative(driven(scene, swing=swing), Settings("forward", 0.3, 30)).trajectory
+    true = simulated(driven(scene, swing=swing), SceneSettings(duration=0.3, outputs=30, tolerance=1e-9)).trajectory
+    angle = 15 * found.t + 0.3 * np.sin(20 * found.t)
+    speed = 15 + 6 * np.cos(20 * found.t)
+    expected = motion(angle, speed)
+    for run, bound in ((found, 1e-9), (true, 1e-7)):
+        assert np.max(np.abs(run.r[..., :2] - expected.r)) < bound
+        assert np.max(np.abs(run.w[..., 2] - expected.omega)) < 1e3 * bound
+    effort = found.effort["main bearing"][:, 0]
+    assert np.max(np.abs(effort - true.effort["main bearing"][:, 0])) < 1e-5 * np.max(np.abs(effort))
+
+
+STEADY = Drive(Fraction(0), Fraction(15))
+
+
+def driven(scene: Scene, count: int = 1, swing: Drive = STEADY) -> Scene:
+    """The first joints of a scene turn, at 15 rad/s or otherwise."""
     joints = [
-        replace(joint, coordinates=(replace(joint.coordinates[0], drive=drive),)) for joint in scene.joints[:count]
+        replace(joint, coordinates=(replace(joint.coordinates[0], drive=swing),)) for joint in scene.joints[:count]
     ]
     return replace(scene, joints=(*joints, *scene.joints[count:]))
 

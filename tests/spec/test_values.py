@@ -69,6 +69,12 @@ def test_a_joint_has_as_many_coordinates_as_degrees_of_freedom(type_: str, freed
     assert not joint.needs_coordinates
 
 
+@pytest.mark.parametrize("type_", ["ball", "cylindrical", "rigid"])
+def test_a_single_0_acts_on_no_coordinate_however_many_there_are(type_: str) -> None:
+    text = f'type = "{type_}"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\nform = "conventional"\n'
+    assert scene(joined(text + "torque = 0.0\nstiffness = 0\ndamping = 0.0")) == scene(joined(text))
+
+
 def test_the_output_table_says_what_is_wanted() -> None:
     text = PENDULUM + '[output]\nquantities = ["phi", "mass"]\nrows = "table4"\nderivative = "substituted"\n'
     assert scene(text).wanted == Wanted(("phi", "mass"), "table4", "substituted")

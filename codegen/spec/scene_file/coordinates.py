@@ -12,10 +12,13 @@ from codegen.spec.scene_file.text import shown
 
 _LOADS = ("torque", "stiffness", "damping", "rest", "drive", "limit")
 
+_NOTHING = ((), (Fraction(0),))
+"""What acts on no coordinate, however many there are: a single 0 is one for each."""
+
 
 def coordinate_mistakes(entry: JointEntry) -> Iterator[Mistake]:
     """Check what acts on the coordinates of a joint of known type."""
-    given = [key for key in _LOADS if key in entry.given and getattr(entry, key)]
+    given = [key for key in _LOADS if key in entry.given and getattr(entry, key) not in _NOTHING]
     units = COORDINATE_UNITS[entry.type or ""]
     for key in given:
         yield from _count_mistakes(key, len(getattr(entry, key)), units, entry)

@@ -41,7 +41,7 @@ def record(prepared: Prepared, run: Run) -> Record:
         run: its states.
     """
     system = prepared.system
-    bodies = settled(system, prepared.layout, prepared.values, prepared.inertia, run.y, run.ydot)
+    bodies = settled(system, prepared.layout, prepared.values, prepared.inertia, run.t, run.y, run.ydot)
     frames = frames_of(prepared.scene, prepared.plane)
     values = {p.joint.name: _values(system, bodies, p.joint, k) for k, p in enumerate(system.assembly.placed)}
     drift = np.max([np.max(np.abs(phi), axis=0) for phi, _ in values.values()], axis=0, initial=0.0)

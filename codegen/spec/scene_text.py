@@ -92,7 +92,9 @@ def _load(value: Fraction | Drive | Limit | None) -> object:
         case None:
             return {}
         case Drive():
-            return {"position": value.position, "speed": value.speed}
+            sine = {key: getattr(value, key) for key in ("amplitude", "frequency", "phase")}
+            given = {key: part for key, part in sine.items() if part}
+            return {"position": value.position, "speed": value.speed, **given}
         case Limit():
             ends = {"lower": value.lower, "upper": value.upper}
             kept: dict[str, object] = {key: end for key, end in ends.items() if end is not None}

@@ -16,7 +16,7 @@ from codegen.scenes.run import Settings as SceneSettings
 from codegen.scenes.simulate import simulated
 from codegen.spec.scene import Drive, Scene
 from codegen.spec.scene_file import read_scene
-from tests.simulate.engine import holding_torque, motion, reactions, truth
+from tests.simulate.engine import INERTIAS, MASSES, geometry, holding_torque, motion, reactions, truth
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -46,11 +46,27 @@ def test_a_driven_scene_tells_the_effort_of_its_drive() -> None:
     assert np.max(np.abs(found.effort["main bearing"][:, 0] - effort)) < 1e-6 * np.max(np.abs(effort))
 
 
-def driven(scene: Scene, count: int = 1) -> Scene:
-    """The first joints of a scene turn at 15 rad/s."""
-    drive = Drive(Fraction(0), Fraction(15))
+def test_a_drive_that_swings_tells_the_effort_that_moves_the_inertia_too() -> None:
+    swing = Drive(Fraction(0), Fraction(15), Fraction("0.3"), Fraction(20))
+    found = simulated_relative(driven(example("in_line_engine"), swing=swing), Settings("forward", 0.3, 30)).trajectory
+    sine, cosine = np.sin(20 * found.t), np.cos(20 * found.t)
+    angle, speed, bend = 15 * found.t + 0.3 * sine, 15 + 6 * cosine, -120 * sine
+    expected = motion(angle, speed)
+    assert np.max(np.abs(found.r[..., :2] - expected.r)) < 1e-9
+    assert np.max(np.abs(found.w[..., 2] - expected.omega)) < 1e-8
+    (_, slope, _), (_, turn, _) = geometry(angle)
+    inertia = np.sum(MASSES[:, None] * slope**2, (-2, -1)) + np.sum(INERTIAS * turn**2, -1)
+    effort = inertia * bend + holding_torque(angle, speed)
+    assert np.max(np.abs(found.effort["main bearing"][:, 0] - effort)) < 1e-6 * np.max(np.abs(effort))
+
+
+STEADY = Drive(Fraction(0), Fraction(15))
+
+
+def driven(scene: Scene, count: int = 1, swing: Drive = STEADY) -> Scene:
+    """The first joints of a scene turn, at 15 rad/s or otherwise."""
     joints = [
-        replace(joint, coordinates=(replace(joint.coordinates[0], drive=drive),)) for joint in scene.joints[:count]
+        replace(joint, coordinates=(replace(joint.coordinates[0], drive=swing),)) for joint in scene.joints[:count]
     ]
     return replace(scene, joints=(*joints, *scene.joints[count:]))
 

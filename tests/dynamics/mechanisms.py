@@ -37,6 +37,7 @@ def vector(*values: str | int) -> Vector:
     return x, y, z
 
 
+DRIVE = Drive(F("0.02"), F("0.3"), F("0.05"), F(3), F("0.7"))
 X, Y, Z = vector(1, 0, 0), vector(0, 1, 0), vector(0, 0, 1)
 GRAVITY = vector(0, "-9.81", 0)
 
@@ -115,7 +116,7 @@ def loaded(motion: str = "spatial") -> Scene:
         body("load", vector("0.5", "0.1", 0)),
     )
     turning = Coordinate(F(2), F(3), F("0.4"), F("0.1"), None, Limit(F("-0.5"), F("0.3"), F(100), F(2)))
-    sliding = Coordinate(F(-1), F(20), F(1), F(0), Drive(F("0.02"), F("0.3")))
+    sliding = Coordinate(F(-1), F(20), F(1), F(0), DRIVE)
     joints = (
         joint("shoulder", "revolute", (None, arm), vector(0, 0, 0), Z, turning),
         joint("rail", "translational", (arm, load), vector("0.5", "0.1", 0), X, sliding),

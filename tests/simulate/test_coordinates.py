@@ -128,6 +128,20 @@ def test_the_effort_of_a_drive_is_the_power_that_the_energy_gains() -> None:
     assert effort == pytest.approx(WEIGHT * np.cos(turned), abs=1e-5)
 
 
+@pytest.mark.parametrize("index", [1, 2])
+def test_the_effort_of_a_drive_that_swings_moves_the_inertia_too(index: int) -> None:
+    loads = "drive = { position = -0.1, speed = 1.0, amplitude = 0.2, frequency = 5.0, phase = 0.5235987755982989 }"
+    speed = 1.0 + np.sqrt(0.75)
+    text = PENDULUM.format(speed=speed, velocity=0.5 * speed, loads=loads)
+    found = told(prepared(text, "planar", "parametric", index=index), 1.5, 1e-9)
+    turn = 5.0 * found.trajectory.t + np.pi / 6
+    x, bend = -0.1 + found.trajectory.t + 0.2 * np.sin(turn), -0.2 * 25.0 * np.sin(turn)
+    assert angle(found) == pytest.approx(x, abs=1e-8)
+    assert found.trajectory.alphadot["hinge"][:, 0] == pytest.approx(1.0 + np.cos(turn), abs=1e-6)
+    assert found.trajectory.al[:, 0, 2] == pytest.approx(bend, abs=1e-6)
+    assert found.trajectory.effort["hinge"][:, 0] == pytest.approx(INERTIA * bend + WEIGHT * np.cos(x), abs=1e-5)
+
+
 def test_the_reaction_of_a_driven_pendulum_carries_weight_and_centripetal_force() -> None:
     found = swing("drive = { position = 0.0, speed = 4.0 }", 1.0, 4.0)
     turned = angle(found)

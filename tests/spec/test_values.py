@@ -43,15 +43,16 @@ torque = [1.5, 2.5]
 stiffness = [0, 4]
 damping = [0.5, 0]
 rest = [0, 0.25]
-drive = [{}, { position = 0, speed = 6.25 }]
+drive = [{}, { position = -0.34081938, speed = 6.25, amplitude = 0.5, frequency = 3, phase = 0.75 }]
 limit = [{ lower = -1, stiffness = 100 }, {}]
 """
     (joint,) = scene(joined(text)).joints
+    swing = Drive(Fraction("-0.34081938"), Fraction("6.25"), Fraction("0.5"), Fraction(3), Fraction("0.75"))
     assert joint.coordinates == (
         Coordinate(
             Fraction("1.5"), Fraction(0), Fraction("0.5"), limit=Limit(Fraction(-1), None, Fraction(100), Fraction(0))
         ),
-        Coordinate(Fraction("2.5"), Fraction(4), rest=Fraction("0.25"), drive=Drive(Fraction(0), Fraction("6.25"))),
+        Coordinate(Fraction("2.5"), Fraction(4), rest=Fraction("0.25"), drive=swing),
     )
     assert joint.needs_coordinates
 

@@ -65,10 +65,15 @@ class BodyEntry(Entry):
 
 @dataclass(frozen=True, slots=True)
 class DriveEntry(Entry):
-    """A prescribed motion of a joint coordinate: position + speed t."""
+    """A prescribed motion of a joint coordinate: position + speed t + amplitude sin(frequency t + phase)."""
 
-    position: Fraction | None = key(number(), "coordinate at t = 0 in m or rad", is_required=True)
-    speed: Fraction | None = key(number(), "rate of the coordinate in m/s or rad/s", is_required=True)
+    position: Fraction | None = key(number(), "coordinate at t = 0, but for the sine, in m or rad", is_required=True)
+    speed: Fraction | None = key(
+        number(), "rate of the coordinate, but for the sine, in m/s or rad/s", is_required=True
+    )
+    amplitude: Fraction = key(number(), "amplitude of a sine in m or rad", _NONE)
+    frequency: Fraction = key(number("rad/s"), "angular frequency of the sine in rad/s", _NONE)
+    phase: Fraction = key(number("rad"), "phase of the sine in rad", _NONE)
 
 
 @dataclass(frozen=True, slots=True)

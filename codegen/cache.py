@@ -37,11 +37,12 @@ def kept(what: object, make: Callable[[], T]) -> T:
         make: from ``what`` and the sources of the generator alone; the result can be pickled.
     """
     path = cache_folder() / f"{_digest(repr(what).encode())}.pickle"
-    if path.exists():
+    with suppress(OSError, EOFError, pickle.UnpicklingError):  # not there, or cut short by a crash of the machine
         found: T = pickle.loads(path.read_bytes())
         return found
     made = make()
-    _put(path, pickle.dumps(made))
+    with suppress(OSError):  # no room
+        _put(path, pickle.dumps(made))
     return made
 
 
@@ -59,8 +60,14 @@ def kept_file(what: object, suffix: str, make: Callable[[], bytes]) -> Path:
         make: its content, from ``what`` and the sources of the generator alone.
     """
     path = cache_folder() / f"{_digest(repr(what).encode())}{suffix}"
-    if not path.exists():
-        _put(path, make())
+    if path.exists() and path.stat().st_size:
+        return path
+    content = make()
+    try:
+        _put(path, content)
+    except OSError:  # no room
+        path = _own_folder() / path.name
+        _put(path, content)
     return path
 
 
@@ -100,8 +107,14 @@ def _forget_unused(base: Path) -> None:
 def _put(path: Path, content: bytes) -> None:
     """Write a file that other processes see whole or not at all."""
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as handle:
-        handle.write(content)
-    Path(handle.name).replace(path)
+        unfinished = Path(handle.name)
+        try:
+            handle.write(content)
+            handle.flush()
+            unfinished.replace(path)
+        except BaseException:
+            unfinished.unlink(missing_ok=True)
+            raise
 
 
 @cache

@@ -37,9 +37,8 @@ def chain(file: Path, real: str, animation: bool, target: Path, **options: Any) 
         _run_chain(file, target, animation, {"mode": modes[0], **options})
 
 
-def generate_relative(file: Path, copies: int | None, real: str, target: Path, given: dict[str, bool]) -> None:
-    """The routines of a scene by relative coordinates."""
-    from codegen import output, scenes
+def generate_relative(file: Path, read: Any, real: str, target: Path, given: dict[str, bool]) -> None:
+    """The routines of a scene, read from a file, by relative coordinates."""
     from codegen.chains.relative import relative
 
     mistakes = [
@@ -47,11 +46,9 @@ def generate_relative(file: Path, copies: int | None, real: str, target: Path, g
     ]
     if mistakes:
         raise SpecificationError(mistakes)
-    output.check_target(target)
-    read, left_out = scenes.read(file, copies)
     with in_file(file):
         found = relative(read)
-    for line in (*left_out, *found.notes):
+    for line in found.notes:
         click.echo(line, err=True)
     _write_chain(file, found.chain, real, target)
 
@@ -98,7 +95,8 @@ def _run(file: Path, read_chain: Any, tables: Any, target: Path, animation: bool
     from codegen.report.chain_pictures import chain_pictures
 
     settings = Settings(**options)
-    check(read_chain, settings)
+    with in_file(file):
+        check(read_chain, settings)
     compiler()
     with progress(settings.outputs, "running") as advance, in_file(file):
         result = simulated(read_chain, tables, settings, lambda t: advance(f"{t:.3g} s"))
@@ -121,8 +119,8 @@ def _of_bodies(options: dict[str, Any]) -> dict[str, Any]:
     return {**found, "--index": options.pop("index") != 2}
 
 
-def simulate_relative(file: Path, target: Path, animation: bool, copies: int | None, options: dict[str, Any]) -> None:
-    """A scene by relative coordinates."""
+def simulate_relative(file: Path, read: Any, target: Path, animation: bool, options: dict[str, Any]) -> None:
+    """A scene, read from a file, by relative coordinates."""
     from codegen import output
     from codegen.chains.simulate import Settings
     from codegen.chains.simulate_scene import simulated_relative
@@ -135,8 +133,6 @@ def simulate_relative(file: Path, target: Path, animation: bool, copies: int | N
     if mistakes:
         raise SpecificationError(mistakes)
     settings = Settings("forward", **options)
-    output.check_target(target)
-    read = read_told(file, copies)
     compiler()
     with progress(settings.outputs, "simulating", "deriving and compiling") as advance, in_file(file):
         result = simulated_relative(read, settings, lambda t: advance(f"{t:.3g} s"))
@@ -160,7 +156,10 @@ def in_file(file: Path) -> Iterator[None]:
     try:
         yield
     except SpecificationError as error:
-        told_of = (replace(mistake, place=f"{file}: {mistake.place}") for mistake in error.mistakes)
+        told_of = (
+            mistake if mistake.place.startswith("--") else replace(mistake, place=f"{file}: {mistake.place}")
+            for mistake in error.mistakes
+        )
         raise SpecificationError(told_of) from error
 
 

@@ -26,16 +26,19 @@ def scene(file: Path, form: str | None, copies: int | None, real: str, loops: st
     """Emit the routines of one mechanism: a scene file (TOML), a URDF or an MJCF."""
     from codegen import output
     from codegen.measure.compile import compiler
+    from codegen.scenes.forms import is_relative
     from codegen.scenes.generate import check_options, generate_scene, steps
 
     check_options(form, real, loops)
-    if form == "relative":
-        generate_relative(file, copies, real, target, {"--loops": loops != "auto", "--measure": measure})
+    output.check_target(target)
+    read = read_told(file, copies)
+    with in_file(file):
+        as_chain = is_relative(read, form)
+    if as_chain:
+        generate_relative(file, read, real, target, {"--loops": loops != "auto", "--measure": measure})
         return
     if measure:
         compiler()
-    output.check_target(target)
-    read = read_told(file, copies)
     with progress(steps(read), "generating") as advance, in_file(file):
         files = generate_scene(read, form, real, advance, measure, loops)
     output.replace(target, files)
@@ -60,19 +63,22 @@ def simulate(file: Path, copies: int | None, animation: bool, target: Path, **op
     from codegen import output
     from codegen.chains.read import is_chain
     from codegen.report.run_pictures import run_pictures
+    from codegen.scenes.forms import is_relative
     from codegen.scenes.run import Settings
     from codegen.scenes.simulate import check_settings, check_tools, simulated
 
     if is_chain(file):
         simulate_chain(file, target, animation, copies, options)
         return
-    if options["form"] == "relative":
-        simulate_relative(file, target, animation, copies, options)
-        return
     settings = Settings(**options)
     check_settings(settings)
     output.check_target(target)
     read = read_told(file, copies)
+    with in_file(file):
+        as_chain = is_relative(read, settings.form)
+    if as_chain:
+        simulate_relative(file, read, target, animation, options)
+        return
     check_tools()
     with progress(settings.outputs, "simulating", "deriving and compiling") as advance, in_file(file):
         result = simulated(read, settings, lambda t: advance(f"{t:.3g} s"))

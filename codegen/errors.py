@@ -26,7 +26,7 @@ class Mistake:
     remedy: str
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.what}; {self.remedy}"
+        return one_line(f"{self.place}: {self.what}; {self.remedy}")
 
 
 class JointgenError(Exception):
@@ -47,6 +47,11 @@ class OutputError(JointgenError):
 
 class InternalError(AssertionError):
     """A promise between two stages is broken: a defect of jointgen, not of its input."""
+
+
+def one_line(text: str) -> str:
+    """Write what would break a line, or does not print, as Python's escapes."""
+    return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in text)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

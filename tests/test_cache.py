@@ -65,3 +65,25 @@ def test_what_other_sources_made_is_forgotten_when_nobody_used_it_for_long(home:
     os.utime(old, (LONG_AGO, LONG_AGO))
     assert cache.cache_folder().parent == home / "jointgen"
     assert (old.exists(), fresh.exists()) == (False, True)
+
+
+def test_what_a_crash_cut_short_is_made_again(home: Path) -> None:
+    assert cache.kept("whole", lambda: [1, 2]) == [1, 2]
+    file = cache.kept_file("whole", ".so", lambda: b"content")
+    for path in cache.cache_folder().iterdir():
+        path.write_bytes(b"")
+    assert cache.kept("whole", lambda: [3]) == [3]
+    assert cache.kept_file("whole", ".so", lambda: b"other") == file and file.read_bytes() == b"other"
+
+
+def test_where_there_is_no_room_things_are_made_all_the_same(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    put = cache._put
+
+    def full(path: Path, content: bytes) -> None:
+        if path.is_relative_to(home):
+            raise OSError("no space left on device")
+        put(path, content)
+
+    monkeypatch.setattr(cache, "_put", full)
+    assert cache.kept("anything", lambda: 3) == 3
+    assert cache.kept_file("anything", ".txt", lambda: b"3").read_bytes() == b"3"

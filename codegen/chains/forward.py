@@ -46,12 +46,14 @@ def run(
     motion, free = Moving(mechanism, start, found, drives), ~drives.is_driven
     y = np.concatenate([start.q[part.v][free], qd_v[free], [0.0]])
     states: list[State] = []
+    work = [0.0]
     failure = ""
     try:
         motion.begin(float(times[0]), y)
         states.append(motion.state(float(times[0]), y))
         for t, now in outputs(motion, y, states[0], times, tolerance):
             states.append(motion.state(t, now))
+            work.append(float(now[-1]))
             progress(t)
     except PathEnd as end:
         failure = path_words(mechanism, end)
@@ -62,4 +64,5 @@ def run(
     except Stopped as stopped:
         failure = str(stopped)
     words = f"after t = {states[-1].t:.9g} s: {failure}" if failure and states else failure
-    return Run(tuple(states), words, motion.iterations, motion.events_met, motion.evaluations, motion.exchanges)
+    counts = motion.iterations, motion.events_met, motion.evaluations, motion.exchanges, motion.steps
+    return Run(tuple(states), words, *counts, tuple(work))

@@ -128,12 +128,13 @@ def function(motion: Motion, tables: Mapping[str, str]) -> At:
 
 
 def _harmonic(motion: Harmonic) -> At:
-    mean, amplitude = float(motion.mean), float(motion.amplitude)
+    mean, speed, amplitude = float(motion.mean), float(motion.speed), float(motion.amplitude)
     frequency, phase = float(motion.frequency), float(motion.phase)
 
     def at(t: float) -> tuple[float, float, float]:
         sine, cosine = math.sin(frequency * t + phase), math.cos(frequency * t + phase)
-        return mean + amplitude * sine, amplitude * frequency * cosine, -amplitude * frequency**2 * sine
+        value, rate = mean + speed * t + amplitude * sine, speed + amplitude * frequency * cosine
+        return value, rate, -amplitude * frequency**2 * sine
 
     return at
 

@@ -45,7 +45,7 @@ class Moving:
         self.switches, self.drives = found, drives
         self.is_on: tuple[bool, ...] = (False,) * len(found)
         self._told: Callable[[], str] = str
-        self.evaluations = self.events_met = self.exchanges = 0
+        self.evaluations = self.steps = self.events_met = self.exchanges = 0
         self._take(mechanism, start)
 
     def _take(self, mechanism: Mechanism, start: Branch) -> None:
@@ -191,7 +191,9 @@ class Moving:
     def moved(self, solver: RateSolver) -> None:
         """Be where the compiled code went."""
         self._is_ahead, self._rates = True, (np.zeros(0), None)
-        self.evaluations += solver.counted()
+        evaluations, steps = solver.counted()
+        self.evaluations += evaluations
+        self.steps += steps
 
     def value(self, k: int, t: float, y: Array) -> float:
         """What is positive while a switch is on."""

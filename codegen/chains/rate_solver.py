@@ -87,9 +87,10 @@ class RateSolver:
         """And at its start."""
         return np.array(self._state.start)
 
-    def counted(self) -> int:
-        """Evaluations of the rates since this was asked before."""
-        found, self._state.evaluations = int(self._state.evaluations), 0
+    def counted(self) -> tuple[int, int]:
+        """Evaluations of the rates, and steps, since this was asked before."""
+        found = int(self._state.evaluations), int(self._state.steps)
+        self._state.evaluations = self._state.steps = 0
         return found
 
     def run(self, until: float) -> bool:
@@ -133,6 +134,7 @@ def _state(size: int) -> type[ctypes.Structure]:
             ("k", (c_double * size) * _ALL),
             ("curve", (c_double * size) * _POWERS),
             ("evaluations", c_int),
+            ("steps", c_int),
         ]
 
     return State

@@ -46,5 +46,5 @@ def is_chain(file: Path) -> bool:
         return False
     try:
         return "link" in tomllib.loads(text_of(file))
-    except (SpecificationError, tomllib.TOMLDecodeError):
+    except (SpecificationError, ValueError, RecursionError):
         return False

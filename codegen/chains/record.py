@@ -96,6 +96,23 @@ def balance(mechanism: Mechanism, found: Record) -> float:
     return float(np.max(np.abs(parts - found.tau)) / max(1.0, float(np.max(np.abs(found.wrenches)))))
 
 
+def drift(chain: Chain, found: Record) -> float:
+    """Give the largest row of a cut, ``(p; 2 e)`` in m and 1, at any output; 0 without cuts."""
+    first, cuts = len(chain.links), len(chain.cuts)
+    C, R = found.frames[:, first : first + cuts], found.frames[:, first + cuts : first + 2 * cuts]
+    p = np.einsum("kcji,kcj->kci", C[..., :3], R[..., 3] - C[..., 3])
+    turned = np.einsum("kcji,kcjl->kcil", C[..., :3], R[..., :3]).reshape(-1, 3, 3)
+    e = np.array([quaternion(one)[1:] for one in turned]).reshape(-1)
+    return float(max(np.max(np.abs(p), initial=0.0), 2.0 * np.max(np.abs(e), initial=0.0)))
+
+
+def energy_drift(found: Record, run: Run) -> float | None:
+    """Give the largest departure of the kinetic energy from the work of all that acts, J; None if there is none."""
+    if found.kinetic is None or not run.work:
+        return None
+    return float(np.max(np.abs(found.kinetic - found.kinetic[0] - np.array(run.work[: len(found.kinetic)]))))
+
+
 def _directions(chain: Chain) -> Array:
     """[n, 6] velocity of each link relative to its parent for a unit rate, link axes."""
     found = np.zeros((len(chain.links), 6))

@@ -22,6 +22,8 @@ class Run:
         events: of switched forces.
         evaluations: of the equation of motion, by the integrator.
         exchanges: of independent coordinates that turned back.
+        steps: of the integrator.
+        work: J, of all forces and efforts since the start, at the times of the states; empty without an integrator.
     """
 
     states: tuple[State, ...]
@@ -30,3 +32,5 @@ class Run:
     events: int = 0
     evaluations: int = 0
     exchanges: int = 0
+    steps: int = 0
+    work: tuple[float, ...] = ()

@@ -17,12 +17,13 @@ from codegen.chains.directions import check_springs
 from codegen.chains.generated import Generated
 from codegen.chains.mechanism import Mechanism, mechanism
 from codegen.chains.motion import drives, function, motions
-from codegen.chains.record import Record, as_csv, balance, record
+from codegen.chains.record import Record, as_csv, balance, drift, energy_drift, record
 from codegen.chains.run import Progress, Run
 from codegen.chains.start import start
 from codegen.chains.undetermined import undetermined
 from codegen.errors import Mistake, SpecificationError
 from codegen.measure.threads import one_thread
+from codegen.mechanics.chain.model import ROW_NAMES
 from codegen.simulate.limits import limit_mistakes, run_manifest
 from codegen.spec.chain import Chain
 from codegen.spec.chain_motions import Independent, Table
@@ -178,16 +179,29 @@ def summary(mechanism: Mechanism, found: Record, done: Run, settings: Settings) 
         "independent": [chain.links[k].name for k in part.v],
         "rows": 6 * len(chain.cuts),
         "binding_rows": len(part.rows),
+        "dropped_rows": dropped_rows(mechanism),
+        "rank": len(part.w) if chain.cuts else 0,
+        "dof": sum(not one.driven for one in chain.independents),
         "characteristic_length": mechanism.length,
         "iterations": done.iterations,
         "events": done.events,
+        "steps": done.steps,
         "evaluations": done.evaluations,
+        "constraint_drift": drift(chain, found),
+        "energy_drift": energy_drift(found, done),
         "exchanges": done.exchanges,
         "least_singular_value": float(np.min(found.least)),
     }
     if found.tau is not None:
         numbers["joint_balance"] = balance(mechanism, found)
     return numbers
+
+
+def dropped_rows(mechanism: Mechanism) -> list[dict[str, str]]:
+    """Rows of the cuts that no coordinate moves, as ``summary.json`` has them."""
+    kept = set(mechanism.part.rows.tolist())
+    names = [(cut.name, name) for cut in mechanism.chain.cuts for name in ROW_NAMES]
+    return [{"joint": cut, "row": name} for row, (cut, name) in enumerate(names) if row not in kept]
 
 
 def _notes(loose: tuple[str, ...]) -> Iterator[str]:

@@ -133,6 +133,7 @@ def _advance(motion: Moving, solver: DOP853) -> None:
     solver.step()
     if solver.status == "failed":
         raise Stopped(motion.failure or "the integrator takes no step that meets the tolerance")
+    motion.steps += 1
 
 
 def _compiled(motion: Moving, solver: RateSolver, tolerances: Tolerances) -> Step:

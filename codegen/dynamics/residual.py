@@ -22,10 +22,12 @@ from codegen.dynamics.condensation import completed, without_condensed
 from codegen.dynamics.layout import Layout
 from codegen.dynamics.matrices import moved, transposed
 from codegen.dynamics.state import State, Values
+from codegen.ir.builder import Builder
 from codegen.ir.inline import Entries
 from codegen.ir.ops import Op
 from codegen.ir.program import Argument, Output, Program, Sparsity
 from codegen.mechanics.system import System
+from codegen.spec.scene import Drive
 
 NORM_DAMPING = Fraction(1)
 """1/s: the norm of Euler parameters goes back to 1 as ``exp(-2 t)``; attitudes do not depend on it."""
@@ -124,7 +126,20 @@ def _motion(state: State, found: dict[str, Entries], mass: Program) -> Entries:
 
 
 def _phi_t(state: State) -> Entries:
-    return {(k, 0): state.builder.constant(rate) for k, rate in enumerate(state.system.phi_t) if rate}
+    first = len(state.system.assembly.rows)
+    rates = ((first + k, driven.drive) for k, driven in enumerate(state.system.drives))
+    return {(row, 0): _drive_rate(state.builder, drive) for row, drive in rates if drive.speed or drive.amplitude}
+
+
+def _drive_rate(builder: Builder, drive: Drive) -> int:
+    """``-speed - amplitude frequency cos(frequency t + phase)``."""
+    emit, constant = builder.emit, builder.constant
+    steady = constant(-drive.speed)
+    if not drive.amplitude:
+        return steady
+    turned = emit(Op.MULTIPLY, constant(drive.frequency), builder.input("t", 0))
+    cosine = emit(Op.COS, emit(Op.ADD, turned, constant(drive.phase)))
+    return emit(Op.ADD, steady, emit(Op.MULTIPLY, constant(-drive.amplitude * drive.frequency), cosine))
 
 
 def _accelerations(state: State, found: dict[str, Entries], drift: Entries, beta: Fraction) -> Entries:

@@ -1,8 +1,8 @@
 """Applied and gyroscopic forces of a scene: ``force``, the right-hand side of ``M a + phi_q^T lambda = force``.
 
-Gravity, constant torques in world axes, springs and dampers between points, what acts on joint coordinates, and
-``-omega x J omega``. ``force_q`` and ``force_v`` are its derivatives by the displacements and by the velocities, whose
-components stay in the axes they are in. Rows and columns are the displacements of the assembly. Where virtual
+Gravity, constant torques and forces in world axes, springs and dampers between points, what acts on joint coordinates,
+and ``-omega x J omega``. ``force_q`` and ``force_v`` are its derivatives by the displacements and by the velocities,
+whose components stay in the axes they are in. Rows and columns are the displacements of the assembly. Where virtual
 translations are in body axes, forces are too.
 """
 
@@ -16,20 +16,21 @@ from typing import Any
 import sympy
 
 from codegen.errors import InternalError
-from codegen.ir.lower import Block, Part, Places, Tilde
+from codegen.ir.lower import Block, Part, Places
 from codegen.mechanics import frames
 from codegen.mechanics.arrays import body_symbol, normal_symbol
 from codegen.mechanics.assembly import Assembly
 from codegen.mechanics.blocks import gathered
+from codegen.mechanics.constant_load import ConstantLoad
 from codegen.mechanics.coordinate_load import CoordinateLoad
 from codegen.mechanics.gyroscopic import Gyroscopic
 from codegen.mechanics.merged import merged
 from codegen.mechanics.normal_turns import about_normal
-from codegen.mechanics.placed import Ends, Placed, rational
+from codegen.mechanics.placed import THIRD_AXIS, Ends, Placed
 from codegen.mechanics.places import WORLD, places
 from codegen.mechanics.spring import BALL, SpringLaw, spring_law
 from codegen.spec.placement import IDENTITY
-from codegen.spec.scene import GROUND, Body, Joint, Marker, Spring, Vector
+from codegen.spec.scene import GROUND, Body, Joint, Marker, Spring
 from codegen.spec.sections import varying_of
 
 FORCES = {
@@ -113,33 +114,23 @@ class Forces:
 
     def _body_blocks(self, name: str) -> Iterator[Block]:
         for k, body in enumerate(self.assembly.scene.bodies):
-            yield from self._constant_loads(k, body, name)
+            yield from self._constant_loads(k, self._load(body), name)
 
-    def _constant_loads(self, number: int, body: Body, name: str) -> Iterator[Block]:
-        """Gravity and torques: constant in world axes, so that they turn as seen from the body."""
-        identifier = self.assembly.bodies[body.name]
-        A, normal = body_symbol("A", identifier), normal_symbol(identifier)
-        row = self.assembly.arrays.derived * number
-        loads = ((row, self._weight(body), self.assembly.translations == "body"), (row + 3, self._torque(body), True))
-        for place, load, is_seen_from_body in loads:
-            if load.is_zero_matrix:
-                continue
-            seen = sympy.MatMul(sympy.Transpose(A), load) if is_seen_from_body else load
-            turning = normal if place != row else None
-            if name == "force":
-                yield Block(place, 0, self._in_motion(seen, turning, None))
-            elif name == "force_q" and is_seen_from_body:
-                yield Block(place, row + 3, self._in_motion(Tilde(seen), turning, normal))
+    def _constant_loads(self, number: int, load: ConstantLoad, name: str) -> Iterator[Block]:
+        row, normal = self.assembly.arrays.derived * number, normal_symbol(load.identifier)
+        pulls = load.pulls(self.assembly.translations)
+        for place, turning, loads in ((row, None, pulls), (row + 3, normal, load.moments)):
+            for value, change in loads:
+                if name == "force":
+                    yield Block(place, 0, self._in_motion(value, turning, None))
+                elif name == "force_q" and change is not None:
+                    yield Block(place, row + 3, self._in_motion(change, turning, normal))
 
     def _in_motion(self, expression: Any, rows: Any | None, columns: Any | None) -> Any:
         return about_normal(expression, rows, columns) if self.assembly.arrays.is_planar else expression
 
-    def _weight(self, body: Body) -> Any:
-        return rational(body.mass) * _column(self.assembly.scene.gravity)
-
-    def _torque(self, body: Body) -> Any:
-        torques = (_column(torque.vector) for torque in self.assembly.scene.torques if torque.body == body.name)
-        return sum(torques, sympy.zeros(3, 1)).as_immutable()
+    def _load(self, body: Body) -> ConstantLoad:
+        return ConstantLoad(self.assembly.scene, body, self.assembly.bodies[body.name])
 
     @property
     def _body_places(self) -> Places:
@@ -147,23 +138,26 @@ class Forces:
         parts, columns = [], {}
         for k, body in enumerate(assembly.scene.bodies):
             name = assembly.bodies[body.name]
-            parts.append(self._places_of(name))
+            parts.append(self._places_of(self._load(body)))
             columns[assembly.arrays.derived * k] = name if assembly.translations == "body" else WORLD
             columns[assembly.arrays.derived * k + 3] = name
         return merged(parts, columns)
 
-    def _places_of(self, body: str) -> Places:
+    def _places_of(self, load: ConstantLoad) -> Places:
         """The frame of one body."""
-        arrays = self.assembly.arrays
+        arrays, body = self.assembly.arrays, load.identifier
         A = body_symbol("A", body)
         written = arrays.attitude_matrix(body)
+        constants = {normal_symbol(body): THIRD_AXIS, **load.points}
         return scalar_places(
             rotations={A: (WORLD, body)},
             given=(A,),
             explicit={} if written is None else {A: written},
-            frames={normal_symbol(body): body},
+            frames=dict.fromkeys(constants, body),
             bodies={WORLD: WORLD, body: body},
-            constants={normal_symbol(body): sympy.ImmutableDenseMatrix([0, 0, 1])},
+            constants=constants,
+            stages=load.seen,
+            whole=frozenset(load.seen),
             same_axes={(body, 2): (1, WORLD, 2)} if arrays.is_planar else {},
         )
 
@@ -223,7 +217,3 @@ def scalar_places(**known: Any) -> Places:
     mappings = ("rotations", "explicit", "frames", "stages", "rows", "axis_names", "vector_names")
     nothing: dict[str, Any] = {name: {} for name in mappings}
     return Places(**{"given": (), "bodies": {WORLD: WORLD}, "axes": frozenset(), "columns": (), **nothing, **known})
-
-
-def _column(vector: Vector) -> Any:
-    return sympy.ImmutableDenseMatrix([rational(x) for x in vector])

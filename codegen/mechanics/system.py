@@ -1,15 +1,15 @@
 """The equations of motion of a scene: constraints of the joints, drives, forces.
 
-Rows: those of the joints, then one for each drive, ``alpha - position - speed t = 0``, named ``drive of JOINT``. With
-``M a + phi_q^T lambda = force`` the effort of a drive, along its coordinate, is minus its multiplier. ``phi_t`` is
-``-speed`` in the row of a drive and 0 in others; drives add nothing to ``gamma``.
+Rows: those of the joints, then one for each drive, ``alpha - p(t) = 0`` with ``p = position + speed t + amplitude
+sin(frequency t + phase)``, named ``drive of JOINT``. With ``M a + phi_q^T lambda = force`` the effort of a drive, along
+its coordinate, is minus its multiplier. In the row of a drive ``phi_t`` is ``-pdot`` and ``gamma`` is ``pddot``; in
+others ``phi_t`` is 0.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -69,10 +69,9 @@ class System:
         """Rows of the system."""
         return len(self.assembly.rows) + len(self.drives)
 
-    @property
-    def phi_t(self) -> tuple[Fraction, ...]:
-        """Partial derivative of ``phi`` by time, row by row, m/s or rad/s."""
-        return (*(Fraction(0) for _ in self.assembly.rows), *(-driven.drive.speed for driven in self.drives))
+    def phi_t(self, t: float) -> tuple[float, ...]:
+        """Partial derivative of ``phi`` by time at a time, row by row, m/s or rad/s."""
+        return (*(0.0 for _ in self.assembly.rows), *(-driven.drive.rate(t) for driven in self.drives))
 
     @cached_property
     def condensed(self) -> Condensed:
@@ -110,7 +109,9 @@ class System:
         constraints = tuple(name for name in names if name not in FORCES)
         parts = [self._widened(part) for part in self.assembly.parts(constraints)] if constraints else []
         if constraints and (self.drives or not parts):
-            parts.append(Part(scalar_places(), tuple(self._drive_rows(name) for name in constraints)))
+            sines = {_sine(k): _swing(driven.drive) for k, driven in enumerate(self.drives) if driven.drive.amplitude}
+            places = scalar_places(stages=sines)
+            parts.append(Part(places, tuple(self._drive_rows(name) for name in constraints)))
         return parts + self._forces.parts(tuple(name for name in names if name in FORCES))
 
     def selection(self, name: str) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -149,15 +150,28 @@ class System:
         blocks = []
         for k, driven in enumerate(self.drives):
             row, column = first + k, first_column + driven.alpha
-            prescribed = rational(driven.drive.position) + rational(driven.drive.speed) * _TIME
+            drive = driven.drive
+            swing = rational(drive.amplitude) * _sine(k) if drive.amplitude else sympy.S.Zero
+            prescribed = rational(drive.position) + rational(drive.speed) * _TIME + swing
             written = {
                 "phi": Block(row, 0, frames.alpha(count)[driven.alpha] - prescribed),
                 "phi_q": Block(row, column, sympy.S.One),
                 "phi_q_v": Block(row, 0, frames.alpha_dot(count)[driven.alpha]),
                 "phi_q_t_lambda": Block(column, 0, multipliers[row]),
             }
+            if swing != 0:
+                written["gamma"] = Block(row, 0, -(rational(drive.frequency) ** 2) * swing)
             blocks += [written[name]] if name in written else []
         return gathered(name, self._shape(name), blocks)
+
+
+def _sine(number: int) -> Any:
+    """The sine of a drive."""
+    return sympy.Symbol(f"sine_of_drive_{number}")
+
+
+def _swing(drive: Drive) -> Any:
+    return sympy.sin(rational(drive.frequency) * _TIME + rational(drive.phase), evaluate=False)
 
 
 def _kinds(name: str) -> tuple[str, str]:

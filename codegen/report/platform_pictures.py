@@ -47,7 +47,8 @@ def home_factors(platform: Platform) -> list[Array]:
     found = program(plain, ("ellipsoids",))
     o = [np.float64(x) for x in platform.home.position]
     turned = [np.float64(platform.home.rotation[i][k]) for k in range(3) for i in range(3)]
-    values = evaluate(found, {"o": o, "R": turned}, numpy_domain())["ellipsoids"]
+    with np.errstate(divide="ignore", invalid="ignore"):  # at a singular home semi-axes have no end
+        values = evaluate(found, {"o": o, "R": turned}, numpy_domain())["ellipsoids"]
     dense = np.zeros((3, 12))
     for (row, column), value in zip(found.outputs[0].sparsity.entries(), values, strict=True):
         dense[row, column] = value

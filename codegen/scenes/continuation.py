@@ -85,7 +85,7 @@ def continued(prepared: Prepared, watch: Watch, t: float, predicted: Prediction)
     y, moved = _projected(watch, system, layout, t, y)
     bodies = bodies_of(system, layout, y[None], np.zeros((1, layout.size)))
     pose = Pose(bodies.r[0], bodies.A[0], bodies.alpha[0])
-    state, rates = consistent_state(prepared, pose, velocity)
+    state, rates = consistent_state(prepared, pose, velocity, t)
     return state, rates, moved
 
 

@@ -38,6 +38,30 @@ class Choice:
     prices: Mapping[str, int]
 
 
+def is_relative(scene: Scene, form: str | None) -> bool:
+    """Whether a scene is to be taken by relative coordinates, as a chain.
+
+    Args:
+        scene: the mechanism; relative coordinates are of all joints together, so one joint that asks is enough.
+        form: for all joints, in the place of what the scene says.
+
+    Raises:
+        SpecificationError: other joints ask for another form.
+    """
+    if form is not None:
+        return form == "relative"
+    asking = [joint.name for joint in scene.joints if joint.form == "relative"]
+    what = f'joint "{asking[0]}" asks for relative coordinates, which all joints have or none' if asking else ""
+    mistakes = [
+        Mistake(f'joint "{joint.name}": form', f'is "{joint.form}", and {what}', "use relative or auto")
+        for joint in scene.joints
+        if asking and joint.form in ("conventional", "parametric")
+    ]
+    if mistakes:
+        raise SpecificationError(mistakes)
+    return bool(asking)
+
+
 def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
     """Choose the form of every joint; sections of the scene that are alike have the same forms.
 
@@ -46,13 +70,13 @@ def choose_forms(scene: Scene, form: str | None = None) -> dict[str, Choice]:
         form: for all joints that may have it, in the place of what the scene says.
 
     Raises:
-        SpecificationError: a joint is to have relative coordinates, which scenes do not have yet.
+        SpecificationError: a joint is to have relative coordinates: routines of bodies have none.
     """
     remedy = "use auto, conventional or parametric"
     mistakes = [
-        Mistake(f'joint "{joint.name}"', "relative coordinates are not there yet", remedy)
+        Mistake(f'joint "{joint.name}": form', "the routines of bodies have no relative coordinates", remedy)
         for joint in scene.joints
-        if "relative" in (form, joint.form)
+        if (form or joint.form) == "relative"
     ]
     if mistakes:
         raise SpecificationError(mistakes)
@@ -121,7 +145,7 @@ def _alone(scene: Scene, joint: Joint, form: str) -> Lowered:
 def alone(scene: Scene, joint: Joint, variant: Variant) -> Assembly:
     """A joint of a scene with its two bodies and nothing else."""
     bodies = tuple(body for body in scene.bodies if body.name in joint.bodies)
-    only = replace(scene, bodies=bodies, joints=(joint,), springs=(), torques=())
+    only = replace(scene, bodies=bodies, joints=(joint,), springs=(), torques=(), forces=())
     return without_zero_rows(Assembly(only, {joint.name: variant}))
 
 

@@ -15,7 +15,7 @@ from codegen.scenes.run import Prepared, Run
 from codegen.scenes.settled import settled
 from codegen.scenes.state import Bodies, Frames, euler_parameters, frames_of
 from codegen.simulate.trajectory import Trajectory
-from codegen.spec.scene import GROUND, Joint
+from codegen.spec.scene import GROUND, Joint, Vector
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +41,7 @@ def record(prepared: Prepared, run: Run) -> Record:
         run: its states.
     """
     system = prepared.system
-    bodies = settled(system, prepared.layout, prepared.values, prepared.inertia, run.y, run.ydot)
+    bodies = settled(system, prepared.layout, prepared.values, prepared.inertia, run.t, run.y, run.ydot)
     frames = frames_of(prepared.scene, prepared.plane)
     values = {p.joint.name: _values(system, bodies, p.joint, k) for k, p in enumerate(system.assembly.placed)}
     drift = np.max([np.max(np.abs(phi), axis=0) for phi, _ in values.values()], axis=0, initial=0.0)
@@ -124,6 +124,13 @@ def _pose(bodies: Bodies, number: int | None) -> tuple[Array, Array]:
     return bodies.r[:, number], bodies.A[:, number]
 
 
+def _point(bodies: Bodies, number: int | None, point: Vector) -> Array:
+    """[n, 3] m, world, of a point of a body, or of the ground."""
+    r, A = _pose(bodies, number)
+    found: Array = r + A @ np.array([float(x) for x in point])
+    return found
+
+
 def _reaction(system: System, bodies: Bodies, name: str, phi_q: Array) -> Array:
     """Force and moment [n, 6] on body j at the joint's point on body j, world axes: ``-phi_q^T lambda``."""
     placed = next(p for p in system.assembly.placed if p.joint.name == name)
@@ -149,7 +156,7 @@ def _turned(load: Array, frames: Frames) -> Array:
 
 
 def energy(system: System, bodies: Bodies) -> Array:
-    """Kinetic and potential energy [n] J: gravity, springs between points, loads on joint coordinates."""
+    """Kinetic and potential energy [n] J: gravity, constant forces, springs, loads on joint coordinates."""
     scene = system.assembly.scene
     gravity = np.array([float(x) for x in scene.gravity])
     total = np.zeros(len(bodies.r))
@@ -159,12 +166,14 @@ def energy(system: System, bodies: Bodies) -> Array:
         total += 0.5 * np.einsum("ni,ij,nj->n", bodies.omega[:, k], J, bodies.omega[:, k])
     names = [body.name for body in scene.bodies]
     for spring in scene.springs:
-        ends = []
-        for name, point in zip(spring.bodies, spring.points, strict=True):
-            r, A = _pose(bodies, None if name == GROUND else names.index(name))
-            ends.append(r + A @ np.array([float(x) for x in point]))
+        ends = [
+            _point(bodies, None if name == GROUND else names.index(name), point)
+            for name, point in zip(spring.bodies, spring.points, strict=True)
+        ]
         length = np.linalg.norm(ends[1] - ends[0], axis=1)
         total += 0.5 * float(spring.stiffness) * (length - float(spring.length)) ** 2
+    for force in scene.forces:
+        total -= _point(bodies, names.index(force.body), force.point) @ np.array([float(x) for x in force.vector])
     for placed in system.assembly.placed:
         for k, coordinate in enumerate(placed.joint.coordinates if placed.form.coordinates else ()):
             alpha = bodies.alpha[:, placed.ends.first_alpha + k]

@@ -191,11 +191,11 @@ def _velocity(system: System) -> Array:
     return velocity
 
 
-def _motion(system: System, values: Program, inertia: Program, pose: Pose, velocity: Array) -> Motion:
-    """The consistent motion nearest to given velocities, translations in world axes."""
-    phi_t = np.array(system.phi_t, dtype=np.float64)
+def _motion(system: System, values: Program, inertia: Program, pose: Pose, velocity: Array, t: float = 0.0) -> Motion:
+    """The consistent motion at a time nearest to given velocities, translations in world axes."""
+    phi_t = np.array(system.phi_t(t), dtype=np.float64)
     wanted = _turned(system, pose, velocity, is_back=True)
-    found = consistent_motion(values, inertia, program_arrays(system, pose), wanted, phi_t)
+    found = consistent_motion(values, inertia, program_arrays(system, pose, t), wanted, phi_t)
     return replace(
         found,
         velocity=_turned(system, pose, found.velocity),
@@ -213,16 +213,17 @@ def _turned(system: System, pose: Pose, values: Array, is_back: bool = False) ->
     return found
 
 
-def consistent_state(prepared: Prepared, pose: Pose, velocity: Array) -> tuple[Array, Array]:
+def consistent_state(prepared: Prepared, pose: Pose, velocity: Array, t: float) -> tuple[Array, Array]:
     """The state at a pose and its rate, with the consistent velocities nearest to given ones.
 
     Args:
         prepared: the scene.
         pose: on the constraints.
         velocity: as the state has them.
+        t: s.
     """
     system = prepared.system
-    motion = _motion(system, prepared.values, prepared.inertia, pose, velocity)
+    motion = _motion(system, prepared.values, prepared.inertia, pose, velocity, t)
     return _state(system, prepared.layout, pose, motion)
 
 

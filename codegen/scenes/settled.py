@@ -22,7 +22,7 @@ from codegen.scenes.state import Bodies, bodies_of
 from codegen.simulate.start import dense, saddle
 
 
-def settled(system: System, layout: Layout, values: Program, mass: Program, y: Array, ydot: Array) -> Bodies:
+def settled(system: System, layout: Layout, values: Program, mass: Program, t: Array, y: Array, ydot: Array) -> Bodies:
     """Read the motion of the bodies off states, with accelerations and multipliers that fit.
 
     Args:
@@ -30,15 +30,16 @@ def settled(system: System, layout: Layout, values: Program, mass: Program, y: A
         layout: of the state.
         values: ``phi_q``, ``gamma`` and ``force``.
         mass: ``mass``.
+        t: [n] s.
         y: [n, size].
         ydot: [n, size] its rate.
     """
     bodies = bodies_of(system, layout, y, ydot)
-    found = _evaluated(system, bodies, values)
+    found = _evaluated(system, t, bodies, values)
     if layout.condensed.coordinates:
         phi_q = _times(found["phi_q"], len(y))
         bodies = replace(bodies, alphadot=_rates(system, layout.condensed, values, phi_q, bodies))
-        found = _evaluated(system, bodies, values)
+        found = _evaluated(system, t, bodies, values)
     rows = {name: _times(found[name], len(y)) for name in ("phi_q", "gamma", "force")}
     M = dense(mass.output("mass"), evaluate(mass, {})["mass"])
     linear = _Saddle(M, values)
@@ -48,8 +49,8 @@ def settled(system: System, layout: Layout, values: Program, mass: Program, y: A
     return _with_accelerations(system, bodies, rates, np.array([solution[size:] for solution in solved]))
 
 
-def _evaluated(system: System, bodies: Bodies, values: Program) -> dict[str, list[Array]]:
-    arrays = _arguments(system, bodies)
+def _evaluated(system: System, t: Array, bodies: Bodies, values: Program) -> dict[str, list[Array]]:
+    arrays = _arguments(system, t, bodies)
     return evaluate(values, {name: list(array.T) for name, array in arrays.items()}, numpy_domain())
 
 
@@ -57,7 +58,7 @@ def _rates(system: System, condensed: Condensed, values: Program, phi_q: Array, 
     """Rates of the joint coordinates [n, k]; those that the state leaves out are such that ``phi_q v = 0``."""
     found = bodies.alphadot.copy()
     found[:, condensed.coordinates] = 0.0
-    velocity = _arguments(system, replace(bodies, alphadot=found))["velocity"]
+    velocity = _velocity(system, replace(bodies, alphadot=found))
     place = {row: k for k, row in enumerate(condensed.rows)}
     drift = np.zeros((len(phi_q), len(place)))
     for k, (row, column) in enumerate(values.output("phi_q").sparsity.entries()):
@@ -76,23 +77,28 @@ def _times(values: list[Array], count: int) -> Array:
     return found
 
 
-def _arguments(system: System, bodies: Bodies) -> dict[str, Array]:
+def _arguments(system: System, t: Array, bodies: Bodies) -> dict[str, Array]:
     """Arguments of the programs of a system, [n, length] each."""
     times, size = len(bodies.r), system.assembly.arrays.position
-    v = bodies.v
-    if system.assembly.translations == "body":
-        v = np.einsum("nbji,nbj->nbi", bodies.A, v)
-    turns = bodies.omega if size == 3 else bodies.omega[..., 2:]
-    own = np.concatenate([v[..., :size], turns], axis=-1).reshape(times, -1)
     revolutions = next(a.length for a in system.arguments() if a.name == "revolutions")
     return {
         "r": bodies.r[..., :size].reshape(times, -1),
         "A": np.swapaxes(bodies.A[..., :size, :size], -1, -2).reshape(times, -1),
         "alpha": bodies.alpha,
-        "velocity": np.concatenate([own, bodies.alphadot], axis=1),
+        "velocity": _velocity(system, bodies),
         "revolutions": np.zeros((times, revolutions)),
-        "t": np.zeros((times, 1)),
+        "t": t[:, None],
     }
+
+
+def _velocity(system: System, bodies: Bodies) -> Array:
+    """[n, k], in the axes of the programs."""
+    size, v = system.assembly.arrays.position, bodies.v
+    if system.assembly.translations == "body":
+        v = np.einsum("nbji,nbj->nbi", bodies.A, v)
+    turns = bodies.omega if size == 3 else bodies.omega[..., 2:]
+    own = np.concatenate([v[..., :size], turns], axis=-1).reshape(len(v), -1)
+    return np.concatenate([own, bodies.alphadot], axis=1)
 
 
 def _with_accelerations(system: System, bodies: Bodies, rates: Array, multipliers: Array) -> Bodies:

@@ -156,8 +156,8 @@ def rate_matrix(p: Array) -> Array:
     return np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
 
 
-def program_arrays(system: System, pose: Pose) -> Mapping[str, Sequence[float]]:
-    """Arguments of the programs of a system in a pose."""
+def program_arrays(system: System, pose: Pose, t: float = 0.0) -> Mapping[str, Sequence[float]]:
+    """Arguments of the programs of a system in a pose at a time, s."""
     size = system.assembly.arrays.position
     turns = next(a.length for a in system.arguments() if a.name == "revolutions")
     return {
@@ -165,5 +165,5 @@ def program_arrays(system: System, pose: Pose) -> Mapping[str, Sequence[float]]:
         "A": [x for A in pose.A for x in A[:size, :size].ravel(order="F").tolist()],
         "alpha": pose.alpha.tolist(),
         "revolutions": [0.0] * turns,
-        "t": [0.0],
+        "t": [t],
     }

@@ -19,7 +19,7 @@ def summary(prepared: Prepared, watched: Watched, settings: Settings, record: Re
     """Tell a run in numbers: rows, freedom, steps, drift of constraints and energy, singular configurations, time."""
     run = watched.run
     assembly = prepared.system.assembly
-    names = row_names(assembly)
+    names, drives = row_names(assembly), len(prepared.system.drives)
     energy = record.energy
     return {
         "scene": prepared.scene.name,
@@ -29,13 +29,14 @@ def summary(prepared: Prepared, watched: Watched, settings: Settings, record: Re
         "tolerance": settings.tolerance,
         "index": settings.index,
         "forms": {name: choice.variant.form for name, choice in prepared.judged.choices.items()},
-        "rows": len(assembly.rows) + len(prepared.system.drives),
-        "all_rows": assembly.all_rows,
-        "rank": prepared.judged.mobility.rank,
+        "rows": len(assembly.rows) + drives,
+        "all_rows": assembly.all_rows + drives,
+        "rank": prepared.judged.mobility.rank + drives,
         "dof": prepared.dof,
         "dropped_rows": [{"joint": names[row][0], "row": names[row][1]} for row in sorted(assembly.dropped)],
         "mobility": as_data(prepared.judged.mobility),
         **asdict(run.statistics),
+        "evaluations": run.statistics.residuals,
         "initial_position_change": prepared.moved,
         "initial_velocity_change": prepared.motion.changed,
         "constraint_drift": float(np.max(record.drift)),

@@ -129,7 +129,8 @@ class _Watcher:
         if not len(bad):
             return ""
         words = self._watch.singular_words(0.0, self._prepared.y, int(bad[0]))
-        return f"{words}; start from another pose"
+        has_table4 = "table4" in {variant.rows for variant in self._prepared.judged.assembly.forms.values()}
+        return f"{words}; start from another pose" + (', or take rows = "regular"' if has_table4 else "")
 
     def _result(self, failure: str) -> Watched:
         t, y, ydot = (np.array([getattr(s, name) for s in self._outputs]) for name in ("t", "y", "ydot"))

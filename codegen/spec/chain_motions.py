@@ -15,12 +15,13 @@ class Polynomial:
 
 @dataclass(frozen=True, slots=True)
 class Harmonic:
-    """``mean + amplitude sin(frequency t + phase)``, m or rad; frequency in rad/s."""
+    """``mean + speed t + amplitude sin(frequency t + phase)``, m or rad; speed in m/s or rad/s, frequency in rad/s."""
 
     mean: Fraction
     amplitude: Fraction
     frequency: Fraction
     phase: Fraction
+    speed: Fraction = Fraction(0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ _READ = {
 
 _SOLVER = "settings of a solver have no part in the equations"
 _CONTACT = "contact is not modelled"
-_ACTUATORS = "actuators are not modelled; give the joint a torque or a drive"
+_ACTUATORS = "actuators are not modelled; give the joint a torque or a drive, or the body a force"
 _SENSORS = "sensors are not modelled"
 _LOOKS = "looks have no part in the equations"
 

@@ -26,7 +26,7 @@ from codegen.spec.placement import (
     turned_back,
     unit,
 )
-from codegen.spec.scene import GROUND, Body, Joint, Marker, Matrix, Quaternion, Scene, Spring, Torque, Vector
+from codegen.spec.scene import GROUND, Body, Force, Joint, Marker, Matrix, Quaternion, Scene, Spring, Torque, Vector
 from codegen.spec.scene_file.planar import Placed, planar_mistakes, plane_normal
 
 _Z: Vector = IDENTITY[2]
@@ -92,6 +92,7 @@ def in_plane(scene: Scene) -> InPlane:
         springs=tuple(_spring(spring, axes, heights) for spring in scene.springs),
         torques=tuple(Torque(torque.body, _along(times(world, torque.vector))) for torque in scene.torques),
         motion="planar",
+        forces=tuple(_force(force, world, axes[force.body]) for force in scene.forces),
     )
     del heights[GROUND]
     return InPlane(flat, world, axes, heights, dot(normal, scene.gravity))
@@ -198,6 +199,11 @@ def _spring(spring: Spring, axes: Mapping[str, Matrix], heights: Mapping[str, Fr
     first, (x, y, _) = (_across(on_axes(point)) for point in points)
     size = max(map(abs, (*points[0], *points[1], *levels)))
     return replace(spring, points=(first, (x, y, apart if abs(apart) > NEARLY * size else Fraction(0))))
+
+
+def _force(force: Force, world: Matrix, axes: Matrix) -> Force:
+    """The part in the plane; its moment about the normal takes no height."""
+    return Force(force.body, _across(times(world, force.vector)), _across(on_axes(times(axes, force.point))))
 
 
 def _across(vector: Vector) -> Vector:

@@ -6,6 +6,7 @@ need a square root are kept to 40 digits. Lengths in m, masses in kg, angles in 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -104,10 +105,34 @@ class Marker:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """A prescribed motion of a joint coordinate: ``position + speed t``, m or rad, m/s or rad/s."""
+    """A prescribed motion of a joint coordinate: ``position + speed t + amplitude sin(frequency t + phase)``.
+
+    Attributes:
+        position: m or rad.
+        speed: m/s or rad/s.
+        amplitude: m or rad.
+        frequency: rad/s.
+        phase: rad.
+    """
 
     position: Fraction
     speed: Fraction
+    amplitude: Fraction = Fraction(0)
+    frequency: Fraction = Fraction(0)
+    phase: Fraction = Fraction(0)
+
+    def value(self, t: float) -> float:
+        """The coordinate at a time, m or rad."""
+        swing = float(self.amplitude) * math.sin(self._angle(t)) if self.amplitude else 0.0
+        return float(self.position) + float(self.speed) * t + swing
+
+    def rate(self, t: float) -> float:
+        """Its rate, m/s or rad/s."""
+        swing = float(self.amplitude * self.frequency) * math.cos(self._angle(t)) if self.amplitude else 0.0
+        return float(self.speed) + swing
+
+    def _angle(self, t: float) -> float:
+        return float(self.frequency) * t + float(self.phase)
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,6 +230,21 @@ class Torque:
 
 
 @dataclass(frozen=True, slots=True)
+class Force:
+    """A constant force at a point of a body.
+
+    Attributes:
+        body: name, not the ground.
+        vector: [3] N, world axes.
+        point: [3] m, from the centre of mass, body axes.
+    """
+
+    body: str
+    vector: Vector
+    point: Vector = ZERO_VECTOR
+
+
+@dataclass(frozen=True, slots=True)
 class Wanted:
     """What is generated of a scene.
 
@@ -235,6 +275,7 @@ class Scene:
         motion: one of `MOTIONS`.
         wanted: what is generated.
         assemble: whether the pose at t = 0 is a guess, from which joints that do not close are to be closed.
+        forces: at points of bodies.
     """
 
     name: str
@@ -246,6 +287,7 @@ class Scene:
     motion: str = "spatial"
     wanted: Wanted = field(default_factory=Wanted)
     assemble: bool = False
+    forces: tuple[Force, ...] = ()
 
     def body(self, name: str) -> Body | None:
         """Find a body; None for the ground."""

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from codegen.errors import Mistake, SpecificationError
 from codegen.spec.joint_text import joint_entries
-from codegen.spec.scene import ZERO_VECTOR, Body, Coordinate, Drive, Joint, Limit, Scene, Wanted
+from codegen.spec.scene import ZERO_VECTOR, Body, Coordinate, Drive, Force, Joint, Limit, Scene, Wanted
 
 _LONGEST = Context(prec=30)
 _ROUNDED = Context(prec=20)
@@ -46,6 +46,7 @@ def write_scene(scene: Scene) -> str:
         kept = {key: getattr(spring, key) for key in ("bodies", "points", "stiffness", "damping", "length")}
         tables.append(_table("[[spring]]", kept))
     tables += [_table("[[torque]]", {"body": torque.body, "vector": torque.vector}) for torque in scene.torques]
+    tables += [_table("[[force]]", _force(force)) for force in scene.forces]
     if scene.wanted != Wanted():
         kept = {key: getattr(scene.wanted, key) for key in ("quantities", "rows", "derivative")}
         tables.append(_table("[output]", {key: value for key, value in kept.items() if value}))
@@ -81,12 +82,19 @@ def _joint(joint: Joint, scene: Scene) -> dict[str, object]:
     return entries
 
 
+def _force(force: Force) -> dict[str, object]:
+    entries: dict[str, object] = {"body": force.body, "vector": force.vector}
+    return entries if force.point == ZERO_VECTOR else entries | {"point": force.point}
+
+
 def _load(value: Fraction | Drive | Limit | None) -> object:
     match value:
         case None:
             return {}
         case Drive():
-            return {"position": value.position, "speed": value.speed}
+            sine = {key: getattr(value, key) for key in ("amplitude", "frequency", "phase")}
+            given = {key: part for key, part in sine.items() if part}
+            return {"position": value.position, "speed": value.speed, **given}
         case Limit():
             ends = {"lower": value.lower, "upper": value.upper}
             kept: dict[str, object] = {key: end for key, end in ends.items() if end is not None}

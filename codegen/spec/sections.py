@@ -27,6 +27,7 @@ class Section:
         joints: numbers of its joints.
         springs: numbers of its springs.
         torques: numbers of its torques.
+        forces: numbers of its forces.
     """
 
     bodies: range
@@ -34,6 +35,7 @@ class Section:
 
     springs: tuple[int, ...] = ()
     torques: tuple[int, ...] = ()
+    forces: tuple[int, ...] = ()
 
     def scene(self, scene: Scene) -> Scene:
         """The section as a scene of its own."""
@@ -43,6 +45,7 @@ class Section:
             joints=scene.joints[self.joints.start : self.joints.stop],
             springs=tuple(scene.springs[k] for k in self.springs),
             torques=tuple(scene.torques[k] for k in self.torques),
+            forces=tuple(scene.forces[k] for k in self.forces),
         )
 
 
@@ -58,15 +61,18 @@ def sections(scene: Scene) -> tuple[Section, ...]:
     ends = [*ends, whole] if is_whole or not ends else [*ends[:-1], whole]
     numbers = {body.name: k for k, body in enumerate(scene.bodies)}
     owner = [k for k, (start, end) in enumerate(zip(starts, ends, strict=False)) for _ in range(start[0], end[0])]
-    springs: dict[int, list[int]] = {}
-    torques: dict[int, list[int]] = {}
-    for k, spring in enumerate(scene.springs):
-        moving = [numbers[name] for name in spring.bodies if name != GROUND]
-        springs.setdefault(owner[moving[0]] if moving else 0, []).append(k)
-    for k, torque in enumerate(scene.torques):
-        torques.setdefault(owner[numbers[torque.body]], []).append(k)
+    moving = (next((numbers[name] for name in spring.bodies if name != GROUND), None) for spring in scene.springs)
+    owners = (
+        [0 if body is None else owner[body] for body in moving],
+        [owner[numbers[torque.body]] for torque in scene.torques],
+        [owner[numbers[force.body]] for force in scene.forces],
+    )
     return tuple(
-        Section(range(start[0], end[0]), range(start[1], end[1]), tuple(springs.get(k, ())), tuple(torques.get(k, ())))
+        Section(
+            range(start[0], end[0]),
+            range(start[1], end[1]),
+            *(tuple(n for n, section in enumerate(kind) if section == k) for kind in owners),
+        )
         for k, (start, end) in enumerate(zip(starts, ends, strict=False))
     )
 
@@ -113,6 +119,7 @@ def likeness(scene: Scene) -> object:
             for spring in scene.springs
         ),
         tuple((numbers[torque.body], torque.vector) for torque in scene.torques),
+        tuple((numbers[force.body], force.vector, force.point) for force in scene.forces),
     )
 
 

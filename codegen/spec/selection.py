@@ -174,8 +174,6 @@ def _of_form(joint: JointType, form: str, options: Options) -> list[Variant]:
     derivatives = (options.derivative,) if options.derivative else DERIVATIVES
     if options.variation == "world" and not options.derivative:
         derivatives = ("exact",)
-    if not joint.rotations:
-        rows = tuple(dict.fromkeys("regular" if choice == "table4" else choice for choice in rows))
     return [
         Variant(joint.name, form, choice, derivative, options.variation or "body")
         for choice in rows

@@ -31,7 +31,7 @@ _WHY = {
     "mimic": "the joint moves on its own; couple the two by their drives",
     "safety_controller": "control is not modelled",
     "calibration": "encoders are not modelled",
-    "transmission": "actuators are not modelled; give the joint a torque or a drive",
+    "transmission": "actuators are not modelled; give the joint a torque or a drive, or the body a force",
     "gazebo": "belongs to another program",
     "mujoco": "belongs to another program",
     "sensor": "sensors are not modelled",

@@ -131,6 +131,8 @@ def test_the_headers_of_batches_are_cpp_too(shared: Path) -> None:
     package = batch_package(shared, SCREW)
     flags = ("-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion")
     include = f"-I{package.root / 'c/include'}"
+    for header in sorted((package.root / "c/include/jointgen").glob("*.h")):
+        compile_silently(["g++", *flags, "-Werror", include, "-fsyntax-only", "-xc++", "-"], f'#include "{header}"\n')
     for own in ((), ("-DJG_OWN_TRIGONOMETRY",)):
         text = "".join(f'#include "jointgen/{name}.h"\n' for name in ("screw_batch4", "screw_batch4", "jointgen"))
         compile_silently(["g++", *flags, *own, "-Werror", include, "-fsyntax-only", "-xc++", "-"], text)

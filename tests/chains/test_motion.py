@@ -21,6 +21,7 @@ MOTIONS: dict[str, tuple[Motion, dict[str, str]]] = {
     "polynomial": (Polynomial((F(1), F(-2), F("0.5"), F(3))), {}),
     "constant": (Polynomial((F(7),)), {}),
     "harmonic": (Harmonic(F("0.2"), F("1.5"), F(3), F("0.4")), {}),
+    "harmonic that goes on": (Harmonic(F("0.2"), F("1.5"), F(3), F("0.4"), F("0.6")), {}),
     "table": (Table("sine.csv"), {"sine.csv": SINE}),
     "two points": (Table("line.csv"), {"line.csv": "0,1\n2,5\n"}),
     "three points": (Table("line.csv"), {"line.csv": "0,1\n1,3\n2,5\n"}),
@@ -45,6 +46,11 @@ def test_rates_are_difference_quotients(name: str) -> None:
 
 def test_a_polynomial_has_its_values() -> None:
     assert function(MOTIONS["polynomial"][0], {})(2.0) == pytest.approx((1 - 4 + 2 + 24, -2 + 2 + 36, 1 + 36))
+
+
+def test_a_harmonic_has_its_values() -> None:
+    value, _, _ = function(MOTIONS["harmonic that goes on"][0], {})(2.0)
+    assert value == pytest.approx(0.2 + 0.6 * 2.0 + 1.5 * np.sin(3 * 2.0 + 0.4))
 
 
 def test_a_table_of_a_sine_is_a_sine_with_its_acceleration() -> None:

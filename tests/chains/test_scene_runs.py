@@ -16,7 +16,7 @@ from codegen.scenes.run import Settings as SceneSettings
 from codegen.scenes.simulate import simulated
 from codegen.spec.scene import Drive, Scene
 from codegen.spec.scene_file import read_scene
-from tests.simulate.engine import holding_torque, motion, reactions, truth
+from tests.simulate.engine import INERTIAS, MASSES, geometry, holding_torque, motion, reactions, truth
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -46,11 +46,27 @@ def test_a_driven_scene_tells_the_effort_of_its_drive() -> None:
     assert np.max(np.abs(found.effort["main bearing"][:, 0] - effort)) < 1e-6 * np.max(np.abs(effort))
 
 
-def driven(scene: Scene, count: int = 1) -> Scene:
-    """The first joints of a scene turn at 15 rad/s."""
-    drive = Drive(Fraction(0), Fraction(15))
+def test_a_drive_that_swings_tells_the_effort_that_moves_the_inertia_too() -> None:
+    swing = Drive(Fraction(0), Fraction(15), Fraction("0.3"), Fraction(20))
+    found = simulated_relative(driven(example("in_line_engine"), swing=swing), Settings("forward", 0.3, 30)).trajectory
+    sine, cosine = np.sin(20 * found.t), np.cos(20 * found.t)
+    angle, speed, bend = 15 * found.t + 0.3 * sine, 15 + 6 * cosine, -120 * sine
+    expected = motion(angle, speed)
+    assert np.max(np.abs(found.r[..., :2] - expected.r)) < 1e-9
+    assert np.max(np.abs(found.w[..., 2] - expected.omega)) < 1e-8
+    (_, slope, _), (_, turn, _) = geometry(angle)
+    inertia = np.sum(MASSES[:, None] * slope**2, (-2, -1)) + np.sum(INERTIAS * turn**2, -1)
+    effort = inertia * bend + holding_torque(angle, speed)
+    assert np.max(np.abs(found.effort["main bearing"][:, 0] - effort)) < 1e-6 * np.max(np.abs(effort))
+
+
+STEADY = Drive(Fraction(0), Fraction(15))
+
+
+def driven(scene: Scene, count: int = 1, swing: Drive = STEADY) -> Scene:
+    """The first joints of a scene turn, at 15 rad/s or otherwise."""
     joints = [
-        replace(joint, coordinates=(replace(joint.coordinates[0], drive=drive),)) for joint in scene.joints[:count]
+        replace(joint, coordinates=(replace(joint.coordinates[0], drive=swing),)) for joint in scene.joints[:count]
     ]
     return replace(scene, joints=(*joints, *scene.joints[count:]))
 
@@ -114,6 +130,43 @@ def test_springs_torques_stops_and_a_drive_of_one_freedom_move_bodies_as_in_abso
     assert np.max(np.abs(found.effort["rail"] - true.effort["rail"])) < 1e-5
     for joint in ("foot", "rail"):
         assert np.max(np.abs(found.reaction[joint] - true.reaction[joint])) < 1e-5
+
+
+VANE = """
+name = "vane"
+gravity = [0.0, 0.0, -9.81]
+[[body]]
+name = "vane"
+mass = 2.0
+inertia = [[0.2, 0.01, 0.0], [0.01, 0.21, 0.02], [0.0, 0.02, 0.3]]
+position = [0.3, 0.4, 0.0]
+quaternion = [0.6, 0.0, 0.0, 0.8]
+[[joint]]
+name = "cross"
+type = "universal"
+bodies = ["ground", "vane"]
+point = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+axis2 = [1.0, 0.0, 0.0]
+[[force]]
+body = "vane"
+vector = [8.0, -3.0, 30.0]
+point = [0.2, -0.1, 0.3]
+[[force]]
+body = "vane"
+vector = [0.0, 5.0, 0.0]
+"""
+"""Pushed off its centre of mass and at it."""
+
+
+def test_forces_at_points_move_a_body_as_in_absolute_coordinates() -> None:
+    scene = read_scene(VANE, "vane")
+    found = simulated_relative(scene, Settings("forward", 0.5, 5, 1e-10)).trajectory
+    true = simulated(scene, SceneSettings(duration=0.5, outputs=5, tolerance=1e-10)).trajectory
+    assert np.max(np.abs(true.w)) > 4  # it moves
+    for name, bound in {"r": 1e-8, "v": 1e-7, "w": 3e-7, "a": 1e-5, "al": 3e-5}.items():
+        assert np.max(np.abs(getattr(found, name) - getattr(true, name))) < bound, name
+    assert np.max(np.abs(found.reaction["cross"] - true.reaction["cross"])) < 1e-5
 
 
 JACK = """

@@ -35,6 +35,10 @@ def force(system: System, pose: Pose, v: Array) -> Array:
     for torque in scene.torques:
         k = numbers_of[torque.body]
         moments[k] = moments[k] + pose.A[k].T @ numbers(torque.vector)
+    for load in scene.forces:
+        k = numbers_of[load.body]
+        forces[k] = forces[k] + numbers(load.vector)
+        moments[k] = moments[k] + np.cross(numbers(load.point), pose.A[k].T @ numbers(load.vector))
     for spring in scene.springs:
         ends = [_end(spring.bodies[n], spring.points[n], numbers_of, pose, velocities, omegas) for n in (0, 1)]
         d, d_rate = ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]
@@ -82,11 +86,14 @@ def _on_coordinate(acting: Coordinate, alpha: Any, rate: Any) -> Any:
 
 
 def potential(scene: Scene, pose: Pose) -> Any:
-    """Potential energy of gravity and of point springs, J."""
+    """Potential energy of gravity, of constant forces and of point springs, J."""
     numbers_of = {body.name: k for k, body in enumerate(scene.bodies)}
     height = [-float(body.mass) * (numbers(scene.gravity) @ pose.r[k]) for k, body in enumerate(scene.bodies)]
     nothing = [np.zeros(3)] * len(scene.bodies)
-    stored = []
+    stored = [
+        -numbers(load.vector) @ _end(load.body, load.point, numbers_of, pose, nothing, nothing)[0]
+        for load in scene.forces
+    ]
     for spring in scene.springs:
         ends = [_end(spring.bodies[n], spring.points[n], numbers_of, pose, nothing, nothing)[0] for n in (0, 1)]
         d = ends[1] - ends[0]

@@ -16,6 +16,7 @@ from codegen.spec.scene import (
     Body,
     Coordinate,
     Drive,
+    Force,
     Joint,
     Limit,
     Matrix,
@@ -36,6 +37,7 @@ def vector(*values: str | int) -> Vector:
     return x, y, z
 
 
+DRIVE = Drive(F("0.02"), F("0.3"), F("0.05"), F(3), F("0.7"))
 X, Y, Z = vector(1, 0, 0), vector(0, 1, 0), vector(0, 0, 1)
 GRAVITY = vector(0, "-9.81", 0)
 
@@ -85,7 +87,7 @@ def four_bar() -> Scene:
 
 
 def pendulum(damping: str = "0") -> Scene:
-    """A spatial double pendulum with springs between its bodies and to the ground."""
+    """A spatial double pendulum with springs between its bodies and to the ground, pushed by constant forces."""
     upper, lower = (
         body("upper", vector("0.2", "-0.3", "0.1"), "1.2", SKEWED),
         body("lower", vector("0.3", "-0.8", "0.2"), "0.7"),
@@ -99,7 +101,11 @@ def pendulum(damping: str = "0") -> Scene:
         Spring(("upper", "lower"), (vector("0.1", "0.1", 0), vector(0, "0.3", "0.2")), F(20), F(damping), F("0.5")),
         Spring((GROUND, "lower"), (vector(0, 0, 0), vector(0, 0, 0)), F(5), F(damping), F(0)),
     )
-    return Scene("pendulum", GRAVITY, (upper, lower), joints, springs)
+    pushes = (
+        Force("lower", vector(2, 1, -3), vector("0.1", "-0.4", "0.2")),
+        Force("upper", vector(-1, 0, 2)),
+    )
+    return Scene("pendulum", GRAVITY, (upper, lower), joints, springs, forces=pushes)
 
 
 def loaded(motion: str = "spatial") -> Scene:
@@ -110,7 +116,7 @@ def loaded(motion: str = "spatial") -> Scene:
         body("load", vector("0.5", "0.1", 0)),
     )
     turning = Coordinate(F(2), F(3), F("0.4"), F("0.1"), None, Limit(F("-0.5"), F("0.3"), F(100), F(2)))
-    sliding = Coordinate(F(-1), F(20), F(1), F(0), Drive(F("0.02"), F("0.3")))
+    sliding = Coordinate(F(-1), F(20), F(1), F(0), DRIVE)
     joints = (
         joint("shoulder", "revolute", (None, arm), vector(0, 0, 0), Z, turning),
         joint("rail", "translational", (arm, load), vector("0.5", "0.1", 0), X, sliding),
@@ -121,8 +127,15 @@ def loaded(motion: str = "spatial") -> Scene:
         Spring(("arm", "load"), (vector("0.1", "0.1", 0), vector(0, "0.3", depth)), F(0), F(2), F(0)),
     )
     torques = (Torque("arm", Z if flat else vector(1, 2, "0.5")), Torque("load", Z))
+    point = vector("0.3", "-0.1", 0 if flat else "0.2")
+    forces = (
+        Force("arm", vector(3, -2, 0 if flat else "1.5"), point),
+        Force("load", vector(0, 4, 0)),
+        Force("arm", vector("0.5", 0, 0), point),
+        Force("arm", Y, vector(0, "0.25", 0)),
+    )
     gravity = GRAVITY if flat else vector(1, "-9.81", 2)
-    return Scene("arm", gravity, (arm, load), joints, springs, torques, motion)
+    return Scene("arm", gravity, (arm, load), joints, springs, torques, motion, forces=forces)
 
 
 def system(scene: Scene, form: str = "parametric", derivative: str = "exact", point: str = "body") -> System:

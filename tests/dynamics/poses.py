@@ -121,12 +121,12 @@ class Machine:
         v = 3 * rng.standard_normal(size(self.system))
         return pose, v - np.linalg.pinv(phi_q, rcond=1e-9) @ (phi_q @ v)
 
-    def accelerations(self, pose: Pose, v: Array) -> tuple[Array, Array]:
+    def accelerations(self, pose: Pose, v: Array, t: float = 0.0) -> tuple[Array, Array]:
         """Accelerations and multipliers of the equations of motion; of least norm where rows depend on others."""
         assembly = self.system.assembly
         inertia = mass(assembly.scene, assembly.arrays, size(self.system))
         M = dense(inertia, "mass", evaluate(inertia, {})["mass"])
-        found = self.at(("phi_q", "gamma", "force"), pose, v)
+        found = self.at(("phi_q", "gamma", "force"), pose, v, t=t)
         phi_q, rows = found["phi_q"], found["phi_q"].shape[0]
         matrix = np.block([[M, phi_q.T], [phi_q, np.zeros((rows, rows))]])
         right = np.concatenate([found["force"][:, 0], found["gamma"][:, 0]])

@@ -148,7 +148,7 @@ def test_the_residual_vanishes_on_solutions(case: str, form: str) -> None:
     found, moving = equations(case, form), machine(case)
     layout = found.layout
     pose, v = driven(moving, 0.3) if moving.system.drives else moving.consistent(4)
-    a, multipliers = moving.accelerations(pose, v)
+    a, multipliers = moving.accelerations(pose, v, 0.3)
     where, rest = positions(moving.system, pose), np.zeros_like(multipliers)
     whole = np.concatenate([where, in_world(moving, pose, v), multipliers, rest])
     rates = np.concatenate([np.zeros_like(where), in_world(moving, pose, a), rest, rest])
@@ -173,7 +173,7 @@ def driven(moving: Machine, t: float) -> tuple[Pose, Array]:
     for _ in range(30):
         found = moving.at(("phi", "phi_q"), pose, t=t)
         pose = pose.moved(moving.system, -np.linalg.pinv(found["phi_q"], rcond=1e-9) @ found["phi"][:, 0])
-    v = -np.linalg.pinv(found["phi_q"], rcond=1e-9) @ np.array(moving.system.phi_t, float)
+    v = -np.linalg.pinv(found["phi_q"], rcond=1e-9) @ np.array(moving.system.phi_t(t))
     null = np.linalg.svd(found["phi_q"])[2][-1]
     return pose, v + 2 * null * (np.abs(found["phi_q"] @ null).max() < 1e-9)
 

@@ -147,6 +147,9 @@ def test_a_drive_prescribes_its_coordinate() -> None:
     pose = replace(start(found.system), alpha=np.array([0.0, 0.5]))
     v = np.zeros(size(found.system))
     v[-1] = 0.7
-    values = found.at(("phi", "phi_q_v"), pose, v, t=0.2)
-    assert values["phi"][-1, 0] == pytest.approx(0.5 - 0.02 - 0.3 * 0.2)
-    assert values["phi_q_v"][-1, 0] + float(found.system.phi_t[-1]) == pytest.approx(0.7 - 0.3)
+    values = found.at(("phi", "phi_q_v", "gamma"), pose, v, t=0.2)
+    angle = 3 * 0.2 + 0.7
+    assert values["phi"][-1, 0] == pytest.approx(0.5 - 0.02 - 0.3 * 0.2 - 0.05 * np.sin(angle))
+    drift = values["phi_q_v"][-1, 0] + found.system.phi_t(0.2)[-1]
+    assert drift == pytest.approx(0.7 - 0.3 - 0.05 * 3 * np.cos(angle))
+    assert values["gamma"][-1, 0] == pytest.approx(-0.05 * 9 * np.sin(angle))

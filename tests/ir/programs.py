@@ -24,6 +24,8 @@ RATIONALS = [Fraction(n) for n in (0, 0, 1, 1, -1, -1, 2, -2, 3)] + [Fraction(1,
 RATIONAL_OPS = (Op.NEGATE, Op.ADD, Op.SUBTRACT, Op.MULTIPLY, Op.ABS, Op.SELECT)
 FUSED_OPS = (*RATIONAL_OPS, *RATIONAL_OPS, Op.FMA)
 OPS = (*RATIONAL_OPS, *FUSED_OPS, Op.DIVIDE, Op.SQRT, Op.SIN, Op.COS, Op.ATAN2)
+_STEP = 2 + max(ARITY.values())
+"""Bytes that tell an instruction: drawn at once, since hypothesis takes longer to draw than passes to run."""
 LABELS = (None, None, ("A_ij", 0), ("A_ij", 1), ("d_ij", 0), ("v", 0))
 
 RANDOM = settings(
@@ -48,11 +50,10 @@ def programs(
         for source in draw(st.lists(st.sampled_from(sources), min_size=1, max_size=4))
     ]
     instructions += [Instruction(Op.CONSTANT, constant=c) for c in draw(st.lists(constants, max_size=3))]
-    number = st.integers(0, 2**16)
-    step = st.tuples(st.sampled_from(list(ops)), number, number, number, number, st.sampled_from(LABELS))
-    for op, *places, label in draw(st.lists(step, max_size=size)):
-        operands = tuple(place % len(instructions) for place in places[: ARITY[op]])
-        instructions.append(Instruction(op, operands, label=label))
+    for step in draw(st.lists(st.binary(min_size=_STEP, max_size=_STEP), max_size=size)):
+        op, label, *places = step
+        operands = tuple(place % len(instructions) for place in places[: ARITY[ops[op % len(ops)]]])
+        instructions.append(Instruction(ops[op % len(ops)], operands, label=LABELS[label % len(LABELS)]))
     outputs = tuple(draw(_outputs(name, len(instructions))) for name in ("x", "Y")[: draw(st.integers(1, 2))])
     return Program(ARGUMENTS, tuple(instructions), outputs, (("v", "a + B"),))
 
@@ -61,8 +62,8 @@ def programs(
 def sparsities(draw: st.DrawFn, largest: int = 4) -> Sparsity:
     """A random pattern."""
     nrow, ncol = draw(st.integers(1, largest)), draw(st.integers(1, largest))
-    entries = draw(st.sets(st.tuples(st.integers(0, nrow - 1), st.integers(0, ncol - 1))))
-    return Sparsity.of_entries(nrow, ncol, entries)
+    marks = draw(st.integers(0, 2 ** (nrow * ncol) - 1))
+    return Sparsity.of_entries(nrow, ncol, [divmod(k, ncol) for k in range(nrow * ncol) if marks >> k & 1])
 
 
 @st.composite
@@ -72,8 +73,8 @@ def _outputs(draw: st.DrawFn, name: str, length: int) -> Output:
     if pattern.ncol == 1:
         pattern = Sparsity.of_entries(pattern.nrow, 1, [(row, 0) for row in range(pattern.nrow)])
     places = [*range(length), *range(max(0, length - 4), length)]
-    values = draw(st.lists(st.sampled_from(places), min_size=pattern.nonzeros, max_size=pattern.nonzeros))
-    return Output(name, pattern, tuple(values))
+    chosen = draw(st.binary(min_size=pattern.nonzeros, max_size=pattern.nonzeros))
+    return Output(name, pattern, tuple(places[byte % len(places)] for byte in chosen))
 
 
 def inputs_of(numbers: st.SearchStrategy[Any]) -> st.SearchStrategy[dict[str, list[Any]]]:

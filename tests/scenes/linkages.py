@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from codegen.spec.scene import GROUND, Body, Joint, Marker, Quaternion, Scene, Spring, Torque, Vector
+from codegen.spec.scene import GROUND, Body, Force, Joint, Marker, Quaternion, Scene, Spring, Torque, Vector
 from tests.lower.numbers import Numbers, skew
 
 from .mechanisms import as_matrix
@@ -107,7 +107,8 @@ class Linkage:
         spring = Spring((GROUND, "slider"), ((F(1), F(2), F(3)), (F(0), F(1, 4), F(1, 4))), F(1), F(0), F(1))
         gravity = _three(matrix(self.plane) @ np.array([F(1), F(-2), F(3)], dtype=object))
         load = Torque("rod", (F(1), F(2), F(3)))
-        return Scene("linkage", gravity, bodies, joints, (spring,), (load,))
+        push = Force("coupler", (F(3), F(-1), F(2)), (F(1, 2), F(1, 3), F(1, 5)))
+        return Scene("linkage", gravity, bodies, joints, (spring,), (load,), forces=(push,))
 
     def _joint(self, name: str, type_: str, bodies: tuple[str, str], point: Sequence[Any], turn: int) -> Joint:
         plane = matrix(self.plane)

@@ -151,6 +151,24 @@ def test_loads_in_the_plane_stay_and_inertia_is_about_the_normal(plane: str, is_
 
 @every_plane
 @with_any_axes
+def test_a_force_has_the_moment_about_the_normal_that_it_had(plane: str, is_skew: bool) -> None:
+    scene = linkage(plane, is_skew).scene()
+    found = in_plane(scene)
+    moments, pulls = [], []
+    for data, normal in ((scene, np.array(found.world[2])), (found.scene, np.array([0, 0, 1]))):
+        (force,) = data.forces
+        body = data.body(force.body)
+        assert body is not None
+        pull = np.array(force.vector)
+        pulls.append(dot(pull, pull) - dot(normal, pull) ** 2)
+        moments.append(dot(normal, np.cross(matrix(body.quaternion) @ np.array(force.point), pull)))
+    assert abs(moments[0] - moments[1]) < 1e-30
+    assert abs(pulls[0] - pulls[1]) < 1e-30
+    assert found.scene.forces[0].vector[2] == found.scene.forces[0].point[2] == 0
+
+
+@every_plane
+@with_any_axes
 def test_a_spring_is_as_long_as_it_was(plane: str, is_skew: bool) -> None:
     link = linkage(plane, is_skew)
     scene = link.scene()
@@ -202,7 +220,7 @@ def test_bodies_that_only_slide_lie_in_the_plane_that_is_nearest_at_hand() -> No
     guide = next(joint for joint in scene.joints if joint.name == "guide")
     slider = scene.body("slider")
     assert slider is not None
-    alone = replace(scene, bodies=(slider,), joints=(guide,), springs=(), torques=())
+    alone = replace(scene, bodies=(slider,), joints=(guide,), springs=(), torques=(), forces=())
     assert planar_normal(alone) is None
     assert {GROUND, "slider"} == set(in_plane(alone).bodies)
     assert len(without_zero_rows(conventional(flattened(alone))).rows) == 2

@@ -1,4 +1,4 @@
-"""What acts on joint coordinates: springs, dampers, torques, stops and drives, against equations of their own."""
+"""What acts on joint coordinates: springs, dampers, torques, forces, stops, drives; against equations of their own."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from codegen.scenes.motion_record import Record
+from codegen.scenes.summary import is_conservative
 
 from . import engine
 from .preparations import EXAMPLES, prepared, told
@@ -69,6 +70,38 @@ def test_a_pendulum_under_a_spring_keeps_its_energy() -> None:
     assert np.ptp(found.energy) < 1e-6 * np.max(np.abs(found.energy))
 
 
+PUSH = """
+[[force]]
+body = "bob"
+vector = [12.0, 0.0, 0.0]
+point = [0.25, 0.1, 0.0]
+"""
+"""At (0.75, 0.1) m from the hinge."""
+
+
+def test_a_pendulum_pushed_by_a_horizontal_force_off_its_centre_follows_its_own_equation() -> None:
+    found = swing(PUSH, 2.0)
+
+    def rates(_: float, state: np.ndarray) -> np.ndarray:
+        x, speed = state
+        push = -12.0 * (0.75 * np.sin(x) + 0.1 * np.cos(x))
+        return np.array([speed, (push - WEIGHT * np.cos(x)) / INERTIA])
+
+    x, speed = solve_ivp(rates, (0.0, 2.0), [0.0, 0.0], "DOP853", found.trajectory.t, rtol=1e-12, atol=1e-12).y
+    assert angle(found) == pytest.approx(x, abs=1e-6)
+    assert found.trajectory.alphadot["hinge"][:, 0] == pytest.approx(speed, abs=1e-5)
+    height, way = 0.5 * np.sin(x), 0.75 * np.cos(x) - 0.1 * np.sin(x)
+    stored = 2.0 * 9.81 * height - 12.0 * way
+    assert found.energy == pytest.approx(INERTIA * speed**2 / 2 + stored, abs=1e-5)
+
+
+def test_the_energy_of_a_pushed_pendulum_is_told_to_stay() -> None:
+    ready = prepared(PENDULUM.format(speed=3.0, velocity=1.5, loads=PUSH), "spatial", "conventional")
+    assert is_conservative(ready)
+    found = told(ready, 1.0, 1e-9)
+    assert np.ptp(found.energy) < 1e-6 * np.max(np.abs(found.energy))
+
+
 def test_soft_stops_hold_a_falling_pendulum() -> None:
     """From the energy: at its deepest the spring has taken up what gravity gave."""
     stiffness, lower = 1e4, -0.5
@@ -93,6 +126,20 @@ def test_the_effort_of_a_drive_is_the_power_that_the_energy_gains() -> None:
     assert turned == pytest.approx(4.0 * found.trajectory.t, abs=1e-8)
     effort = found.trajectory.effort["hinge"][:, 0]
     assert effort == pytest.approx(WEIGHT * np.cos(turned), abs=1e-5)
+
+
+@pytest.mark.parametrize("index", [1, 2])
+def test_the_effort_of_a_drive_that_swings_moves_the_inertia_too(index: int) -> None:
+    loads = "drive = { position = -0.1, speed = 1.0, amplitude = 0.2, frequency = 5.0, phase = 0.5235987755982989 }"
+    speed = 1.0 + np.sqrt(0.75)
+    text = PENDULUM.format(speed=speed, velocity=0.5 * speed, loads=loads)
+    found = told(prepared(text, "planar", "parametric", index=index), 1.5, 1e-9)
+    turn = 5.0 * found.trajectory.t + np.pi / 6
+    x, bend = -0.1 + found.trajectory.t + 0.2 * np.sin(turn), -0.2 * 25.0 * np.sin(turn)
+    assert angle(found) == pytest.approx(x, abs=1e-8)
+    assert found.trajectory.alphadot["hinge"][:, 0] == pytest.approx(1.0 + np.cos(turn), abs=1e-6)
+    assert found.trajectory.al[:, 0, 2] == pytest.approx(bend, abs=1e-6)
+    assert found.trajectory.effort["hinge"][:, 0] == pytest.approx(INERTIA * bend + WEIGHT * np.cos(x), abs=1e-5)
 
 
 def test_the_reaction_of_a_driven_pendulum_carries_weight_and_centripetal_force() -> None:

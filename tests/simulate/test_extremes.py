@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from codegen.errors import SpecificationError
+from codegen.scenes import read
 from codegen.scenes.motion_record import Record, record
 from codegen.scenes.run import Prepared, Settings, prepare
 from codegen.scenes.simulate import simulated
@@ -20,6 +21,7 @@ from codegen.scenes.watched_run import Watched, watched_run
 from codegen.spec.scene import Scene
 
 from . import mechanisms
+from .preparations import EXAMPLES
 
 Array = NDArray[np.float64]
 
@@ -122,6 +124,12 @@ def test_a_run_that_starts_where_it_is_singular_says_so() -> None:
     watched = watched_run(replace(found, y=y), Settings())
     assert watched.run.failure.startswith("singular configuration at t = 0 s")
     assert len(watched.run.t) == 1
+
+
+def test_where_rows_of_the_paper_lose_rank_at_the_start_those_that_do_not_are_told() -> None:
+    scene, _ = read(EXAMPLES / "in_line_engine_parametric.toml")
+    watched = watched_run(prepare(scene, Settings()), Settings())
+    assert watched.run.failure.endswith('start from another pose, or take rows = "regular"')
 
 
 def test_a_run_that_stops_keeps_the_states_before_and_says_that_it_is_not_complete() -> None:

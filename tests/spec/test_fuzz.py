@@ -69,6 +69,10 @@ length = 0.1
 [[torque]]
 body = "arm"
 vector = [0.0, 0.0, 1.0]
+[[force]]
+body = "arm"
+vector = [2.0, 0.0, 0.0]
+point = [0.1, 0.2, 0.0]
 [output]
 quantities = ["phi", "phi_q", "mass"]
 rows = "table4"

@@ -100,6 +100,21 @@ ONE = {
     "negative spring": ((AXIS, AXIS + "\nstiffness = -1"), 'scene.toml: joint "pin": stiffness: is -1', "0 or more"),
     "rest alone": ((AXIS, AXIS + "\nrest = 1"), 'scene.toml: joint "pin": rest: there is no spring', "give stiffness"),
     "drive": ((AXIS, AXIS + "\ndrive = { speed = 1 }"), 'scene.toml: joint "pin": drive: position: is missing', "rad"),
+    "sine without frequency": (
+        (AXIS, AXIS + "\ndrive = { position = 0, speed = 1, amplitude = 1 }"),
+        'scene.toml: joint "pin": drive: amplitude: there is no frequency',
+        "rad/s",
+    ),
+    "phase without sine": (
+        (AXIS, AXIS + "\ndrive = { position = 0, speed = 1, phase = 1 }"),
+        'scene.toml: joint "pin": drive: phase: there is no amplitude',
+        "leave phase out",
+    ),
+    "sine that starts elsewhere": (
+        (AXIS, AXIS + "\ndrive = { position = 0, speed = 1, amplitude = 1, frequency = 1, phase = 0.5 }"),
+        'scene.toml: joint "pin": drive: does not close at t = 0: position with the sine is 0.479425539 rad',
+        "correct position",
+    ),
     "no drive": ((AXIS, AXIS + "\ndrive = 1"), 'scene.toml: joint "pin": drive: is a number, not a table', "table"),
     "limit": ((AXIS, AXIS + "\nlimit = { stiffness = 1 }"), 'scene.toml: joint "pin": limit: has neither', "at least"),
     "limit upside down": (
@@ -133,6 +148,21 @@ ONE = {
         ("[[joint]]", '[[torque]]\nbody = "ground"\nvector = [0, 0, 1]\n[[joint]]'),
         "scene.toml: torque 1: body: a torque on the ground",
         "name a body",
+    ),
+    "force on nothing": (
+        ("[[joint]]", '[[force]]\nbody = "rod"\nvector = [0, 0, 1]\n[[joint]]'),
+        'scene.toml: force 1: body: there is no body "rod"',
+        "bar",
+    ),
+    "force on the ground": (
+        ("[[joint]]", '[[force]]\nbody = "ground"\nvector = [0, 0, 1]\n[[joint]]'),
+        "scene.toml: force 1: body: a force on the ground",
+        "name a body",
+    ),
+    "force without direction": (
+        ("[[joint]]", '[[force]]\nbody = "bar"\npoint = [0, 0, 1]\n[[joint]]'),
+        "scene.toml: force 1: vector: is missing",
+        "in N",
     ),
     "syntax": ((NAME, "name ="), "scene.toml: is no TOML: Invalid value (at line 1, ", "toml.io"),
     "deep": ((NAME, "name = " + "[" * 5000 + "]" * 5000), "scene.toml: is nested too deeply", "three levels"),

@@ -19,6 +19,7 @@ from codegen.spec.scene import (
     Body,
     Coordinate,
     Drive,
+    Force,
     Joint,
     Limit,
     Scene,
@@ -72,11 +73,15 @@ def test_any_name_is_kept(name):
 
 def test_all_that_a_scene_holds_is_written():
     limit = Limit(None, Fraction(2), Fraction(30), Fraction("0.4"))
-    coordinates = (Coordinate(torque=Fraction(5), limit=limit), Coordinate(drive=Drive(NOUGHT, Fraction("6.28"))))
+    coordinates = (
+        Coordinate(torque=Fraction(5), limit=limit),
+        Coordinate(drive=Drive(NOUGHT, Fraction("6.28"), ONE, Fraction(3))),
+    )
     whole = scene(
         joint("cylindrical", *coordinates),
         springs=(Spring((GROUND, "a"), ((ONE, NOUGHT, ONE), ZERO_VECTOR), Fraction(100), ONE, Fraction("0.1")),),
         torques=(Torque("a", (NOUGHT, ONE, NOUGHT)),),
+        forces=(Force("a", (ONE, NOUGHT, NOUGHT)), Force("a", (ONE, ONE, NOUGHT), (NOUGHT, NOUGHT, ONE))),
         motion="planar",
         wanted=Wanted(("phi",), "table4"),
     )
@@ -93,7 +98,7 @@ def test_all_that_a_scene_holds_is_written():
                 "points": [[0, 0, 0], [-1, 0, 0]],
                 "axes": [[0, 0, 1], [0, 0, 1]],
                 "torque": [5, 0],
-                "drive": [{}, {"position": 0, "speed": Fraction("6.28")}],
+                "drive": [{}, {"position": 0, "speed": Fraction("6.28"), "amplitude": 1, "frequency": 3}],
                 "limit": [{"upper": 2, "stiffness": 30, "damping": Fraction("0.4")}, {}],
             }
         ],
@@ -107,6 +112,7 @@ def test_all_that_a_scene_holds_is_written():
             }
         ],
         "torque": [{"body": "a", "vector": [0, 1, 0]}],
+        "force": [{"body": "a", "vector": [1, 0, 0]}, {"body": "a", "vector": [1, 1, 0], "point": [0, 0, 1]}],
         "output": {"quantities": ["phi"], "rows": "table4", "derivative": "exact"},
     }
 

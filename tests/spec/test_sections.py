@@ -8,7 +8,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codegen.spec.scene import GROUND, Body, Joint, Marker, Scene, Spring, Torque
+from codegen.spec.scene import GROUND, Body, Force, Joint, Marker, Scene, Spring, Torque
 from codegen.spec.sections import alike, differing, repeated, sections
 
 ZERO = (Fraction(0),) * 3
@@ -54,9 +54,21 @@ def test_a_body_without_joints_goes_with_its_neighbour() -> None:
     assert shapes(scene(3, [(-1, 0), (-1, 1)])) == [([0], [0]), ([1, 2], [1])]
 
 
-def test_springs_and_torques_go_with_their_bodies() -> None:
-    found = replace(scene(2, [(-1, 0), (-1, 1)], springs=((-1, 1), (-1, 0))), torques=(Torque("b1", ZERO),))
-    assert [(section.springs, section.torques) for section in sections(found)] == [((1,), ()), ((0,), (0,))]
+def test_springs_torques_and_forces_go_with_their_bodies() -> None:
+    tied = scene(2, [(-1, 0), (-1, 1)], springs=((-1, 1), (-1, 0)))
+    found = replace(tied, torques=(Torque("b1", ZERO),), forces=(Force("b1", ZERO), Force("b0", ZERO)))
+    parts = [(section.springs, section.torques, section.forces) for section in sections(found)]
+    assert parts == [((1,), (), (1,)), ((0,), (0,), (0,))]
+
+
+def test_bodies_that_are_pushed_otherwise_are_not_alike() -> None:
+    found = scene(2, [(-1, 0), (-1, 1)])
+    across = (Fraction(1), Fraction(0), Fraction(0))
+    pushed = [
+        replace(found, forces=(Force("b0", across), other))
+        for other in (Force("b1", across), Force("b1", across, across))
+    ]
+    assert [len(alike(data)) for data in pushed] == [1, 2]
 
 
 @given(st.integers(1, 6), st.data())

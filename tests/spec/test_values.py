@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from codegen.spec.scene import Coordinate, Drive, Limit, Wanted
+from codegen.spec.scene import Coordinate, Drive, Force, Limit, Wanted
 
 from .texts import PENDULUM, changed, joined, scene
 
@@ -29,7 +29,8 @@ def test_what_is_left_out_has_its_default() -> None:
     (body,) = least.bodies
     assert not any((*least.gravity, *body.position, *body.velocity, *body.angular_velocity))
     assert body.quaternion == (1, 0, 0, 0)
-    assert (least.joints, least.springs, least.torques, least.motion, least.assemble) == ((), (), (), "spatial", False)
+    assert (least.joints, least.springs, least.torques, least.forces) == ((), (), (), ())
+    assert (least.motion, least.assemble) == ("spatial", False)
     assert least.wanted == Wanted((), "regular", "exact")
 
 
@@ -42,15 +43,16 @@ torque = [1.5, 2.5]
 stiffness = [0, 4]
 damping = [0.5, 0]
 rest = [0, 0.25]
-drive = [{}, { position = 0, speed = 6.25 }]
+drive = [{}, { position = -0.34081938, speed = 6.25, amplitude = 0.5, frequency = 3, phase = 0.75 }]
 limit = [{ lower = -1, stiffness = 100 }, {}]
 """
     (joint,) = scene(joined(text)).joints
+    swing = Drive(Fraction("-0.34081938"), Fraction("6.25"), Fraction("0.5"), Fraction(3), Fraction("0.75"))
     assert joint.coordinates == (
         Coordinate(
             Fraction("1.5"), Fraction(0), Fraction("0.5"), limit=Limit(Fraction(-1), None, Fraction(100), Fraction(0))
         ),
-        Coordinate(Fraction("2.5"), Fraction(4), rest=Fraction("0.25"), drive=Drive(Fraction(0), Fraction("6.25"))),
+        Coordinate(Fraction("2.5"), Fraction(4), rest=Fraction("0.25"), drive=swing),
     )
     assert joint.needs_coordinates
 
@@ -65,6 +67,12 @@ def test_a_joint_has_as_many_coordinates_as_degrees_of_freedom(type_: str, freed
     (joint,) = scene(joined(f'type = "{type_}"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{more}')).joints
     assert joint.coordinates == (Coordinate(),) * freedoms
     assert not joint.needs_coordinates
+
+
+@pytest.mark.parametrize("type_", ["ball", "cylindrical", "rigid"])
+def test_a_single_0_acts_on_no_coordinate_however_many_there_are(type_: str) -> None:
+    text = f'type = "{type_}"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\nform = "conventional"\n'
+    assert scene(joined(text + "torque = 0.0\nstiffness = 0\ndamping = 0.0")) == scene(joined(text))
 
 
 def test_the_output_table_says_what_is_wanted() -> None:
@@ -86,7 +94,8 @@ def test_a_body_that_nothing_holds_is_no_mistake() -> None:
 def test_copies_repeat_everything_and_move_what_stands_on_the_ground() -> None:
     spring = '[[spring]]\nbodies = ["ground", "bar"]\npoints = [[0, 1, 0], [0.5, 0, 0]]\nstiffness = 3\n'
     torque = '[[torque]]\nbody = "bar"\nvector = [0, 0, 2]\n'
-    found = scene(PENDULUM + spring + torque + "[copies]\ncount = 3\noffset = [0, 0.1, 2]\n")
+    force = '[[force]]\nbody = "bar"\nvector = [0, 5, 0]\npoint = [0.25, 0, 0]\n'
+    found = scene(PENDULUM + spring + torque + force + "[copies]\ncount = 3\noffset = [0, 0.1, 2]\n")
     assert [body.name for body in found.bodies] == ["bar_1", "bar_2", "bar_3"]
     assert [joint.bodies for joint in found.joints] == [("ground", f"bar_{k}") for k in (1, 2, 3)]
     assert [joint.name for joint in found.joints] == ["pin_1", "pin_2", "pin_3"]
@@ -95,6 +104,13 @@ def test_copies_repeat_everything_and_move_what_stands_on_the_ground() -> None:
     assert found.joints[2].marker_j == found.joints[0].marker_j
     assert found.springs[2].points == ((0, Fraction("1.2"), 4), (Fraction("0.5"), 0, 0))
     assert [item.body for item in found.torques] == ["bar_1", "bar_2", "bar_3"]
+    assert found.forces == tuple(Force(f"bar_{k}", (0, 5, 0), (Fraction("0.25"), 0, 0)) for k in (1, 2, 3))
+
+
+def test_a_force_acts_on_the_centre_of_mass_if_no_point_is_given() -> None:
+    assert scene(PENDULUM + '[[force]]\nbody = "bar"\nvector = [1, 2, 3]\n').forces == (
+        Force("bar", (1, 2, 3), (0, 0, 0)),
+    )
 
 
 def test_one_copy_leaves_the_names_alone_and_the_caller_has_the_last_word() -> None:

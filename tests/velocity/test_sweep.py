@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tracemalloc
+import warnings
 import xml.etree.ElementTree as ET
 from functools import cache
 from pathlib import Path
@@ -25,6 +26,7 @@ from codegen.platforms.run import chosen_poses, evaluated
 from codegen.platforms.spool import CHUNK, spool
 from codegen.platforms.sweep import Kernel, Progress, kernel, sweep
 from codegen.report.index_maps import index_maps
+from codegen.report.platform_pictures import home_factors
 from codegen.report.platform_report import platform_report
 from codegen.spec.platform import ATTITUDES
 from codegen.spec.platform_file import read_platform
@@ -282,3 +284,13 @@ def test_maps_of_more_than_two_axes_say_where_the_others_are_cut() -> None:
 def test_a_report_without_two_axes_has_no_maps() -> None:
     table = evaluated(chosen_poses(MATRICES, None, "x=-0.1:0.1:3", "csv"))  # type: ignore[arg-type]
     assert "maps.svg" not in platform_report(MATRICES, table)
+
+
+def test_a_singular_home_is_drawn_without_a_warning() -> None:
+    """The platform lies in its base: out of the plane its ellipsoids have no end, and nothing is drawn there."""
+    octahedral = Path(__file__).parents[2] / "examples" / "platforms" / "octahedral.toml"
+    text = octahedral.read_text().replace("position = [0.0, 0.0, 1.0]", "position = [0.0, 0.0, 0.0]")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sigma, beta, _, _ = home_factors(read_platform(text, "flat.toml"))
+    assert [sigma[2, 2], beta[2, 2]] == [0.0, 0.0]

@@ -1,4 +1,4 @@
-"""Springs and torques of a scene as those of a chain: end effectors where they act."""
+"""Springs, torques and forces of a scene as those of a chain: end effectors where they act."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Acting:
 
 
 def acting(scene: Scene, places: Mapping[str, tuple[str, Pose]]) -> Acting:
-    """Hang effectors at the ends of springs and on bodies with torques.
+    """Hang effectors at the ends of springs, on bodies with torques and at the points of forces.
 
     Args:
         scene: the mechanism.
@@ -38,6 +38,10 @@ def acting(scene: Scene, places: Mapping[str, tuple[str, Pose]]) -> Acting:
         name = f"torque {number} on {torque.body}"
         effectors.append(_effector(name, places[torque.body], Pose()))
         forces.append(WorldForce(name, ZERO_VECTOR, torque.vector))
+    for number, force in enumerate(scene.forces, 1):
+        name = f"force {number} on {force.body}"
+        effectors.append(_effector(name, places[force.body], Pose(IDENTITY, force.point)))
+        forces.append(WorldForce(name, force.vector, ZERO_VECTOR))
     return Acting(tuple(effectors), tuple(springs), tuple(forces))
 
 

@@ -13,7 +13,7 @@ from codegen.chains.generated import Generated
 from codegen.chains.interpreted import interpreted
 from codegen.chains.mechanism import characteristic_length
 from codegen.spec.chain import Chain
-from codegen.spec.chain_motions import Independent, Polynomial
+from codegen.spec.chain_motions import Harmonic, Independent, Polynomial
 from codegen.spec.scene import Drive
 
 _LATE = 1e-3
@@ -50,4 +50,8 @@ def _independent(name: str, driven: Mapping[str, tuple[Fraction, Drive | None]])
     offset, drive = driven.get(name, (Fraction(0), None))
     if drive is None:
         return Independent(name)
-    return Independent(name, Polynomial((offset + drive.position, drive.speed)), driven=True)
+    start = offset + drive.position
+    if not drive.amplitude:
+        return Independent(name, Polynomial((start, drive.speed)), driven=True)
+    sine = Harmonic(start, drive.amplitude, drive.frequency, drive.phase, drive.speed)
+    return Independent(name, sine, driven=True)

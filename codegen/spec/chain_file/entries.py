@@ -90,12 +90,13 @@ class EffectorEntry(FrameEntry):
 
 @dataclass(frozen=True, slots=True)
 class HarmonicEntry(Entry):
-    """A motion: mean + amplitude sin(frequency t + phase)."""
+    """A motion: mean + speed t + amplitude sin(frequency t + phase)."""
 
     mean: Fraction = key(ANGLE, "mean in rad or m", _NONE)
     amplitude: Fraction | None = key(ANGLE, "amplitude in rad or m", is_required=True)
     frequency: Fraction | None = key(ANGLE, "angular frequency in rad/s", is_required=True)
     phase: Fraction = key(ANGLE, "phase in rad", _NONE)
+    speed: Fraction = key(ANGLE, "rate of the mean in rad/s or m/s", _NONE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,7 +104,7 @@ def _motion(entry: IndependentEntry) -> Motion | None:
         return Polynomial(entry.polynomial)
     if entry.harmonic is not None:
         sine, none = entry.harmonic, Fraction(0)
-        return Harmonic(sine.mean, sine.amplitude or none, sine.frequency or none, sine.phase)
+        return Harmonic(sine.mean, sine.amplitude or none, sine.frequency or none, sine.phase, sine.speed)
     return Table(entry.table) if entry.table is not None else None
 
 

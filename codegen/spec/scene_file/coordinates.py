@@ -12,10 +12,13 @@ from codegen.spec.scene_file.text import shown
 
 _LOADS = ("torque", "stiffness", "damping", "rest", "drive", "limit")
 
+_NOTHING = ((), (Fraction(0),))
+"""What acts on no coordinate, however many there are: a single 0 is one for each."""
+
 
 def coordinate_mistakes(entry: JointEntry) -> Iterator[Mistake]:
     """Check what acts on the coordinates of a joint of known type."""
-    given = [key for key in _LOADS if key in entry.given and getattr(entry, key)]
+    given = [key for key in _LOADS if key in entry.given and getattr(entry, key) not in _NOTHING]
     units = COORDINATE_UNITS[entry.type or ""]
     for key in given:
         yield from _count_mistakes(key, len(getattr(entry, key)), units, entry)
@@ -23,6 +26,9 @@ def coordinate_mistakes(entry: JointEntry) -> Iterator[Mistake]:
         for value in getattr(entry, key):
             if value is not None and value < 0:
                 yield Mistake(f"{entry.place}: {key}", f"is {shown(value)}", "give 0 or more")
+    for drive in entry.drive:
+        if drive is not None:
+            yield from _drive_mistakes(drive)
     for limit in entry.limit:
         if limit is not None:
             yield from limit_mistakes(limit)
@@ -49,6 +55,15 @@ def _count_mistakes(key: str, count: int, units: tuple[str, ...], entry: JointEn
         what = f"has {count} {'entry' if count == 1 else 'entries'} for {freedoms}"
         none = ", {} for none" if key in ("drive", "limit") else ""
         yield Mistake(place, what, f"give one for each of the coordinates, in {', '.join(units)}{none}")
+
+
+def _drive_mistakes(drive: DriveEntry) -> Iterator[Mistake]:
+    """Check that a sine is whole."""
+    if drive.amplitude and not drive.frequency and "frequency" not in drive.wrong:
+        yield Mistake(f"{drive.place}: amplitude", "there is no frequency", "give frequency in rad/s, not 0")
+    for key in ("frequency", "phase"):
+        if getattr(drive, key) and not drive.amplitude and "amplitude" not in drive.wrong:
+            yield Mistake(f"{drive.place}: {key}", "there is no amplitude", f"give amplitude, or leave {key} out")
 
 
 def limit_mistakes(limit: LimitEntry) -> Iterator[Mistake]:
@@ -83,7 +98,10 @@ def _value(values: tuple[Fraction | None, ...], k: int) -> Fraction:
 
 
 def _drive(entry: DriveEntry | None) -> Drive | None:
-    return None if entry is None else Drive(entry.position or Fraction(0), entry.speed or Fraction(0))
+    if entry is None:
+        return None
+    none = Fraction(0)
+    return Drive(entry.position or none, entry.speed or none, entry.amplitude, entry.frequency, entry.phase)
 
 
 def _limit(entry: LimitEntry | None) -> Limit | None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from codegen.spec.scene import GROUND, Body, Joint, Marker, Scene, Spring, Torque, Vector
+from codegen.spec.scene import GROUND, Body, Force, Joint, Marker, Scene, Spring, Torque, Vector
 
 
 def copied(scene: Scene, count: int, offset: Vector) -> Scene:
-    """Repeat all bodies, joints, springs and torques of a scene.
+    """Repeat all bodies, joints, springs, torques and forces of a scene.
 
     Copy k, from 0 on, is displaced by ``k offset`` [3] m, world, together with its points on the ground; its names end
     in ``_1`` for the first copy and so on. One copy is the scene itself.
@@ -22,6 +22,7 @@ def copied(scene: Scene, count: int, offset: Vector) -> Scene:
         joints=tuple(copy.joint(joint) for copy in copies for joint in scene.joints),
         springs=tuple(copy.spring(spring) for copy in copies for spring in scene.springs),
         torques=tuple(copy.torque(torque) for copy in copies for torque in scene.torques),
+        forces=tuple(copy.force(force) for copy in copies for force in scene.forces),
     )
 
 
@@ -48,6 +49,9 @@ class _Copy:
 
     def torque(self, torque: Torque) -> Torque:
         return replace(torque, body=self._name(torque.body))
+
+    def force(self, force: Force) -> Force:
+        return replace(force, body=self._name(force.body))
 
     def _name(self, body: str) -> str:
         return GROUND if body == GROUND else self._numbered(body)

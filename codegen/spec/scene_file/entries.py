@@ -65,10 +65,15 @@ class BodyEntry(Entry):
 
 @dataclass(frozen=True, slots=True)
 class DriveEntry(Entry):
-    """A prescribed motion of a joint coordinate: position + speed t."""
+    """A prescribed motion of a joint coordinate: position + speed t + amplitude sin(frequency t + phase)."""
 
-    position: Fraction | None = key(number(), "coordinate at t = 0 in m or rad", is_required=True)
-    speed: Fraction | None = key(number(), "rate of the coordinate in m/s or rad/s", is_required=True)
+    position: Fraction | None = key(number(), "coordinate at t = 0, but for the sine, in m or rad", is_required=True)
+    speed: Fraction | None = key(
+        number(), "rate of the coordinate, but for the sine, in m/s or rad/s", is_required=True
+    )
+    amplitude: Fraction = key(number(), "amplitude of a sine in m or rad", _NONE)
+    frequency: Fraction = key(number("rad/s"), "angular frequency of the sine in rad/s", _NONE)
+    phase: Fraction = key(number("rad"), "phase of the sine in rad", _NONE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +145,15 @@ class TorqueEntry(Entry):
 
 
 @dataclass(frozen=True, slots=True)
+class ForceEntry(Entry):
+    """A constant force on a body."""
+
+    body: str | None = key(TEXT, "name of the body", is_required=True)
+    point: Vector = key(vector("m"), "where it acts in m, body axes from the centre of mass", ZERO_VECTOR)
+    vector: Vector | None = key(vector("N"), "force in N, world axes", is_required=True)
+
+
+@dataclass(frozen=True, slots=True)
 class CopiesEntry(Entry):
     """The whole mechanism several times, side by side."""
 
@@ -169,10 +183,11 @@ class SceneEntry(Entry):
     joint: tuple[JointEntry, ...] = key(tables(JointEntry), "joints", ())
     spring: tuple[SpringEntry, ...] = key(tables(SpringEntry), "springs and dampers between points", ())
     torque: tuple[TorqueEntry, ...] = key(tables(TorqueEntry), "constant torques on bodies", ())
+    force: tuple[ForceEntry, ...] = key(tables(ForceEntry), "constant forces on bodies", ())
     output: OutputEntry | None = key(table_of(OutputEntry), "what is generated")
 
 
 def kinds_of_tables() -> Iterator[type[Entry]]:
     """All tables, the file itself first."""
     yield from (SceneEntry, CopiesEntry, BodyEntry, JointEntry, DriveEntry, LimitEntry)
-    yield from (SpringEntry, TorqueEntry, OutputEntry)
+    yield from (SpringEntry, TorqueEntry, ForceEntry, OutputEntry)

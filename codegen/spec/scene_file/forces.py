@@ -1,4 +1,4 @@
-"""Springs between points and torques on bodies of a scene file."""
+"""Springs between points, and torques and forces on bodies of a scene file."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 
 from codegen.errors import Mistake
 from codegen.spec.placement import difference, times
-from codegen.spec.scene import GROUND, ZERO_VECTOR, Spring, Torque, Vector
+from codegen.spec.scene import GROUND, ZERO_VECTOR, Force, Spring, Torque, Vector
 from codegen.spec.scene_file.bodies import GROUND_POSE, Pose
-from codegen.spec.scene_file.entries import SpringEntry, TorqueEntry
+from codegen.spec.scene_file.entries import ForceEntry, SpringEntry, TorqueEntry
 from codegen.spec.scene_file.names import pair_mistakes, unknown_body_mistakes
 from codegen.spec.scene_file.text import shown
 
@@ -32,10 +32,11 @@ def spring_mistakes(entry: SpringEntry, bodies: Mapping[str, Pose | None]) -> It
         yield Mistake(f"{entry.place}: points", what, "move an end, or give length = 0 m and damping = 0 N s/m")
 
 
-def torque_mistakes(entry: TorqueEntry, bodies: Mapping[str, Pose | None]) -> Iterator[Mistake]:
-    """Check one torque."""
+def load_mistakes(entry: TorqueEntry | ForceEntry, bodies: Mapping[str, Pose | None]) -> Iterator[Mistake]:
+    """Check one torque or force."""
     if entry.body == GROUND:
-        yield Mistake(f"{entry.place}: body", "a torque on the ground moves nothing", "name a body")
+        kind = "torque" if isinstance(entry, TorqueEntry) else "force"
+        yield Mistake(f"{entry.place}: body", f"a {kind} on the ground moves nothing", "name a body")
     elif entry.body is not None:
         yield from unknown_body_mistakes(entry.body, f"{entry.place}: body", bodies)
 
@@ -49,6 +50,11 @@ def make_spring(entry: SpringEntry) -> Spring:
 def make_torque(entry: TorqueEntry) -> Torque:
     """Make a torque of an entry without mistakes."""
     return Torque(entry.body or "", entry.vector or ZERO_VECTOR)
+
+
+def make_force(entry: ForceEntry) -> Force:
+    """Make a force of an entry without mistakes."""
+    return Force(entry.body or "", entry.vector or ZERO_VECTOR, entry.point)
 
 
 def _world(point: Vector, pose: Pose) -> Vector:

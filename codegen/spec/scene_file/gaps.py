@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from codegen.errors import Mistake
 from codegen.spec.placement import dot, times, transposed
-from codegen.spec.scene import COORDINATE_UNITS, Joint, Marker, Matrix, Vector
+from codegen.spec.scene import COORDINATE_UNITS, Drive, Joint, Marker, Matrix, Vector
 from codegen.spec.scene_file.bodies import Pose
 
 CLOSED_LENGTH = 1e-6
@@ -65,16 +65,18 @@ def gap_mistakes(joint: Joint, poses: tuple[Pose, Pose], place: str) -> Iterator
     values = zip(joint.coordinates, found.coordinates, COORDINATE_UNITS[joint.type], strict=True)
     for coordinate, value, unit in values:
         if coordinate.drive is not None:
-            yield from _drive_mistakes(float(coordinate.drive.position), value, unit, joint, f"{place}: drive")
+            yield from _drive_mistakes(coordinate.drive, value, unit, joint, f"{place}: drive")
 
 
-def _drive_mistakes(wanted: float, value: float, unit: str, joint: Joint, place: str) -> Iterator[Mistake]:
+def _drive_mistakes(drive: Drive, value: float, unit: str, joint: Joint, place: str) -> Iterator[Mistake]:
+    wanted = drive.value(0.0)
     is_turn = unit == "rad" and joint.type != "screw"
     gap = abs(math.remainder(wanted - value, math.tau) if is_turn else wanted - value)
     if gap <= (CLOSED_ANGLE if unit == "rad" else CLOSED_LENGTH):
         return
     told = f"{math.degrees(gap):.6g} degrees" if unit == "rad" else f"{gap * 1e3:.6g} mm"
-    what = f"does not close at t = 0: position is {wanted:.9g} {unit}, the pose has {value:.9g} {unit}, {told} apart"
+    start = "position with the sine" if drive.amplitude else "position"
+    what = f"does not close at t = 0: {start} is {wanted:.9g} {unit}, the pose has {value:.9g} {unit}, {told} apart"
     yield Mistake(place, what, "correct position or the pose of the bodies, or accept gaps with assemble = true")
 
 

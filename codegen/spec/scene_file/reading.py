@@ -10,7 +10,7 @@ from codegen.spec.scene_file.bodies import Pose, body_mistakes, make_body, pose_
 from codegen.spec.scene_file.copies import copied
 from codegen.spec.scene_file.entries import MOST_COPIES, CopiesEntry, JointEntry, SceneEntry
 from codegen.spec.scene_file.entry import read_entry
-from codegen.spec.scene_file.forces import make_spring, make_torque, spring_mistakes, torque_mistakes
+from codegen.spec.scene_file.forces import load_mistakes, make_force, make_spring, make_torque, spring_mistakes
 from codegen.spec.scene_file.gaps import gap_mistakes
 from codegen.spec.scene_file.joints import joint_mistakes, make_joint, poses_of
 from codegen.spec.scene_file.names import name_mistakes, routine_name_mistakes
@@ -64,7 +64,9 @@ def _part_mistakes(entry: SceneEntry, bodies: Mapping[str, Pose | None]) -> Iter
     for spring in entry.spring:
         yield from spring_mistakes(spring, bodies)
     for torque in entry.torque:
-        yield from torque_mistakes(torque, bodies)
+        yield from load_mistakes(torque, bodies)
+    for force in entry.force:
+        yield from load_mistakes(force, bodies)
 
 
 def _pose_mistakes(entry: SceneEntry, joints: Sequence[_Sound]) -> Iterator[Mistake]:
@@ -111,6 +113,7 @@ def _scene(entry: SceneEntry, joints: Sequence[_Sound]) -> Scene:
         entry.motion,
         Wanted(output.quantities, output.rows, output.derivative) if output else Wanted(),
         entry.assemble,
+        tuple(make_force(force) for force in entry.force),
     )
 
 

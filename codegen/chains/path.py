@@ -17,23 +17,14 @@ from numpy.typing import NDArray
 
 from codegen.chains.equations import Equations
 from codegen.chains.factor import Factor, RankLoss, Square, factor
+from codegen.chains.newton import CONTRACTION, CORRECTED, ITERATIONS, PREDICTED, TINY
 from codegen.chains.partition import Partition
 from codegen.chains.position import Position, close, nearest
 
 Array = NDArray[np.float64]
 
-CONTRACTION = 0.25
-"""The second step of Newton is smaller than this part of the first (after Deuflhard), unless both are tiny."""
-
-TINY = 1e-6
-PREDICTED = 0.3
-"""rad, or characteristic lengths: no coordinate is predicted further, so that angles keep their turns."""
-
-CORRECTED = 0.1
 _SHORTEST = 1e-9
 """rad, or characteristic lengths: the shortest piece of the path of q_v."""
-
-ITERATIONS = 12
 
 _PAST = 1e-5
 """rad, or characteristic lengths: so far beyond its end a path is looked at first."""

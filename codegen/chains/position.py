@@ -16,19 +16,11 @@ from numpy.typing import NDArray
 
 from codegen.chains.equations import Closure, Equations
 from codegen.chains.factor import Factor, RankLoss, factor
+from codegen.chains.newton import LARGEST_STEP, RESIDUAL, STEP
 from codegen.chains.partition import Partition
 from codegen.chains.rotation import quaternion, rotation_vector, rotation_vector_slope, skew
 
 Array = NDArray[np.float64]
-
-LARGEST_STEP = 0.5
-"""rad, or characteristic lengths: no coordinate changes by more in one iteration."""
-
-STEP = 1e-10
-"""rad, or characteristic lengths: the last step is smaller. Newton squares it: the pose is known to rounding."""
-
-RESIDUAL = 1e-12
-"""rad, or characteristic lengths: every row is smaller at a solution, times the size of coordinates and lengths."""
 
 _ITERATIONS = 60
 _STALLED = 8

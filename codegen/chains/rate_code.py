@@ -17,10 +17,9 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 import codegen
-from codegen.chains import path, position
+from codegen.chains import dop853, newton
 from codegen.chains.partition import Partition
 from codegen.chains.rate_programs import motion_program, pose_program
-from codegen.chains.rate_solver import header
 from codegen.chains.switches import Switch
 from codegen.emit.c import definition
 from codegen.emit.environment import render
@@ -71,7 +70,7 @@ class RateCode:
         self, name: str, program: Program, part: Partition, is_driven: NDArray[np.bool_], switches: Sequence[Switch]
     ) -> None:
         sizes = _sizes(part, is_driven, switches)
-        self.library = library(_source(name, program, part, is_driven, sizes), {"jg_dop853.h": header()})
+        self.library = library(_source(name, program, part, is_driven, sizes), {"jg_dop853.h": dop853.header()})
         self.library.jg_chain_rate.argtypes = [c_void_p, c_double, c_void_p, c_void_p]
         self._state: Any = _state(sizes)()
         for k, switch in enumerate(switches):
@@ -178,20 +177,20 @@ def _source(name: str, program: Program, part: Partition, is_driven: NDArray[np.
         functions=[definition(*declared(one), one, "static void")[0] for one in programs],
         motion=calls[0],
         pose=calls[1] if len(calls) > 1 else "(void)q;",
-        sizes={**sizes, "ITERATIONS": path.ITERATIONS},
+        sizes={**sizes, "ITERATIONS": newton.ITERATIONS},
         limits={
             "SOUND": _SOUND,
             "EXACT": _EXACT,
             "LEAST_INERTIA": _LEAST_INERTIA,
             "FURTHEST": FURTHEST,
             "REACH": part.reach,
-            "LARGEST_STEP": position.LARGEST_STEP,
-            "STEP": position.STEP,
-            "RESIDUAL": position.RESIDUAL,
-            "PREDICTED": path.PREDICTED,
-            "CORRECTED": path.CORRECTED,
-            "CONTRACTION": path.CONTRACTION,
-            "TINY": path.TINY,
+            "LARGEST_STEP": newton.LARGEST_STEP,
+            "STEP": newton.STEP,
+            "RESIDUAL": newton.RESIDUAL,
+            "PREDICTED": newton.PREDICTED,
+            "CORRECTED": newton.CORRECTED,
+            "CONTRACTION": newton.CONTRACTION,
+            "TINY": newton.TINY,
         },
         tables={word: _lines([*numbers.tolist(), 0]) for word, numbers in tables.items()},
         units=_lines(part.units.tolist()),

@@ -11,31 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
-import codegen
-from codegen.emit.environment import render
-from codegen.emit.package import banner
+from codegen.chains.dop853 import METHOD, POWERS, STAGES
 
 if TYPE_CHECKING:
     from codegen.chains.rate_code import RateCode
 
 Array = NDArray[np.float64]
-
-_POWERS = 3 + len(DOP853.D)
-_ALL = DOP853.D.shape[1]
-
-_METHOD = np.concatenate(
-    [
-        np.ravel(part)
-        for part in (DOP853.A, DOP853.B, DOP853.C, DOP853.E3, DOP853.E5, DOP853.A_EXTRA, DOP853.C_EXTRA, DOP853.D)
-    ]
-)
-"""``struct jg_method``."""
-
-
-def header() -> str:
-    """The header ``jg_dop853.h``."""
-    sizes = {"stages": DOP853.n_stages, "more": len(DOP853.C_EXTRA), "powers": _POWERS}
-    return render("simulate/jg_dop853.h.j2", banner=banner(codegen.__version__), **sizes)
 
 
 class RateSolver:
@@ -96,12 +77,12 @@ class RateSolver:
     def run(self, until: float) -> bool:
         """Go on to a time or beyond, or to a step behind which a switch changes; False where a step is refused."""
         function = self._code.library.jg_dop853_run
-        return bool(function(byref(self._state), c_void_p(_METHOD.ctypes.data), self._code.motion, c_double(until)) < 2)
+        return bool(function(byref(self._state), c_void_p(METHOD.ctypes.data), self._code.motion, c_double(until)) < 2)
 
     def curve(self) -> Array | None:
         """Polynomials [powers, size] of the last step, as `between` takes them; None where they are refused."""
         function = self._code.library.jg_dop853_curve
-        is_found = function(byref(self._state), c_void_p(_METHOD.ctypes.data), self._code.motion)
+        is_found = function(byref(self._state), c_void_p(METHOD.ctypes.data), self._code.motion)
         return np.array(self._state.curve) if is_found else None
 
 
@@ -131,8 +112,8 @@ def _state(size: int) -> type[ctypes.Structure]:
             ("start", c_double * size),
             *((name, c_double) for name in ("h", "end", "relative")),
             ("absolute", c_double * size),
-            ("k", (c_double * size) * _ALL),
-            ("curve", (c_double * size) * _POWERS),
+            ("k", (c_double * size) * STAGES),
+            ("curve", (c_double * size) * POWERS),
             ("evaluations", c_int),
             ("steps", c_int),
         ]

@@ -23,7 +23,7 @@ Pivots = tuple[tuple[int, ...], tuple[int, ...]]
 """Rows and columns of a block in the order of elimination, numbered in it."""
 
 MOST_PRODUCTS = 8_000
-"""Of an elimination; compilers take seconds for longer ones, which thousands of runs would have to earn."""
+"""Of an elimination; compilers take seconds for longer ones, which hundreds of runs would have to earn."""
 
 
 @dataclass(frozen=True, slots=True)

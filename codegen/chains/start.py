@@ -21,7 +21,7 @@ CLOSED = 1e-6
 """rad, or characteristic lengths: a cut that is less open with the coordinates of the file is closed without a word.
 It is closed by moving coordinates; what no coordinate closes is told however small it is."""
 
-_CLOSED = 1e-9
+_CAN_CLOSE = 1e-9
 """rad, or characteristic lengths: less is left open where the cuts can be closed."""
 
 
@@ -95,7 +95,7 @@ def _not_closed(mechanism: Mechanism, found: Position) -> Mistake:
     loose = parted(mechanism.chain, mechanism.equations, [])
     freed = nearest(mechanism.equations, loose.part, found.q)
     what = f"the cuts cannot be closed at t = 0: {residual_words(mechanism, found)}"
-    if freed.residual > _CLOSED:
+    if freed.residual > _CAN_CLOSE:
         remedy = "correct the constants of the links, or give coordinates near the closed pose"
         return Mistake("cuts", what, remedy)
     free, named = freedom(loose, freed.q), len(mechanism.part.v)

@@ -19,7 +19,7 @@ from codegen.errors import InternalError
 from codegen.measure.compile import compiler, compiler_version
 
 _FLAGS = ("-std=c99", "-O1")
-"""Straight-line code is compiled in two thirds of the time and no slower than at -O2."""
+"""Straight-line code is compiled in two thirds of the time of -O2, and at most a few percent slower."""
 
 
 def library(

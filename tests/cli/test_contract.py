@@ -80,11 +80,6 @@ def test_a_hostile_file_is_told_by_simulate_as_by_scene(text: str, tmp_path: Pat
     assert line.startswith(f"{file}: is n")
 
 
-def test_a_chain_is_run_in_one_way_at_a_time(tmp_path: Path) -> None:
-    (line,) = refused(invoke("chain", CRANK, "--forward", "--inverse", "-o", tmp_path / "out"))
-    assert line == "--forward: is given beside --inverse; ask for one run"
-
-
 def test_a_form_relative_in_the_file_is_that_of_the_command_line(tmp_path: Path) -> None:
     asked, plain = tmp_path / "asked", tmp_path / "plain"
     for command, options in (("simulate", SHORT), ("scene", ())):

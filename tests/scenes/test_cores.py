@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from codegen import cache
 from codegen.scenes.generate import generate_scene
 from codegen.spec.scene import Scene, Wanted
 from tests.spec.texts import PENDULUM, scene
@@ -44,4 +43,3 @@ def test_a_package_has_the_same_bytes_however_many_cores_made_it(
     one, several = (made_on(cores, mechanism, tmp_path / str(cores), monkeypatch) for cores in (1, 3))
     assert one == several
     assert any(b"columns of the ground left out" in content for content in one.values())
-    cache._folder.cache_clear()

@@ -62,7 +62,7 @@ def mass_mistakes(link: LinkEntry) -> Iterator[Mistake]:
 def _inertia_mistakes(link: LinkEntry, inertia: Matrix) -> Iterator[Mistake]:
     """Check an inertia: a thin rod has none about its axis, and what is identified is that of no single body."""
     place = f"{link.place}: inertia"
-    mistakes = definite_mistakes(inertia, place, -TOLERANCE)
+    mistakes = definite_mistakes(inertia, place, TOLERANCE)
     if mistakes or link.effective:
         yield from mistakes
         return

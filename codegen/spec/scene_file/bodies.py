@@ -86,18 +86,18 @@ def inertia_mistakes(matrix: Matrix, place: str) -> Iterator[Mistake]:
     yield from definite_mistakes(matrix, place) or triangle_mistakes(matrix, place)
 
 
-def definite_mistakes(matrix: Matrix, place: str, least: Fraction = Fraction(0)) -> list[Mistake]:
-    """Check that a matrix is symmetric and that its principal values are above a part of their sum."""
+def definite_mistakes(matrix: Matrix, place: str, slack: Fraction = Fraction(0)) -> list[Mistake]:
+    """Check that a matrix is symmetric and that its principal values are above 0, but for this part of their sum."""
     size = max(abs(value) for row in matrix for value in row)
     apart = max(abs(matrix[i][k] - matrix[k][i]) for i in range(3) for k in range(i))
     if apart > TOLERANCE * size:
         what = f"is not symmetric: two entries differ by {shown(apart)} kg m^2"
         return [Mistake(place, what, "give equal entries on both sides of the diagonal")]
     matrix = symmetric(matrix)
-    if _is_positive(_less(least * _trace(matrix), matrix, Fraction(-1))):
+    if _is_positive(_on_diagonal(slack * _trace(matrix), matrix, 1)):
         return []
     values = f"principal values {_principal(matrix)} kg m^2"
-    if least:
+    if slack:
         return [
             Mistake(place, f"has a negative principal value: {values}", "give principal values of 0 kg m^2 or more")
         ]
@@ -107,7 +107,7 @@ def definite_mistakes(matrix: Matrix, place: str, least: Fraction = Fraction(0))
 def triangle_mistakes(matrix: Matrix, place: str) -> list[Mistake]:
     """Check that no principal value is above the sum of the others."""
     matrix = symmetric(matrix)
-    if _is_positive(_less(_trace(matrix) / 2 * (1 + TOLERANCE), matrix)):
+    if _is_positive(_on_diagonal(_trace(matrix) / 2 * (1 + TOLERANCE), matrix, -1)):
         return []
     what = f"belongs to no body: principal values {_principal(matrix)} kg m^2"
     remedy = "no principal value of a body exceeds the sum of the others; check the axes and the reference point"
@@ -118,10 +118,10 @@ def _trace(matrix: Matrix) -> Fraction:
     return sum((matrix[k][k] for k in range(3)), Fraction(0))
 
 
-def _less(value: Fraction, matrix: Matrix, sign: Fraction = Fraction(1)) -> Matrix:
-    """``sign (value I - matrix)``: its eigenvalues tell the triangle inequality if the value is half the trace."""
+def _on_diagonal(value: Fraction, matrix: Matrix, sign: int) -> Matrix:
+    """``value I + sign matrix``: less the matrix it tells the triangle inequality, if the value is half the trace."""
     return tuple(  # type: ignore[return-value]
-        tuple(sign * (value * IDENTITY[i][k] - matrix[i][k]) for k in range(3)) for i in range(3)
+        tuple(value * IDENTITY[i][k] + sign * matrix[i][k] for k in range(3)) for i in range(3)
     )
 
 
